@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kontur/base/geometry.h"
+
+namespace kontur {
+
+/// One drawn polygon in a plane. The last point is not a repetition of the first; the orientation carries no meaning.
+struct Contour {
+    Plane plane;               ///< where it was drawn; the points lie on it within the tolerance of `check_contours`
+    std::vector<Vec3> points;  ///< mm, LPS, in drawing order
+    bool closed = true;
+    bool hole = false;  ///< true: the object lies outside of this contour (a cavity's wall)
+};
+
+/// Everything the user drew for one object.
+struct ContourSet {
+    std::string name;  ///< the structure's name; may be empty
+    std::vector<Contour> contours;
+    std::vector<Vec3> interior;  ///< mm; points that must lie inside the object (Turk & O'Brien's interior constraints)
+    std::vector<Vec3> exterior;  ///< mm; points that must lie outside of the object
+};
+
+/// Number of points over all contours.
+std::size_t point_count(const ContourSet& set);
+
+/// Box of all contour points, in mm; empty for an empty set.
+Box3 bounding_box(const ContourSet& set);
+
+struct ContourCheckOptions {
+    double plane_tolerance_mm = 0.01;  ///< largest distance of a point from its contour's plane
+};
+
+/// Throws Error(invalid_input), naming the contour (counted from 1), the number and the limit, when the set cannot be
+/// segmented: no contour, a contour with fewer than 3 points, a NaN or infinite coordinate, a point off its plane by more
+/// than the tolerance, or a contour whose points lie on one line (zero area).
+void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
+
+}  // namespace kontur

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <variant>
+#include <vector>
+
+#include "kontur/shape/grid.h"
+
+namespace kontur {
+
+/// A binary mask: 0 outside, 1 inside, i fastest; `values.size() == grid.voxel_count()`.
+struct Mask {
+    Grid grid;
+    std::vector<std::uint8_t> values;
+};
+
+/// A scalar image (CT, MR, label map) in the narrowest of these sample types that holds its values exactly; intensities
+/// are already rescaled (Hounsfield units for CT). 64-bit and double sources become float.
+struct Image {
+    using Samples = std::variant<std::vector<std::uint8_t>, std::vector<std::int16_t>, std::vector<std::uint16_t>,
+                                 std::vector<std::int32_t>, std::vector<float>>;
+    Grid grid;
+    Samples samples;  ///< `grid.voxel_count()` values, i fastest
+};
+
+/// The value at a linear offset (see Grid::offset).
+double sample(const Image& image, std::size_t offset);
+
+/// Trilinear interpolation at a point in mm; `outside` beyond the outermost voxel centres by more than half a voxel.
+double interpolate(const Image& image, const Affine3& mm_to_index, const Vec3& point_mm, double outside);
+
+/// Voxels with exactly this value. `label` is compared as a number.
+Mask select_label(const Image& image, double label);
+
+/// Voxels with a value other than 0.
+Mask select_nonzero(const Image& image);
+
+/// Voxel count of every value except 0. Throws Error(invalid_input) when the image is no label map: a value that is not
+/// an integer (naming it and how many) or more than `max_labels` different ones.
+std::map<std::int64_t, std::int64_t> count_labels(const Image& image, std::size_t max_labels = 4096);
+
+}  // namespace kontur

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace kontur {
+
+/// A file that appears whole or not at all: bytes go to a temporary name in the target's folder, and only `commit` puts
+/// it in the target's place. Without a commit (an exception, a full disk) the temporary is removed and an existing target
+/// stays as it was. A symbolic link is followed; a target that exists and is no regular file is refused.
+/// All members throw Error(io) naming the target and the system's reason.
+class AtomicFile {
+public:
+    explicit AtomicFile(const std::filesystem::path& target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(const void* bytes, std::size_t count);
+    void write(std::string_view text) { write(text.data(), text.size()); }
+
+    /// For libraries that write to a path by themselves; has the target's extension. Not to be mixed with `write`.
+    const std::filesystem::path& temporary_path() const { return temporary_; }
+
+    /// Flushes to the disk and renames. Call once, last.
+    void commit();
+
+private:
+    void flush();
+    void write_through(const char* bytes, std::size_t count);
+    [[noreturn]] void fail(int reason) const;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    std::string buffer_;
+    int descriptor_ = -1;
+    bool committed_ = false;
+};
+
+/// Opens, calls `writer`, commits.
+void write_file_atomically(const std::filesystem::path& target, const std::function<void(AtomicFile&)>& writer);
+
+/// A file with exactly these bytes.
+void write_file_atomically(const std::filesystem::path& target, std::string_view bytes);
+
+}  // namespace kontur

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "kontur/base/error.h"
+#include "support/temporary_folder.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+std::string io_error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::io);
+        return error.what();
+    }
+    ADD_FAILURE() << "no Error";
+    return {};
+}
+
+/// Files may not grow beyond `bytes` while this lives: the same short write and errno path as a full disk.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    void (*handler_)(int);
+    rlimit before_{};
+};
+
+TEST(AtomicFile, WritesSmallAndLargePiecesInOrder) {
+    const test::TemporaryFolder folder;
+    std::string expected;
+    write_file_atomically(folder / "a.bin", [&](AtomicFile& file) {
+        for (std::size_t size : {1u, 7u, 1000u, 262143u, 262144u, 262145u, 3u, 1000000u, 5u}) {
+            const std::string piece(size, static_cast<char>('a' + size % 26));
+            file.write(piece);
+            expected += piece;
+        }
+    });
+    EXPECT_EQ(content_of(folder / "a.bin"), expected);
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(AtomicFile, ExceptionLeavesNothingAndKeepsTheOldFile) {
+    const test::TemporaryFolder folder;
+    const auto interrupted = [](AtomicFile& file) {
+        file.write("half");
+        throw std::runtime_error("interrupted");
+    };
+    EXPECT_THROW(write_file_atomically(folder / "new.txt", interrupted), std::runtime_error);
+    EXPECT_EQ(folder.entry_count(), 0);
+    write_file_atomically(folder / "old.txt", "whole");
+    EXPECT_THROW(write_file_atomically(folder / "old.txt", interrupted), std::runtime_error);
+    EXPECT_EQ(content_of(folder / "old.txt"), "whole");
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(AtomicFile, ShortWriteLeavesNothingAndKeepsTheOldFile) {
+    const test::TemporaryFolder folder;
+    write_file_atomically(folder / "old.bin", "whole");
+    for (const std::size_t size : {5000u, 1000000u})
+        for (const char* name : {"new.bin", "old.bin"}) {
+            const std::string message = [&] {
+                const FileSizeLimit limit(4096);
+                return io_error_of([&] { write_file_atomically(folder / name, std::string(size, 'x')); });
+            }();
+            EXPECT_NE(message.find(name), std::string::npos) << message;
+            EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+        }
+    EXPECT_EQ(content_of(folder / "old.bin"), "whole");
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(AtomicFile, KeepsPermissionsAndFollowsLinks) {
+    const test::TemporaryFolder folder;
+    write_file_atomically(folder / "real.txt", "old");
+    ::chmod((folder / "real.txt").c_str(), 0640);
+    fs::create_symlink("real.txt", folder / "link.txt");
+    write_file_atomically(folder / "link.txt", "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+    EXPECT_EQ(content_of(folder / "real.txt"), "new");
+    EXPECT_EQ(static_cast<int>(fs::status(folder / "real.txt").permissions()), 0640);
+}
+
+TEST(AtomicFile, AcceptsTheLongestName) {
+    const test::TemporaryFolder folder;
+    const fs::path path = folder / (std::string(251, 'n') + ".txt");
+    write_file_atomically(path, "x");
+    EXPECT_EQ(content_of(path), "x");
+}
+
+TEST(AtomicFile, NamesTargetAndReasonWhenItCannotOpen) {
+    const test::TemporaryFolder folder;
+    const std::string missing = io_error_of([&] { write_file_atomically(folder / "no/such/a.txt", "x"); });
+    EXPECT_NE(missing.find("no/such/a.txt: No such file or directory"), std::string::npos) << missing;
+    EXPECT_NE(io_error_of([&] { write_file_atomically(folder.path(), "x"); }).find("folder"), std::string::npos);
+    EXPECT_NE(io_error_of([&] { write_file_atomically("/dev/null", "x"); }).find("regular"), std::string::npos);
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, LibraryMayWriteThroughTheTemporaryPath) {
+    const test::TemporaryFolder folder;
+    write_file_atomically(folder / "a.png", [&](AtomicFile& file) {
+        EXPECT_EQ(file.temporary_path().extension(), ".png");
+        EXPECT_EQ(file.temporary_path().parent_path(), folder.path());
+        std::ofstream(file.temporary_path()) << "picture";
+    });
+    EXPECT_EQ(content_of(folder / "a.png"), "picture");
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+}  // namespace
+}  // namespace kontur

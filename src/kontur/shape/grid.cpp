@@ -61,9 +61,9 @@ void check_grid(const Grid& grid) {
 
 Grid grid_around(const Box3& box, const Vec3& spacing_mm, double margin_mm) {
     check_spacing(spacing_mm);
-    if (box.is_empty() || !is_finite(box.min) || !is_finite(box.max))
-        throw Error(ErrorKind::invalid_input, "a grid needs a box with finite corners to cover");
     const Box3 covered = box.padded(margin_mm);
+    if (box.is_empty() || covered.is_empty() || !is_finite(covered.min) || !is_finite(covered.max))
+        throw Error(ErrorKind::invalid_input, "a grid needs a box with finite corners and a finite margin to cover");
     // Rounding noise in extent / spacing must not cost a voxel.
     constexpr double kNoise = 1e-9;
     Grid grid;

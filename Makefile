@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+# The front door. Every target sets up what it needs: Debian packages (tools/setup) and a CMake preset.
+
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build demo test asan tsan bench format install clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: ## install missing Debian packages (as root or with sudo)
+	@tools/setup
+
+build: setup ## build the release into build/release
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release -j $(JOBS)
+	@echo "built build/release/bin/kontur"
+
+demo: setup ## build, generate a phantom into demo/, segment it, compare with the truth
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release -j $(JOBS) --target kontur_app
+	@tools/demo build/release/bin/kontur demo
+
+test: build ## build and run every test
+	@ctest --preset release -j $(JOBS)
+
+asan: setup ## run every test under AddressSanitizer and UBSan
+	@cmake --preset asan >/dev/null
+	@cmake --build --preset asan -j $(JOBS)
+	@ctest --preset asan -j $(JOBS)
+
+tsan: setup ## run every test under ThreadSanitizer
+	@cmake --preset tsan >/dev/null
+	@cmake --build --preset tsan -j $(JOBS)
+	@ctest --preset tsan -j $(JOBS)
+
+bench: build ## run the benchmarks
+	@tools/bench build/release
+
+format: ## format the C++ sources (needs clang-format)
+	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+install: build ## install kontur under PREFIX (default /usr/local)
+	@cmake --install build/release --prefix $(PREFIX)
+
+clean: ## remove build/ and demo/
+	@rm -rf build demo

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "console.h"
+
+namespace kontur::app {
+
+/// Wrong usage of the command line is no kontur::Error; sysexits' EX_USAGE.
+constexpr int kUsageExitCode = 64;
+
+/// What the words on the command line ask for: either a text to show (help, version, a usage error) or a command to run.
+struct Invocation {
+    std::string text;                       ///< shown on stdout when exit_code is 0, else the sentence of a usage error
+    int exit_code = 0;                      ///< of `text`
+    bool quiet = false;                     ///< for the Console
+    std::function<void(Console&)> command;  ///< empty: show `text` instead
+};
+
+Invocation parse_command_line(int argc, const char* const* argv);
+
+}  // namespace kontur::app

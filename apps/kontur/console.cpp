@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace kontur::app {
+
+Console::Console(bool quiet, std::stop_token stop)
+    : quiet_(quiet), has_bar_(!quiet && isatty(STDERR_FILENO)), stop_(std::move(stop)) {}
+
+Console::~Console() { clear_bar(); }
+
+Progress Console::progress() {
+    Progress progress;
+    progress.stop = stop_;
+    if (has_bar_) progress.callback = [this](std::string_view stage, double fraction) { draw(stage, fraction); };
+    return progress;
+}
+
+void Console::print(std::string_view line) {
+    if (quiet_) return;
+    clear_bar();
+    fmt::print("{}\n", line);
+}
+
+void Console::warn(std::string_view sentence) {
+    clear_bar();
+    fmt::print(stderr, "kontur: warning: {}\n", sentence);
+}
+
+void Console::draw(std::string_view stage, double fraction) {
+    constexpr int kCells = 30;
+    const double done = std::clamp(fraction, 0.0, 1.0);
+    const int filled = static_cast<int>(done * kCells);
+    std::string bar = fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", kCells - filled, 100 * done, stage);
+    if (bar == bar_) return;
+    bar_ = std::move(bar);
+    fmt::print(stderr, "\r{}\x1b[K", bar_);
+}
+
+void Console::clear_bar() {
+    if (bar_.empty()) return;
+    bar_.clear();
+    fmt::print(stderr, "\r\x1b[K");
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "kontur/base/progress.h"
+
+namespace kontur::app {
+
+/// What a command says to the person at the terminal: results on stdout, warnings and a progress bar on stderr.
+class Console {
+public:
+    /// `quiet`: no progress and no results, warnings only.
+    Console(bool quiet, std::stop_token stop);
+    ~Console();
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+
+    /// For long library calls: cancelled by Ctrl-C, drawn as a bar when stderr is a terminal.
+    Progress progress();
+
+    /// One line on stdout, unless quiet.
+    void print(std::string_view line);
+    /// One line on stderr, "kontur: warning: SENTENCE".
+    void warn(std::string_view sentence);
+
+private:
+    void draw(std::string_view stage, double fraction);
+    void clear_bar();
+
+    bool quiet_;
+    bool has_bar_;
+    std::stop_token stop_;
+    std::string bar_;  ///< what stands on the terminal's last line; empty: nothing
+};
+
+}  // namespace kontur::app

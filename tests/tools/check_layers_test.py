@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The layer check finds what it is there to find: each case plants one include in an otherwise clean tree."""
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+CHECK = pathlib.Path(__file__).parents[2] / "tools" / "check_layers"
+
+
+def plant(root, file, include):
+    path = root / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"// a source\n  #  include {include}\n")
+
+
+def check(root):
+    return subprocess.run([sys.executable, CHECK, root], capture_output=True, text=True)
+
+
+@pytest.mark.parametrize(
+    "file, include",
+    [
+        ("src/kontur/base/error.h", '"kontur/shape/grid.h"'),
+        ("src/kontur/base/error.cpp", "<Eigen/Dense>"),
+        ("src/kontur/shape/grid.cpp", '"kontur/io/image.h"'),
+        ("src/kontur/field/solve.cpp", '"kontur/extract/voxelize.h"'),
+        ("src/kontur/extract/voxelize.h", '"kontur/field/solve.h"'),
+        ("src/kontur/view/picture.cpp", '"kontur/field/implicit_function.h"'),
+        ("src/kontur/io/image.cpp", '"kontur/field/implicit_function.h"'),
+        ("src/kontur/measure/compare.cpp", '"kontur/extract/trace.h"'),
+        ("src/kontur/phantom/liver.cpp", '"kontur/io/image.h"'),
+        ("src/kontur/segment.cpp", '"kontur/io/image.h"'),
+        ("src/kontur/io/image.cpp", '"image.h"'),
+        ("src/kontur/shape/grid.cpp", '"../tests/support/test_data.h"'),
+        ("src/kontur/shape/grid.cpp", '"kontur/kontur.h"'),
+        ("src/kontur/newroom/new.cpp", '"kontur/base/error.h"'),
+        ("tests/io/image_test.cpp", '"../../apps/kontur/console.h"'),
+        ("apps/kontur/main.cpp", '"../../src/kontur/base/error.h"'),
+    ],
+)
+def test_planted_violation_is_found_at_its_line(tmp_path, file, include):
+    plant(tmp_path, file, include)
+    result = check(tmp_path)
+    assert result.returncode == 1
+    assert f"{file}:2: " in result.stdout
+
+
+@pytest.mark.parametrize(
+    "file, include",
+    [
+        ("src/kontur/base/error.h", "<string_view>"),
+        ("src/kontur/io/json_file.h", "<nlohmann/json.hpp>"),
+        ("src/kontur/extract/voxelize.h", '"kontur/field/implicit_function.h"'),
+        ("src/kontur/segment.cpp", '"kontur/field/solve.h"'),
+        ("src/kontur/view/picture.cpp", '"kontur/extract/trace.h"'),
+        ("src/kontur/kontur.h", '"kontur/io/image.h"'),
+        ("apps/kontur/main.cpp", '"kontur/io/image.h"'),
+        ("tests/io/image_test.cpp", '"support/test_data.h"'),
+    ],
+)
+def test_allowed_include_passes(tmp_path, file, include):
+    plant(tmp_path, file, include)
+    result = check(tmp_path)
+    assert result.returncode == 0, result.stdout
+
+
+@pytest.mark.parametrize(
+    "includer, exit_code",
+    [
+        ("src/kontur/io/markups.cpp", 0),
+        ("tests/io/json_file_test.cpp", 0),
+        ("src/kontur/segment.cpp", 1),
+        ("src/kontur/kontur.h", 1),
+        ("apps/kontur/main.cpp", 1),
+        ("bench/solve.cpp", 1),
+    ],
+)
+def test_header_that_brings_in_a_third_party_one_is_private_to_its_room(tmp_path, includer, exit_code):
+    plant(tmp_path, "src/kontur/io/json_file.h", "<nlohmann/json.hpp>")
+    plant(tmp_path, "src/kontur/io/json_numbers.h", '"kontur/io/json_file.h"')
+    plant(tmp_path, includer, '"kontur/io/json_numbers.h"')
+    assert check(tmp_path).returncode == exit_code

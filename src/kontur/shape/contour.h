@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kontur/base/geometry.h"
 
 namespace kontur {
+
+struct Grid;
 
 /// One drawn polygon in a plane. The last point is not a repetition of the first; the orientation carries no meaning.
 struct Contour {
@@ -30,13 +34,26 @@ std::size_t point_count(const ContourSet& set);
 /// Box of all contour points, in mm; empty for an empty set.
 Box3 bounding_box(const ContourSet& set);
 
+/// Removes every point that repeats the one before it exactly, and last points that repeat the first of a closed contour.
+/// Returns how many were removed. Points of one contour that coincide without being neighbours stay: a contour may touch
+/// itself.
+std::size_t drop_duplicate_points(ContourSet& set);
+
 struct ContourCheckOptions {
     double plane_tolerance_mm = 0.01;  ///< largest distance of a point from its contour's plane
+    double line_tolerance_mm = 0.002;  ///< a contour no wider than this is a line (files round to 0.001 mm)
 };
 
 /// Throws Error(invalid_input), naming the contour (counted from 1), the number and the limit, when the set cannot be
 /// segmented: no contour, a contour with fewer than 3 points, a NaN or infinite coordinate, a point off its plane by more
-/// than the tolerance, or a contour whose points lie on one line (zero area).
+/// than the tolerance, or a contour whose points lie on one line (zero area). Interior and exterior points must be finite.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
+
+/// Number of contour points outside of the grid's voxels (their outer faces belong to the grid).
+std::size_t points_outside(const ContourSet& set, const Grid& grid);
+
+/// Compares the contours with the image that they claim to be drawn on. Throws Error(invalid_input) when no contour point
+/// lies in the grid, which mostly means another patient or a mixed-up frame; gives a warning when some lie outside.
+std::optional<std::string> check_contours_inside(const ContourSet& set, const Grid& grid);
 
 }  // namespace kontur

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/shape/contour.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kontur/base/error.h"
+#include "kontur/shape/grid.h"
+
+namespace kontur {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
+
+void check_finite(const Vec3& point, std::size_t number, const std::string& owner) {
+    if (!is_finite(point)) refuse(fmt::format("point {} of {} has a NaN or infinite coordinate", number, owner));
+}
+
+void check_all_finite(const std::vector<Vec3>& points, const std::string& owner) {
+    for (std::size_t i = 0; i < points.size(); ++i) check_finite(points[i], i + 1, owner);
+}
+
+void check_plane(const Plane& plane, const std::string& owner) {
+    // Six decimals are common in files, and readers restore the unit length.
+    constexpr double kUnitTolerance = 1e-5;
+    if (!is_finite(plane.origin) || !(std::abs(norm(plane.normal) - 1) <= kUnitTolerance))
+        refuse(fmt::format("the plane of {} has an origin that is not finite or a normal that is not of length 1", owner));
+}
+
+void check_on_plane(const Contour& contour, double limit_mm, const std::string& owner) {
+    const auto off_plane = [&](const Vec3& p) { return std::abs(contour.plane.distance_to(p)); };
+    const auto worst = std::max_element(contour.points.begin(), contour.points.end(),
+                                        [&](const Vec3& a, const Vec3& b) { return off_plane(a) < off_plane(b); });
+    if (!(off_plane(*worst) <= limit_mm))
+        refuse(fmt::format("point {} of {} lies {:.6g} mm off its plane; the limit is {:g} mm",
+                           worst - contour.points.begin() + 1, owner, off_plane(*worst), limit_mm));
+}
+
+Vec3 farthest_from(const Vec3& from, const std::vector<Vec3>& points) {
+    return *std::max_element(points.begin(), points.end(),
+                             [&](const Vec3& a, const Vec3& b) { return distance(from, a) < distance(from, b); });
+}
+
+/// Largest distance from the line through two far ends of the polygon: 0 when all points lie on one line.
+double width(const std::vector<Vec3>& points) {
+    const Vec3 one_end = farthest_from(points.front(), points);
+    const Vec3 axis = normalized(farthest_from(one_end, points) - one_end);
+    double widest = 0;
+    for (const Vec3& p : points) widest = std::max(widest, norm(cross(p - one_end, axis)));
+    return widest;
+}
+
+void check_area(const Contour& contour, double limit_mm, const std::string& owner) {
+    const double measured = width(contour.points);
+    if (!(measured > limit_mm))
+        refuse(fmt::format("{} has no area: its {} points lie within {:.2g} mm of one line; the limit is {:g} mm", owner,
+                           contour.points.size(), measured, limit_mm));
+}
+
+void check_contour(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
+    if (contour.points.size() < 3)
+        refuse(fmt::format("{} has {} point{}; at least 3 are needed", owner, contour.points.size(),
+                           contour.points.size() == 1 ? "" : "s"));
+    check_all_finite(contour.points, owner);
+    check_plane(contour.plane, owner);
+    check_on_plane(contour, options.plane_tolerance_mm, owner);
+    check_area(contour, options.line_tolerance_mm, owner);
+}
+
+bool is_inside(const Grid& grid, const Vec3& index) {
+    constexpr double kSlack = 1e-6;  // voxels; a point on the outer face may be rounded to either side
+    for (int axis = 0; axis < 3; ++axis) {
+        const double last_face = static_cast<double>(grid.size[axis]) - 0.5;
+        if (!(index[axis] >= -0.5 - kSlack && index[axis] <= last_face + kSlack)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::size_t point_count(const ContourSet& set) {
+    std::size_t count = 0;
+    for (const Contour& contour : set.contours) count += contour.points.size();
+    return count;
+}
+
+Box3 bounding_box(const ContourSet& set) {
+    Box3 box;
+    for (const Contour& contour : set.contours)
+        for (const Vec3& p : contour.points) box.extend(p);
+    return box;
+}
+
+std::size_t drop_duplicate_points(ContourSet& set) {
+    const std::size_t before = point_count(set);
+    for (Contour& contour : set.contours) {
+        std::vector<Vec3>& points = contour.points;
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        while (contour.closed && points.size() > 1 && points.back() == points.front()) points.pop_back();
+    }
+    return before - point_count(set);
+}
+
+void check_contours(const ContourSet& set, const ContourCheckOptions& options) {
+    if (set.contours.empty()) refuse("there is no contour; at least 1 is needed");
+    for (std::size_t i = 0; i < set.contours.size(); ++i)
+        check_contour(set.contours[i], options, fmt::format("contour {}", i + 1));
+    check_all_finite(set.interior, "the interior points");
+    check_all_finite(set.exterior, "the exterior points");
+}
+
+std::size_t points_outside(const ContourSet& set, const Grid& grid) {
+    const Affine3 mm_to_index = grid.index_to_mm.inverse();
+    std::size_t count = 0;
+    for (const Contour& contour : set.contours)
+        for (const Vec3& p : contour.points) count += !is_inside(grid, mm_to_index.apply(p));
+    return count;
+}
+
+std::optional<std::string> check_contours_inside(const ContourSet& set, const Grid& grid) {
+    const std::size_t total = point_count(set), outside = points_outside(set, grid);
+    if (outside == 0) return std::nullopt;
+    if (outside == total)
+        refuse(
+            fmt::format("all {} contour points lie outside of the image; are the contours and the image of one patient "
+                        "and in one frame of reference?",
+                        total));
+    return fmt::format("{} of {} contour points lie outside of the image", outside, total);
+}
+
+}  // namespace kontur

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+/// Reads kontur's own contour file (docs/formats.md, docs/contours.schema.json). Frames "LPS mm" and "RAS mm"; the axes of
+/// a plane are made orthonormal, because files round them; a last point that repeats the first is dropped. Whether the
+/// contours can be segmented is for `check_contours`. Throws Error(corrupt_file) naming file, plane, contour and point
+/// (each counted from 1, contours within their plane), Error(unsupported) for another frame or a newer version.
+ContourSet read_contour_json(const std::filesystem::path& path);
+
+/// The planes of such a file, in its order, with or without contours.
+std::vector<Plane> read_planes_json(const std::filesystem::path& path);
+
+/// Writes the file whole or not at all. Reading it gives the same doubles in the same order; neighbouring contours on an
+/// identical plane share one entry. Throws Error(invalid_input) for a coordinate that is NaN or infinite.
+void write_contour_json(const std::filesystem::path& path, const ContourSet& set);
+
+}  // namespace kontur

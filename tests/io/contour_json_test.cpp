@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/contour_json.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "kontur/base/error.h"
+#include "support/run_python.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSmall =
+    R"({"frame": "LPS mm", "structure": "liver", "planes": [)"
+    R"({"origin": [1, 2, 3], "normal": [0, 0, 1], "u": [1, 0, 0], "v": [0, 1, 0], "contours": [)"
+    R"({"closed": true, "hole": false, "points": [[0, 0, 3], [4, 0, 3], [4, 4, 3]]},)"
+    R"({"closed": true, "hole": true, "points": [[1, 0, 3], [2, 0, 3], [2, 1, 3]]}]},)"
+    R"({"origin": [0, 0, 9], "normal": [0, 3, 4], "contours": [{"points": [[5, 0, 9], [6, 8, 3], [7, 0, 9]]}]}]})";
+
+std::string replaced(std::string_view what, std::string_view with) {
+    std::string text(kSmall);
+    const std::size_t at = text.find(what);
+    if (at == std::string::npos) throw std::logic_error("not in the sample: " + std::string(what));
+    return text.replace(at, what.size(), with);
+}
+
+std::string content_of(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+class ContourJson : public testing::Test {
+protected:
+    fs::path file(std::string_view text) {
+        std::ofstream(folder_ / "in.json", std::ios::binary) << text;
+        return folder_ / "in.json";
+    }
+    ContourSet read(std::string_view text) { return read_contour_json(file(text)); }
+    std::string refusal(std::string_view text, ErrorKind kind = ErrorKind::corrupt_file) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), kind) << error.what();
+            EXPECT_TRUE(std::string_view(error.what()).starts_with((folder_ / "in.json").string())) << error.what();
+            return error.what();
+        }
+        ADD_FAILURE() << "accepted: " << text;
+        return {};
+    }
+    ContourSet written_and_read(const ContourSet& set) {
+        write_contour_json(folder_ / "out.json", set);
+        return read_contour_json(folder_ / "out.json");
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+void expect_same(const ContourSet& a, const ContourSet& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.interior, b.interior);
+    EXPECT_EQ(a.exterior, b.exterior);
+    ASSERT_EQ(a.contours.size(), b.contours.size());
+    for (std::size_t i = 0; i < a.contours.size(); ++i) {
+        EXPECT_EQ(a.contours[i].plane, b.contours[i].plane) << "contour " << i;
+        EXPECT_EQ(a.contours[i].points, b.contours[i].points) << "contour " << i;
+        EXPECT_EQ(a.contours[i].closed, b.contours[i].closed);
+        EXPECT_EQ(a.contours[i].hole, b.contours[i].hole);
+    }
+}
+
+void expect_orthonormal(const Plane& plane) {
+    EXPECT_NEAR(norm(plane.normal), 1, 1e-12);
+    EXPECT_NEAR(norm(plane.u), 1, 1e-12);
+    EXPECT_NEAR(norm(plane.v), 1, 1e-12);
+    EXPECT_NEAR(dot(plane.u, plane.v), 0, 1e-12);
+    EXPECT_NEAR(dot(plane.normal, plane.u), 0, 1e-12);
+    EXPECT_NEAR(dot(plane.normal, plane.v), 0, 1e-12);
+}
+
+TEST_F(ContourJson, ReadsPlanesHolesAndDefaults) {
+    const ContourSet set = read(kSmall);
+    EXPECT_EQ(set.name, "liver");
+    ASSERT_EQ(set.contours.size(), 3u);
+    EXPECT_EQ(set.contours[0].plane, (Plane{{1, 2, 3}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(set.contours[1].points, (std::vector<Vec3>{{1, 0, 3}, {2, 0, 3}, {2, 1, 3}}));
+    EXPECT_FALSE(set.contours[0].hole);
+    EXPECT_TRUE(set.contours[1].hole);
+    EXPECT_TRUE(set.contours[2].closed) << "closed unless the file says otherwise";
+    EXPECT_LT(distance(set.contours[2].plane.normal, {0, 0.6, 0.8}), 1e-15) << "any length gives a direction";
+    expect_orthonormal(set.contours[2].plane);
+}
+
+TEST_F(ContourJson, RasIsTurnedIntoLps) {
+    const ContourSet set = read(replaced("LPS mm", "RAS mm"));
+    EXPECT_EQ(set.contours[0].points[1], (Vec3{-4, 0, 3}));
+    EXPECT_EQ(set.contours[0].plane, (Plane{{-1, -2, 3}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}));
+    EXPECT_LT(distance(set.contours[2].plane.normal, {0, -0.6, 0.8}), 1e-15);
+    EXPECT_LT(std::abs(set.contours[2].plane.distance_to(set.contours[2].points[1])), 1e-12);
+}
+
+TEST_F(ContourJson, RoundedAxesBecomeOrthonormalAndKeepTheirHandedness) {
+    const ContourSet set =
+        read(replaced(R"("u": [1, 0, 0], "v": [0, 1, 0])", R"("u": [0.999999, 1e-6, 1e-6], "v": [0, -1, 2e-6])"));
+    expect_orthonormal(set.contours[0].plane);
+    EXPECT_LT(set.contours[0].plane.v.y, -0.9);
+}
+
+TEST_F(ContourJson, DropsALastPointThatRepeatsTheFirst) {
+    const ContourSet set = read(replaced("[4, 4, 3]]", "[4, 4, 3], [0, 0, 3]]"));
+    EXPECT_EQ(set.contours[0].points.size(), 3u);
+}
+
+TEST_F(ContourJson, RefusalsNameThePlace) {
+    EXPECT_NE(refusal(replaced("[2, 0, 3]", "[2, null, 3]")).find("plane 1: contour 2: point 2: y is null, not a number"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced("[6, 8, 3]", "[6, 8]")).find("plane 2: contour 1: point 2: has 2 items"), std::string::npos);
+    EXPECT_NE(refusal(replaced("[6, 8, 3]", "\"x\"")).find("plane 2: contour 1: point 2: is string"), std::string::npos);
+    EXPECT_NE(refusal(replaced("[0, 3, 4]", "[0, 0, 0]")).find("plane 2: normal: has length 0"), std::string::npos);
+    EXPECT_NE(
+        refusal(replaced("\"u\": [1, 0, 0]", "\"u\": [1, 0, 1]")).find("plane 1: normal, u and v are not perpendicular"),
+        std::string::npos);
+    EXPECT_NE(refusal(replaced("\"origin\": [0, 0, 9], ", "")).find("plane 2: origin: 'origin' is missing"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced("\"hole\": true", "\"hole\": 1")).find("plane 1: contour 2: 'hole' is number"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced("\"u\": [1, 0, 0], ", "")).find("plane 1: has 'v' without 'u'"), std::string::npos);
+    EXPECT_NE(refusal(R"({"frame": "LPS mm", "planes": 7})").find("'planes' is number, not an array"), std::string::npos);
+    EXPECT_NE(refusal("[]").find("is array, not an object"), std::string::npos);
+}
+
+TEST_F(ContourJson, NumberBeyondDoubleIsRefusedWithItsPlace) {
+    EXPECT_NE(refusal(replaced("[2, 0, 3]", "[2, 1e999, 3]"))
+                  .find("the number 1e999 is out of range in planes 1, contours 2, points 2 2"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced("[2, 0, 3]", "[2, NaN, 3]")).find("is not valid JSON from byte"), std::string::npos);
+}
+
+TEST_F(ContourJson, OtherFramesAndVersionsAreUnsupported) {
+    EXPECT_NE(refusal(replaced("LPS mm", "LAS mm"), ErrorKind::unsupported).find("\"LAS mm\""), std::string::npos);
+    EXPECT_NE(refusal(replaced("\"frame\": \"LPS mm\", ", "")).find("'frame' is missing"), std::string::npos);
+    EXPECT_NE(refusal(replaced("{\"frame\"", "{\"version\": 2, \"frame\""), ErrorKind::unsupported).find("version is 2"),
+              std::string::npos);
+}
+
+TEST_F(ContourJson, MissingFileIsAnIoError) {
+    try {
+        read_contour_json(folder_ / "absent.json");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::io);
+        EXPECT_NE(std::string(error.what()).find("absent.json: No such file"), std::string::npos) << error.what();
+    }
+    EXPECT_THROW(read_contour_json(folder_.path()), Error) << "a folder";
+}
+
+TEST_F(ContourJson, EveryTruncatedPrefixIsRefused) {
+    for (std::size_t length = 0; length < kSmall.size(); ++length) refusal(kSmall.substr(0, length));
+}
+
+TEST_F(ContourJson, FlippedBytesNeverDoMoreThanThrow) {
+    const auto seed = static_cast<unsigned>(std::hash<std::string>{}("FlippedBytesNeverDoMoreThanThrow"));
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    for (int run = 0; run < 2000; ++run) {
+        std::string text(kSmall);
+        for (int flips = 1 + run % 3; flips > 0; --flips) text[random() % text.size()] = static_cast<char>(random());
+        try {
+            read(text);
+        } catch (const Error&) {
+        }
+    }
+}
+
+TEST_F(ContourJson, DeepNestingIsRefusedWithoutExhaustingTheStack) { refusal(std::string(1'000'000, '[')); }
+
+TEST_F(ContourJson, WritingAndReadingGivesTheSameDoubles) {
+    const auto seed = static_cast<unsigned>(std::hash<std::string>{}("WritingAndReadingGivesTheSameDoubles"));
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(-1000, 1000);
+    const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
+    ContourSet set{"a \"name\"\n with ü", {}, {vector(), vector()}, {vector()}};
+    for (int i = 0; i < 40; ++i) {
+        const Plane plane = i % 3 ? set.contours.back().plane : make_plane(vector(), vector());
+        Contour contour{plane, {}, i % 5 != 0, i % 4 == 0};
+        for (int p = 0; p < i; ++p) contour.points.push_back(vector());
+        set.contours.push_back(contour);
+    }
+    set.contours[5].points[0] = {1e-300, 0.1 + 0.2, std::numeric_limits<double>::max()};
+    expect_same(set, written_and_read(set));
+    const std::string first = content_of(folder_ / "out.json");
+    written_and_read(written_and_read(set));
+    EXPECT_EQ(content_of(folder_ / "out.json"), first) << "the bytes settle at once";
+}
+
+TEST_F(ContourJson, AnEmptySetIsWrittenAndRead) { expect_same(ContourSet{}, written_and_read(ContourSet{})); }
+
+TEST_F(ContourJson, NeighboursOnOnePlaneShareAnEntryAndALineEach) {
+    const ContourSet set = read(kSmall);
+    written_and_read(set);
+    EXPECT_EQ(read_planes_json(folder_ / "out.json").size(), 2u);
+    const std::string text = content_of(folder_ / "out.json");
+    EXPECT_NE(text.find("\n    {\"closed\": true, \"hole\": true, \"points\": [[1, 0, 3], [2, 0, 3], [2, 1, 3]]}\n"),
+              std::string::npos)
+        << text;
+}
+
+TEST_F(ContourJson, RefusesToWriteWhatJsonCannotHold) {
+    ContourSet set = read(kSmall);
+    set.contours[1].points[0].y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(write_contour_json(folder_ / "out.json", set), Error);
+    EXPECT_FALSE(fs::exists(folder_ / "out.json"));
+}
+
+TEST_F(ContourJson, PlanesNeedNoContours) {
+    const fs::path path = file(R"({"frame": "LPS mm", "planes": [{"origin": [1, 2, 3], "normal": [0, 2, 0]},
+                                   {"origin": [0, 0, 0], "normal": [0, 0, 1], "u": [0, 1, 0], "contours": []}]})");
+    const std::vector<Plane> planes = read_planes_json(path);
+    ASSERT_EQ(planes.size(), 2u);
+    EXPECT_EQ(planes[0].normal, (Vec3{0, 1, 0}));
+    EXPECT_EQ(planes[1], (Plane{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}));
+    EXPECT_TRUE(read_contour_json(path).contours.empty());
+}
+
+TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
+    ContourSet set = read(kSmall);
+    write_contour_json(folder_ / "plain.json", set);
+    write_contour_json(folder_ / "empty.json", {});
+    set.interior = {{1, 2, 3}};
+    set.exterior = {{4, 5, 6}, {1e22, 1e-9, 0}};
+    write_contour_json(folder_ / "points.json", set);
+    const std::string schema = std::string(KONTUR_TEST_SUPPORT) + "/../../docs/contours.schema.json";
+    const auto valid = test::run_python(
+        "validate_json.py", {schema, folder_ / "plain.json", folder_ / "empty.json", folder_ / "points.json", file(kSmall)});
+    EXPECT_EQ(valid.exit_code, 0) << valid.output;
+    const auto invalid = test::run_python("validate_json.py", {schema, file(replaced("[2, 0, 3]", "[2, null, 3]"))});
+    EXPECT_EQ(invalid.exit_code, 1) << invalid.output;
+}
+
+/// The sorted contour files of the real non-parallel cuts.
+std::vector<std::string> real_files() {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(test::data_dir() / "derived_nonparallel"))
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+TEST_F(ContourJson, RealSetsHoldWhatPythonFindsInThem) {
+    KONTUR_REQUIRE_DATA("derived_nonparallel");
+    const std::vector<std::string> files = real_files();
+    ASSERT_EQ(files.size(), 30u);
+    const auto described = test::run_python("describe_contours.py", files);
+    ASSERT_EQ(described.exit_code, 0) << described.output;
+    std::istringstream lines(described.output);
+    for (const std::string& name : files) {
+        SCOPED_TRACE(name);
+        std::size_t planes = 0, contours = 0, points = 0;
+        std::ptrdiff_t holes = 0;
+        double total = 0;
+        ASSERT_TRUE(lines >> planes >> contours >> holes >> points >> total);
+        const ContourSet set = read_contour_json(name);
+        EXPECT_EQ(set.name, fs::path(name).parent_path().filename());
+        EXPECT_EQ(read_planes_json(name).size(), planes);
+        EXPECT_EQ(set.contours.size(), contours);
+        EXPECT_EQ(std::count_if(set.contours.begin(), set.contours.end(), [](const Contour& c) { return c.hole; }), holes);
+        EXPECT_EQ(point_count(set), points);
+        double sum = 0;
+        for (const Contour& contour : set.contours)
+            for (const Vec3& p : contour.points) sum += p.x + p.y + p.z;
+        EXPECT_NEAR(sum, total, 1e-6);
+        EXPECT_NO_THROW(check_contours(set));
+        for (const Plane& plane : read_planes_json(name)) expect_orthonormal(plane);
+        expect_same(set, written_and_read(set));
+    }
+}
+
+}  // namespace
+}  // namespace kontur

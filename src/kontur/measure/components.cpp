@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/measure/components.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include "kontur/measure/mask_check.h"
+
+namespace kontur {
+namespace {
+
+/// Inside voxels [begin, end) that follow each other along i.
+struct Run {
+    std::int64_t begin, end;
+};
+
+/// Sets that only ever grow together; each is named by its first element.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+
+    std::size_t find(std::size_t item) {
+        while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+        return item;
+    }
+    void join(std::size_t a, std::size_t b) {
+        a = find(a), b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::size_t> parent_;
+};
+
+struct RunList {
+    std::vector<Run> runs;
+    std::vector<std::size_t> row_start;  ///< first run of row j + size.j * k, and one end more
+};
+
+RunList find_runs(const Mask& mask) {
+    const Index3 size = mask.grid.size;
+    RunList list;
+    for (std::int64_t row = 0; row < size.j * size.k; ++row) {
+        list.row_start.push_back(list.runs.size());
+        const std::uint8_t* values = mask.values.data() + row * size.i;
+        for (std::int64_t i = 0; i < size.i; ++i) {
+            if (values[i] == 0) continue;
+            const std::int64_t begin = i;
+            while (i < size.i && values[i] != 0) ++i;
+            list.runs.push_back({begin, i});
+        }
+    }
+    list.row_start.push_back(list.runs.size());
+    return list;
+}
+
+/// Joins the runs of two rows that share an i.
+void join_rows(const RunList& list, std::int64_t row_a, std::int64_t row_b, DisjointSets& sets) {
+    std::size_t a = list.row_start[row_a], b = list.row_start[row_b];
+    while (a < list.row_start[row_a + 1] && b < list.row_start[row_b + 1]) {
+        const Run &run_a = list.runs[a], &run_b = list.runs[b];
+        if (run_a.begin < run_b.end && run_b.begin < run_a.end) sets.join(a, b);
+        run_a.end < run_b.end ? ++a : ++b;
+    }
+}
+
+}  // namespace
+
+std::vector<std::int64_t> component_sizes(const Mask& mask) {
+    check_mask(mask, "the mask");
+    const Index3 size = mask.grid.size;
+    const RunList list = find_runs(mask);
+    DisjointSets sets(list.runs.size());
+    for (std::int64_t k = 0; k < size.k; ++k)
+        for (std::int64_t j = 0; j < size.j; ++j) {
+            const std::int64_t row = j + size.j * k;
+            if (j > 0) join_rows(list, row, row - 1, sets);
+            if (k > 0) join_rows(list, row, row - size.j, sets);
+        }
+
+    std::vector<std::int64_t> voxels(list.runs.size());
+    for (std::size_t r = 0; r < list.runs.size(); ++r) voxels[sets.find(r)] += list.runs[r].end - list.runs[r].begin;
+    std::erase(voxels, 0);
+    std::sort(voxels.begin(), voxels.end(), std::greater<>{});
+    return voxels;
+}
+
+}  // namespace kontur

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to io/: DCMTK set up once, and values taken strictly out of its items. The only header of ours with DCMTK's types.
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kontur::dcmtk {
+
+/// Registers the JPEG, JPEG-LS and RLE decoders and silences DCMTK's log. Throws Error(io) when DCMTK cannot find its data
+/// dictionary, without which implicit-VR files cannot be understood. Cheap after the first call; safe from any thread.
+void set_up();
+
+/// Loads the file up to, not including, `stop` (default: all of it). Throws Error(io) when it cannot be opened and
+/// Error(corrupt_file) when it is truncated or malformed.
+void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop = DCM_UndefinedTagKey);
+
+/// All values of a text element, trimmed, as valid UTF-8; "" when absent.
+std::string text(DcmItem& item, const DcmTagKey& tag);
+
+/// First value of an integer element (US, SS, IS, ...); nullopt when absent or empty. Throws Error(corrupt_file) naming the
+/// element when it is no integer.
+std::optional<std::int64_t> integer(DcmItem& item, const DcmTagKey& tag);
+
+/// All values of a decimal-string element; empty when absent or empty. Throws Error(corrupt_file) naming the element.
+std::vector<double> decimals(DcmItem& item, const DcmTagKey& tag);
+
+/// The items of a sequence; empty when absent.
+std::vector<DcmItem*> items(DcmItem& item, const DcmTagKey& sequence);
+
+/// The element's name and number, such as "PixelSpacing (0028,0030)".
+std::string tag_name(const DcmTagKey& tag);
+
+}  // namespace kontur::dcmtk

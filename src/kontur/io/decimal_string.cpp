@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/decimal_string.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kPadding(" \t\r\n\0", 5);
+    const auto first = text.find_first_not_of(kPadding);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kPadding) - first + 1);
+}
+
+double parse_number(std::string_view field, std::size_t ordinal) {
+    std::string_view digits = trimmed(field);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    double value = 0;
+    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    // A value too small for a double is 0 as good as any; one too large is as useless as a letter.
+    const bool underflow = status == std::errc::result_out_of_range && value == 0;
+    if ((status != std::errc() && !underflow) || end != digits.data() + digits.size() || !std::isfinite(value))
+        throw Error(ErrorKind::corrupt_file, "value " + std::to_string(ordinal) + " is not a decimal number");
+    return value;
+}
+
+}  // namespace
+
+std::vector<double> parse_decimal_string(std::string_view text) {
+    std::vector<double> values;
+    text = trimmed(text);
+    if (text.empty()) return values;
+    values.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\\')) + 1);
+    for (;;) {
+        const auto separator = text.find('\\');
+        values.push_back(parse_number(text.substr(0, separator), values.size() + 1));
+        if (separator == std::string_view::npos) return values;
+        text.remove_prefix(separator + 1);
+    }
+}
+
+}  // namespace kontur

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom_header.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "kontur/base/error.h"
+#include "kontur/io/dcmtk.h"
+
+namespace kontur {
+namespace {
+
+/// Directions are written with about six digits; a worse deviation means that they are not what they claim to be.
+constexpr double kDirectionTolerance = 1e-3;
+
+Error corrupt(const std::string& message) { return Error(ErrorKind::corrupt_file, message); }
+
+std::vector<double> decimals_of_count(DcmItem& item, const DcmTagKey& tag, std::size_t count) {
+    std::vector<double> values = dcmtk::decimals(item, tag);
+    if (values.size() != count)
+        throw corrupt(dcmtk::tag_name(tag) + " has " + std::to_string(values.size()) + " values instead of " +
+                      std::to_string(count));
+    return values;
+}
+
+std::optional<double> first_decimal(DcmItem& item, const DcmTagKey& tag) {
+    const std::vector<double> values = dcmtk::decimals(item, tag);
+    return values.empty() ? std::nullopt : std::optional(values.front());
+}
+
+SlicePlacement read_placement(DcmItem& item) {
+    const auto position = decimals_of_count(item, DCM_ImagePositionPatient, 3);
+    const auto orientation = decimals_of_count(item, DCM_ImageOrientationPatient, 6);
+    const auto spacing = decimals_of_count(item, DCM_PixelSpacing, 2);
+    const Vec3 row{orientation[0], orientation[1], orientation[2]}, column{orientation[3], orientation[4], orientation[5]};
+    const auto is_unit = [](const Vec3& v) { return std::abs(norm(v) - 1) <= kDirectionTolerance; };
+    if (!is_unit(row) || !is_unit(column) || std::abs(dot(row, column)) > kDirectionTolerance)
+        throw corrupt("ImageOrientationPatient (0020,0037) is not a pair of perpendicular unit vectors");
+    if (!(spacing[0] > 0) || !(spacing[1] > 0)) throw corrupt("PixelSpacing (0028,0030) is not positive");
+    SlicePlacement placement;
+    placement.position = {position[0], position[1], position[2]};
+    placement.row_direction = normalized(row);
+    placement.column_direction = normalized(column);
+    // PixelSpacing gives the distance between rows (along j) first.
+    placement.spacing_mm = {spacing[1], spacing[0]};
+    return placement;
+}
+
+DicomRescale read_rescale(DcmItem& item) {
+    DicomRescale rescale;
+    rescale.slope = first_decimal(item, DCM_RescaleSlope).value_or(1);
+    rescale.intercept = first_decimal(item, DCM_RescaleIntercept).value_or(0);
+    if (rescale.slope == 0) throw corrupt("RescaleSlope (0028,1053) is 0");
+    return rescale;
+}
+
+void read_transfer_syntax(const DcmXfer& syntax, DicomHeader& header) {
+    header.transfer_syntax = syntax.getXferName();
+    switch (syntax.getXfer()) {
+        case EXS_JPEGProcess1:
+        case EXS_JPEGProcess2_4:
+        case EXS_JPEGProcess14:
+        case EXS_JPEGProcess14SV1:
+        case EXS_JPEGLSLossless:
+        case EXS_JPEGLSLossy:
+        case EXS_RLELossless:
+            header.decodable = true;
+            break;
+        default:
+            header.decodable = !syntax.isEncapsulated();
+    }
+}
+
+/// Only for pixels that lie in the file as they are; what a compressed slice unpacks to is checked when it is decoded.
+void check_pixels_fit(const DicomHeader& header, const DcmXfer& syntax, std::int64_t bits_allocated) {
+    if (syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none) return;
+    const auto claimed = header.rows * header.columns * (bits_allocated / 8);
+    const auto held = static_cast<std::int64_t>(std::filesystem::file_size(header.path));
+    if (claimed > held)
+        throw corrupt("the header claims " + std::to_string(claimed) + " bytes of pixels, the file has " +
+                      std::to_string(held) + " bytes");
+}
+
+bool is_multi_frame(DcmDataset& dataset) {
+    return dataset.tagExists(DCM_PerFrameFunctionalGroupsSequence) ||
+           dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1;
+}
+
+DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
+    DicomHeader header;
+    header.path = path;
+    header.sop_instance_uid = dcmtk::text(dataset, DCM_SOPInstanceUID);
+    header.series_uid = dcmtk::text(dataset, DCM_SeriesInstanceUID);
+    header.frame_of_reference_uid = dcmtk::text(dataset, DCM_FrameOfReferenceUID);
+    header.modality = dcmtk::text(dataset, DCM_Modality);
+    header.description = dcmtk::text(dataset, DCM_SeriesDescription);
+    read_transfer_syntax(syntax, header);
+    header.rows = dcmtk::integer(dataset, DCM_Rows).value_or(0);
+    header.columns = dcmtk::integer(dataset, DCM_Columns).value_or(0);
+    if (header.rows < 1 || header.columns < 1)
+        throw corrupt("the image has " + std::to_string(header.rows) + " rows and " + std::to_string(header.columns) +
+                      " columns");
+    header.multi_frame = is_multi_frame(dataset);
+    header.bits_stored = dcmtk::integer(dataset, DCM_BitsStored).value_or(0);
+    header.is_signed = dcmtk::integer(dataset, DCM_PixelRepresentation).value_or(0) == 1;
+    header.photometric_interpretation = dcmtk::text(dataset, DCM_PhotometricInterpretation);
+    header.has_lookup_table = dataset.tagExists(DCM_ModalityLUTSequence);
+    header.rescale = read_rescale(dataset);
+    header.thickness_mm = first_decimal(dataset, DCM_SliceThickness);
+    header.temporal_position = dcmtk::integer(dataset, DCM_TemporalPositionIdentifier);
+    header.acquisition_number = dcmtk::integer(dataset, DCM_AcquisitionNumber);
+    header.echo_number = dcmtk::integer(dataset, DCM_EchoNumbers);
+    header.trigger_time_ms = first_decimal(dataset, DCM_TriggerTime);
+    header.instance_number = dcmtk::integer(dataset, DCM_InstanceNumber);
+    check_pixels_fit(header, syntax, dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
+    if (!header.multi_frame) header.placement = read_placement(dataset);
+    return header;
+}
+
+/// Empty for an image that can be placed in space.
+std::string reason_to_skip(DcmDataset& dataset) {
+    const std::string modality = dcmtk::text(dataset, DCM_Modality);
+    if (modality == "SEG" || modality == "RTDOSE") return modality;
+    if (!dataset.tagExists(DCM_Rows)) return modality.empty() ? "DICOM without an image" : modality;
+    const bool placed = dataset.tagExistsWithValue(DCM_ImagePositionPatient) &&
+                        dataset.tagExistsWithValue(DCM_ImageOrientationPatient) &&
+                        dataset.tagExistsWithValue(DCM_PixelSpacing);
+    return placed || is_multi_frame(dataset) ? "" : "image without a position in space";
+}
+
+}  // namespace
+
+bool has_dicom_prefix(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 132> start{};
+    return file.read(start.data(), start.size()) && std::string_view(&start[128], 4) == "DICM";
+}
+
+std::variant<DicomHeader, NotAnImage> read_dicom_header(const std::filesystem::path& path) {
+    if (!has_dicom_prefix(path)) return NotAnImage{"not a DICOM file"};
+    DcmFileFormat file;
+    dcmtk::load(file, path, DCM_PixelData);
+    DcmDataset& dataset = *file.getDataset();
+    if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
+    try {
+        return read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
+    } catch (const Error& error) {
+        throw error.with_context(path.string());
+    }
+}
+
+}  // namespace kontur

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to io/: what one DICOM image file says about itself, without its pixels.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "kontur/base/geometry.h"
+
+namespace kontur {
+
+/// Where a slice lies: the centre of its first pixel, and unit vectors along its rows and columns.
+struct SlicePlacement {
+    Vec3 position;                       ///< mm, LPS (ImagePositionPatient)
+    Vec3 row_direction;                  ///< of increasing column number i
+    Vec3 column_direction;               ///< of increasing row number j
+    std::array<double, 2> spacing_mm{};  ///< step along i, step along j
+
+    Vec3 normal() const { return cross(row_direction, column_direction); }
+};
+
+/// How the stored values of a slice become modality units.
+struct DicomRescale {
+    double slope = 1;
+    double intercept = 0;
+};
+
+struct DicomHeader {
+    std::filesystem::path path;
+    std::string sop_instance_uid;
+    std::string series_uid;
+    std::string frame_of_reference_uid;
+    std::string modality;
+    std::string description;
+    std::string transfer_syntax;  ///< its name, such as "JPEG 2000 (Lossless only)"
+    bool decodable = true;        ///< false: compressed in a way that cannot be read here
+    std::int64_t rows = 0;
+    std::int64_t columns = 0;
+    bool multi_frame = false;  ///< an enhanced image: its frames carry their own placement, which is not read here
+    std::int64_t bits_stored = 0;
+    bool is_signed = false;
+    std::string photometric_interpretation;
+    bool has_lookup_table = false;  ///< a ModalityLUTSequence instead of slope and intercept
+    DicomRescale rescale;
+    SlicePlacement placement;  ///< meaningless for a multi-frame image
+    std::optional<double> thickness_mm;
+    // What tells slices at one position apart (time, echo, acquisition, ...).
+    std::optional<std::int64_t> temporal_position;
+    std::optional<std::int64_t> acquisition_number;
+    std::optional<std::int64_t> echo_number;
+    std::optional<double> trigger_time_ms;
+    std::optional<std::int64_t> instance_number;
+};
+
+/// Why a file takes no part in a series, such as "not a DICOM file" or "RTSTRUCT".
+struct NotAnImage {
+    std::string reason;
+};
+
+/// True when the file starts as a DICOM file does (preamble and "DICM").
+bool has_dicom_prefix(const std::filesystem::path& path);
+
+/// Reads everything before the pixels. Throws Error(corrupt_file), naming file and element, for a truncated or
+/// contradictory header: orientation vectors that are not perpendicular unit vectors, a spacing that is not positive, a
+/// slope of 0, or more uncompressed pixels than the file has bytes.
+std::variant<DicomHeader, NotAnImage> read_dicom_header(const std::filesystem::path& path);
+
+}  // namespace kontur

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom_pixels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "kontur/base/error.h"
+#include "kontur/io/dcmtk.h"
+
+namespace kontur {
+namespace {
+
+/// Deflate and run-length coding cannot shrink more than about a thousandfold; small slices are let through whatever their
+/// coding, because a constant image shrinks without limit in JPEG-LS.
+constexpr std::int64_t kMaxExpansion = 1100;
+constexpr std::int64_t kAlwaysAllowedBytes = std::int64_t{64} << 20;
+
+Error corrupt(const std::string& message) { return Error(ErrorKind::corrupt_file, message); }
+
+/// How the stored integers lie in the pixel data.
+struct PixelLayout {
+    std::int64_t bytes = 0;  ///< per sample
+    int shift = 0;           ///< of the lowest stored bit
+    int bits = 0;
+    bool is_signed = false;
+};
+
+PixelLayout read_layout(DcmDataset& dataset) {
+    const std::int64_t allocated = dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0);
+    const std::int64_t stored = dcmtk::integer(dataset, DCM_BitsStored).value_or(allocated);
+    const std::int64_t high = dcmtk::integer(dataset, DCM_HighBit).value_or(stored - 1);
+    if (allocated != 8 && allocated != 16 && allocated != 32)
+        throw Error(ErrorKind::unsupported, fmt::format("{} bits per pixel are not supported; 8, 16 and 32 are", allocated));
+    if (stored < 1 || stored > allocated || high < stored - 1 || high >= allocated)
+        throw corrupt(fmt::format("{} bits stored below bit {} do not fit into {} bits allocated", stored, high, allocated));
+    return {allocated / 8, static_cast<int>(high - stored + 1), static_cast<int>(stored),
+            dcmtk::integer(dataset, DCM_PixelRepresentation).value_or(0) == 1};
+}
+
+void check_expansion(const DicomHeader& header, std::int64_t bytes) {
+    const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(header.path));
+    if (bytes > kAlwaysAllowedBytes && bytes / kMaxExpansion > file_bytes)
+        throw corrupt(fmt::format("the header claims {} bytes of pixels, the file has {} bytes", bytes, file_bytes));
+}
+
+void decompress(DcmDataset& dataset) {
+    if (!DcmXfer(dataset.getCurrentXfer()).isEncapsulated()) return;
+    const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
+    if (decoded.bad()) throw corrupt(fmt::format("the compressed pixels cannot be decoded ({})", decoded.text()));
+}
+
+/// The pixel data, little-endian. The bytes belong to `dataset`.
+std::span<const Uint8> pixel_bytes(DcmDataset& dataset, std::int64_t expected) {
+    DcmElement* element = nullptr;
+    if (dataset.findAndGetElement(DCM_PixelData, element).bad()) throw corrupt("the file ends before its pixels");
+    const std::int64_t held = element->getLength();
+    Uint8* bytes = nullptr;
+    if (held < expected || element->getUint8Array(bytes).bad() || !bytes)
+        throw corrupt(fmt::format("the pixel data has {} bytes, the header claims {}", held, expected));
+    return {bytes, static_cast<std::size_t>(expected)};
+}
+
+/// The integer of the layout in little-endian bytes, sign-extended.
+std::int64_t stored_value(std::span<const Uint8> bytes, const PixelLayout& layout) {
+    std::uint64_t raw = 0;
+    for (std::size_t byte = 0; byte < bytes.size(); ++byte) raw |= std::uint64_t{bytes[byte]} << (8 * byte);
+    raw = (raw >> layout.shift) & ((std::uint64_t{1} << layout.bits) - 1);
+    const bool negative = layout.is_signed && (raw >> (layout.bits - 1)) != 0;
+    return static_cast<std::int64_t>(raw) - (negative ? std::int64_t{1} << layout.bits : 0);
+}
+
+/// One slice in modality units.
+std::vector<double> read_values(DcmDataset& dataset, const DicomHeader& header) {
+    const std::int64_t pixels = header.rows * header.columns;
+    check_expansion(header, pixels * dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0) / 8);
+    decompress(dataset);
+    // A decoder may change the layout, so it counts as it stands after decoding.
+    const PixelLayout layout = read_layout(dataset);
+    const auto stride = static_cast<std::size_t>(layout.bytes);
+    const std::span<const Uint8> bytes = pixel_bytes(dataset, pixels * layout.bytes);
+    std::vector<double> values(static_cast<std::size_t>(pixels));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<double>(stored_value(bytes.subspan(i * stride, stride), layout)) * header.rescale.slope +
+                    header.rescale.intercept;
+    return values;
+}
+
+std::vector<double> read_slice(const DicomHeader& header) {
+    DcmFileFormat file;
+    dcmtk::load(file, header.path);
+    try {
+        return read_values(*file.getDataset(), header);
+    } catch (const Error& error) {
+        throw error.with_context(header.path.string());
+    }
+}
+
+bool is_integer(double value) { return value == std::floor(value); }
+
+bool has_integer_rescale(const DicomHeader& slice) {
+    return is_integer(slice.rescale.slope) && is_integer(slice.rescale.intercept);
+}
+
+/// Samples appended slice by slice, moved to a wider type as soon as a value asks for it: the whole volume never exists in
+/// more than one copy for long, and no pass over it is needed to find its range.
+class GrowingSamples {
+public:
+    GrowingSamples(bool real, std::size_t capacity) : capacity_(capacity) {
+        if (real) samples_.emplace<std::vector<float>>();
+    }
+
+    void append(const std::vector<double>& values) {
+        if (!std::holds_alternative<std::vector<float>>(samples_)) widen_for(values);
+        std::visit([&](auto& samples) { append_to(samples, values); }, samples_);
+    }
+
+    Image::Samples take() && { return std::move(samples_); }
+
+private:
+    template <typename T>
+    bool holds() const {
+        return low_ >= std::numeric_limits<T>::lowest() && high_ <= std::numeric_limits<T>::max();
+    }
+
+    template <typename T>
+    void become() {
+        if (std::holds_alternative<std::vector<T>>(samples_)) return;
+        std::vector<T> wider;
+        wider.reserve(capacity_);
+        std::visit([&](const auto& samples) { append_to(wider, samples); }, samples_);
+        samples_ = std::move(wider);
+    }
+
+    template <typename T, typename Values>
+    static void append_to(std::vector<T>& samples, const Values& values) {
+        for (const auto value : values) samples.push_back(static_cast<T>(value));
+    }
+
+    void widen_for(const std::vector<double>& values) {
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        low_ = std::min(low_, *low);
+        high_ = std::max(high_, *high);
+        if (holds<std::uint8_t>()) become<std::uint8_t>();
+        else if (holds<std::int16_t>()) become<std::int16_t>();
+        else if (holds<std::uint16_t>()) become<std::uint16_t>();
+        else if (holds<std::int32_t>()) become<std::int32_t>();
+        else become<float>();
+    }
+
+    std::size_t capacity_;
+    double low_ = 0, high_ = 0;
+    Image::Samples samples_;
+};
+
+}  // namespace
+
+void check_pixel_formats(const DicomStack& stack) {
+    for (const DicomHeader& slice : stack.slices) {
+        const auto refuse = [&](const std::string& what) {
+            throw Error(ErrorKind::unsupported, fmt::format("{}: {} is not supported", slice.path.string(), what));
+        };
+        if (!slice.decodable) refuse(fmt::format("the compression '{}'", slice.transfer_syntax));
+        if (slice.photometric_interpretation != "MONOCHROME2")
+            refuse(
+                fmt::format("the photometric interpretation '{}' (only MONOCHROME2 is)", slice.photometric_interpretation));
+        if (slice.has_lookup_table) refuse("a modality lookup table");
+        if (slice.bits_stored < 1 || slice.bits_stored > 32) refuse(fmt::format("a depth of {} bits", slice.bits_stored));
+    }
+}
+
+Image::Samples read_pixels(const DicomStack& stack, const Progress& progress) {
+    const std::size_t slices = stack.slices.size();
+    const DicomHeader& first = stack.slices.front();
+    const bool integral = std::all_of(stack.slices.begin(), stack.slices.end(), has_integer_rescale);
+    GrowingSamples samples(!integral, slices * static_cast<std::size_t>(first.rows * first.columns));
+    for (std::size_t k = 0; k < slices; ++k) {
+        progress.report("read slices", static_cast<double>(k) / static_cast<double>(slices));
+        samples.append(read_slice(stack.slices[k]));
+    }
+    progress.report("read slices", 1);
+    return std::move(samples).take();
+}
+
+}  // namespace kontur

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom_series.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "kontur/base/error.h"
+#include "kontur/io/dicom_grid.h"
+#include "kontur/io/dicom_header.h"
+#include "kontur/io/dicom_pixels.h"
+#include "kontur/io/dicom_stack.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kVolumesListed = 20;
+
+/// Regular files in order of their names, so that nothing depends on how the file system lists them.
+std::vector<fs::path> files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
+        if (entry->is_regular_file()) files.push_back(entry->path());
+    if (failure) throw Error(ErrorKind::io, fmt::format("{}: {}", folder.string(), failure.message()));
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+struct FolderContent {
+    std::vector<DicomStack> stacks;
+    std::vector<std::string> notes;
+};
+
+FolderContent read_folder(const fs::path& folder, const Progress& progress) {
+    std::vector<DicomHeader> headers;
+    std::map<std::string, std::vector<std::string>> left_out;  // reason -> file names
+    const std::vector<fs::path> files = files_in(folder);
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        progress.report("read headers", static_cast<double>(n) / static_cast<double>(files.size()));
+        auto content = read_dicom_header(files[n]);
+        if (auto* header = std::get_if<DicomHeader>(&content)) headers.push_back(std::move(*header));
+        else left_out[std::get<NotAnImage>(content).reason].push_back(files[n].filename().string());
+    }
+    FolderContent result{group_into_stacks(std::move(headers)), {}};
+    for (const auto& [reason, names] : left_out)
+        result.notes.push_back(fmt::format("left out {} file{} ({}): {}{}", names.size(), names.size() == 1 ? "" : "s",
+                                           reason, names.front(), names.size() == 1 ? "" : ", ..."));
+    return result;
+}
+
+DicomSeries describe(const DicomStack& stack) {
+    const DicomHeader& first = stack.slices.front();
+    DicomSeries series{
+        first.series_uid, first.modality, first.description, stack.distinction, first.frame_of_reference_uid, {},
+        first.columns,    first.rows};
+    for (const DicomHeader& slice : stack.slices) series.files.push_back(slice.path);
+    return series;
+}
+
+std::string listed(const std::vector<DicomStack>& stacks) {
+    std::string text;
+    std::map<std::string, int> volume_of_series;
+    for (std::size_t n = 0; n < stacks.size(); ++n) {
+        const DicomSeries series = describe(stacks[n]);
+        const int volume = ++volume_of_series[series.series_uid];
+        if (n == kVolumesListed) text += fmt::format("; and {} more", stacks.size() - n);
+        if (n >= kVolumesListed) continue;
+        text += fmt::format("{}{} volume {} ({}{}, {} slices of {} x {}{})", n == 0 ? "" : "; ", series.series_uid, volume,
+                            series.modality, series.description.empty() ? "" : " '" + series.description + "'",
+                            series.files.size(), series.columns, series.rows,
+                            series.distinction.empty() ? "" : ", " + series.distinction);
+    }
+    return text;
+}
+
+bool contains_file(const DicomStack& stack, const fs::path& file) {
+    return std::any_of(stack.slices.begin(), stack.slices.end(),
+                       [&](const DicomHeader& slice) { return slice.path.filename() == file.filename(); });
+}
+
+/// Narrows by a condition; throws when nothing is left.
+template <typename Condition>
+void keep(std::vector<DicomStack>& stacks, const std::string& what, const Condition& condition) {
+    const std::string all = listed(stacks);
+    std::erase_if(stacks, [&](const DicomStack& stack) { return !condition(stack); });
+    if (stacks.empty()) throw Error(ErrorKind::invalid_input, fmt::format("there is no {}; there are: {}", what, all));
+}
+
+DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& options, const std::optional<fs::path>& file) {
+    if (stacks.empty()) throw Error(ErrorKind::invalid_input, "the folder holds no DICOM image");
+    std::optional<std::string> series_uid = options.series_uid;
+    if (file) {
+        auto own = stacks;
+        keep(own, "volume with the file " + file->filename().string(),
+             [&](const DicomStack& stack) { return contains_file(stack, *file); });
+        if (!series_uid) series_uid = own.front().slices.front().series_uid;
+        if (!options.volume) stacks = std::move(own);
+    }
+    if (series_uid)
+        keep(stacks, "series " + *series_uid,
+             [&](const DicomStack& stack) { return stack.slices.front().series_uid == *series_uid; });
+    const auto is_first_series = [&](const DicomStack& stack) {
+        return stack.slices.front().series_uid == stacks.front().slices.front().series_uid;
+    };
+    if (!std::all_of(stacks.begin(), stacks.end(), is_first_series))
+        throw Error(ErrorKind::invalid_input, "the folder holds several series; name one: " + listed(stacks));
+    if (stacks.size() > 1 && !options.volume)
+        throw Error(ErrorKind::invalid_input, "the series holds several volumes; name one: " + listed(stacks));
+    const int volume = options.volume.value_or(1);
+    if (volume < 1 || static_cast<std::size_t>(volume) > stacks.size())
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no volume {}; there are: {}", volume, listed(stacks)));
+    return std::move(stacks[static_cast<std::size_t>(volume) - 1]);
+}
+
+/// The chosen stack with its grid; `notes` are the folder's, then the stack's.
+struct Located {
+    DicomStack stack;
+    StackGrid geometry;
+};
+
+Located locate(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
+    std::error_code ignored;
+    const bool is_folder = fs::is_directory(path, ignored);
+    if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");
+    const fs::path folder = is_folder ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
+    FolderContent content = read_folder(folder, progress);
+    Located result;
+    try {
+        result.stack = choose(std::move(content.stacks), options, is_folder ? std::nullopt : std::optional(path));
+        result.geometry = stack_grid(result.stack);
+    } catch (const Error& error) {
+        throw error.with_context(path.string());
+    }
+    result.geometry.notes.insert(result.geometry.notes.begin(), content.notes.begin(), content.notes.end());
+    return result;
+}
+
+}  // namespace
+
+bool looks_like_dicom(const fs::path& path) {
+    std::error_code failure;
+    if (!fs::is_directory(path, failure)) return has_dicom_prefix(path);
+    const std::vector<fs::path> files = files_in(path);
+    return std::any_of(files.begin(), files.end(), has_dicom_prefix);
+}
+
+std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
+    std::vector<DicomSeries> result;
+    for (const DicomStack& stack : read_folder(folder, {}).stacks) result.push_back(describe(stack));
+    return result;
+}
+
+DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
+    Located located = locate(path, options, progress);
+    check_pixel_formats(located.stack);
+    DicomVolume volume;
+    volume.image = {located.geometry.grid, read_pixels(located.stack, progress)};
+    volume.series = describe(located.stack);
+    volume.notes = std::move(located.geometry.notes);
+    return volume;
+}
+
+DicomGrid read_dicom_grid(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
+    Located located = locate(path, options, progress);
+    return {located.geometry.grid, describe(located.stack), std::move(located.geometry.notes)};
+}
+
+}  // namespace kontur

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom_series.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "kontur/base/error.h"
+#include "support/run_python.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a generated series truly shows.
+struct Truth {
+    Grid grid;
+    std::vector<double> values;
+};
+
+Truth read_truth(const fs::path& folder) {
+    Truth truth;
+    std::ifstream text(folder / "truth.txt");
+    text >> truth.grid.size.i >> truth.grid.size.j >> truth.grid.size.k;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) text >> truth.grid.index_to_mm.linear[row][column];
+        text >> truth.grid.index_to_mm.translation[row];
+    }
+    truth.values.resize(static_cast<std::size_t>(truth.grid.voxel_count()));
+    std::ifstream raw(folder / "truth.raw", std::ios::binary);
+    raw.read(reinterpret_cast<char*>(truth.values.data()), static_cast<std::streamsize>(8 * truth.values.size()));
+    if (!text || !raw) throw std::runtime_error("no truth in " + folder.string());
+    return truth;
+}
+
+class DicomSeriesTest : public testing::Test {
+protected:
+    /// Generates a case and returns the folder with its files.
+    fs::path make(const std::string& name) {
+        const auto made = test::run_python("make_dicom_series.py", {name, (folder_ / name).string()});
+        if (made.exit_code != 0) throw std::runtime_error(made.output);
+        return folder_ / name / "dicom";
+    }
+
+    /// Reads and compares every voxel and the corners of the grid with the truth.
+    DicomVolume read_and_check(const std::string& name, const DicomSeriesOptions& options = {}) {
+        const fs::path files = make(name);
+        const Truth truth = read_truth(folder_ / name);
+        DicomVolume volume = read_dicom_series(files, options);
+        EXPECT_LT(corner_distance_mm(volume.image.grid, truth.grid), 1e-5);
+        EXPECT_EQ(read_dicom_grid(files, options).grid, volume.image.grid);
+        double worst = 0;
+        for (std::size_t n = 0; n < truth.values.size(); ++n)
+            worst = std::max(worst, std::abs(sample(volume.image, n) - truth.values[n]));
+        EXPECT_LT(worst, 1e-3);
+        return volume;
+    }
+
+    Error refusal(const fs::path& path, const DicomSeriesOptions& options = {}) {
+        try {
+            read_dicom_series(path, options);
+        } catch (const Error& error) {
+            return error;
+        }
+        ADD_FAILURE() << "accepted: " << path;
+        return Error(ErrorKind::io, "");
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+#define EXPECT_REFUSED(error_expression, expected_kind, part)                                              \
+    do {                                                                                                   \
+        const Error refused = (error_expression);                                                          \
+        EXPECT_EQ(kontur::name(refused.kind()), kontur::name(ErrorKind::expected_kind)) << refused.what(); \
+        EXPECT_NE(std::string_view(refused.what()).find(part), std::string_view::npos) << refused.what();  \
+    } while (false)
+
+bool notes_mention(const std::vector<std::string>& notes, std::string_view part) {
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+template <typename T>
+bool has_samples(const DicomVolume& volume) {
+    return std::holds_alternative<std::vector<T>>(volume.image.samples);
+}
+
+TEST_F(DicomSeriesTest, OrdersSlicesByPositionWhateverTheirNamesAndNumbers) {
+    const DicomVolume volume = read_and_check("axial");
+    EXPECT_TRUE(has_samples<std::int16_t>(volume));
+    EXPECT_TRUE(volume.notes.empty());
+    EXPECT_EQ(volume.series.modality, "CT");
+    EXPECT_EQ(volume.series.files.size(), 9u);
+}
+
+TEST_F(DicomSeriesTest, PlacesObliqueAndCoronalSlices) {
+    read_and_check("oblique");
+    read_and_check("coronal");
+}
+
+TEST_F(DicomSeriesTest, KeepsAGantryTiltAsExactShearAndSaysSo) {
+    const DicomVolume volume = read_and_check("tilt");
+    EXPECT_TRUE(notes_mention(volume.notes, "gantry tilt"));
+    EXPECT_TRUE(notes_mention(volume.notes, "15 degrees"));
+}
+
+TEST_F(DicomSeriesTest, NamesTheGapsOfMissingSlices) {
+    const Error error = refusal(make("missing"));
+    EXPECT_EQ(error.kind(), ErrorKind::unsupported);
+    EXPECT_NE(
+        std::string(error.what())
+            .find("slices are missing between z = 105 and 112.5, 115 and 120 mm: 3 of them at the usual spacing of 2.5 mm"),
+        std::string::npos)
+        << error.what();
+}
+
+TEST_F(DicomSeriesTest, RefusesIrregularSpacingAndShift) {
+    EXPECT_REFUSED(refusal(make("jitter")), unsupported, "steps from 2.3 to 2.7 mm put slices up to 0.2 mm off");
+    EXPECT_REFUSED(refusal(make("shifted")), unsupported, "the slice at z = 110 mm is shifted by 0.5 mm");
+}
+
+TEST_F(DicomSeriesTest, AppliesTheRescaleOfEachFile) {
+    EXPECT_TRUE(has_samples<float>(read_and_check("fraction")));
+    EXPECT_TRUE(has_samples<float>(read_and_check("slopes")));
+}
+
+TEST_F(DicomSeriesTest, ReadsEveryStoredSampleLayoutIntoTheNarrowestType) {
+    EXPECT_TRUE(has_samples<std::int16_t>(read_and_check("masked")));
+    EXPECT_TRUE(has_samples<std::uint8_t>(read_and_check("bytes")));
+    EXPECT_TRUE(has_samples<std::uint16_t>(read_and_check("unsigned")));
+    EXPECT_TRUE(has_samples<std::int32_t>(read_and_check("wide")));
+}
+
+TEST_F(DicomSeriesTest, ReadsEveryUncompressedAndRunLengthEncoding) {
+    for (const char* syntax : {"implicit", "big_endian", "deflated", "rle"}) {
+        SCOPED_TRACE(syntax);
+        read_and_check(syntax);
+    }
+}
+
+TEST_F(DicomSeriesTest, LeavesOutFilesThatAreNoImagesAndSaysSo) {
+    const DicomVolume volume = read_and_check("company");
+    EXPECT_TRUE(notes_mention(volume.notes, "left out 2 files (not a DICOM file): README.txt, ..."));
+    EXPECT_TRUE(notes_mention(volume.notes, "left out 1 file (RTSTRUCT): structures.dcm"));
+    EXPECT_TRUE(notes_mention(volume.notes, "left out 1 file (image without a position in space): capture.dcm"));
+}
+
+TEST_F(DicomSeriesTest, IgnoresTagsThatSetNoVolumesApart) {
+    read_and_check("acquisitions");
+    EXPECT_TRUE(notes_mention(read_and_check("anonymised").notes, "frame of reference"));
+}
+
+TEST_F(DicomSeriesTest, AsksWhichOfSeveralSeries) {
+    const fs::path files = make("other_series");
+    EXPECT_REFUSED(refusal(files), invalid_input, "several series; name one");
+    const auto found = list_dicom_series(files);
+    ASSERT_EQ(found.size(), 2u);
+    for (const DicomSeries& series : found) {
+        EXPECT_REFUSED(refusal(files), invalid_input,
+                       series.series_uid + " volume 1 (CT '" + series.description + "', 9 slices of 14 x 12)");
+        EXPECT_EQ(read_dicom_series(files, {.series_uid = series.series_uid}).series.files, series.files);
+        EXPECT_EQ(read_dicom_series(series.files[3]).series.series_uid, series.series_uid) << "a file stands for its series";
+    }
+    EXPECT_REFUSED(refusal(files, {.series_uid = "1.2.3"}), invalid_input, "there is no series 1.2.3; there are: ");
+}
+
+TEST_F(DicomSeriesTest, TellsVolumesAtTheSamePositionsApart) {
+    for (const char* name : {"echoes", "times"}) {
+        const fs::path files = make(name);
+        const Truth truth = read_truth(folder_ / name);
+        EXPECT_REFUSED(refusal(files), invalid_input, "several volumes; name one");
+        for (int volume : {1, 2}) {
+            const DicomVolume read = read_dicom_series(files, {.volume = volume});
+            for (std::size_t n = 0; n < truth.values.size(); ++n)
+                ASSERT_EQ(sample(read.image, n), truth.values[n] + volume - 1) << name << " volume " << volume;
+        }
+        const auto series = list_dicom_series(files);
+        ASSERT_EQ(series.size(), 2u);
+        EXPECT_EQ(series[1].distinction, std::string(name) == "echoes" ? "echo 2" : "time 2 of 2");
+        EXPECT_EQ(read_dicom_series(series[1].files[0]).series.files, series[1].files) << "a file stands for its volume";
+        EXPECT_REFUSED(refusal(files, {.volume = 3}), invalid_input, "there is no volume 3");
+    }
+}
+
+TEST_F(DicomSeriesTest, RefusesDuplicatesAndUnsupportedVariantsByName) {
+    EXPECT_REFUSED(refusal(make("duplicated")), unsupported, "two slices lie at z = 112.5 mm, and nothing tells them apart");
+    EXPECT_REFUSED(refusal(make("enhanced")), unsupported, "enhanced.dcm is an enhanced multi-frame image");
+    EXPECT_REFUSED(refusal(make("jpeg2000")), unsupported, "the compression 'JPEG 2000 (Lossless only)' is not supported");
+    EXPECT_REFUSED(refusal(make("inverted")), unsupported, "'MONOCHROME1'");
+    EXPECT_REFUSED(refusal(make("colour")), unsupported, "'RGB'");
+}
+
+TEST_F(DicomSeriesTest, RefusesDamagedAndAbsentFiles) {
+    EXPECT_REFUSED(refusal(make("truncated")), corrupt_file, ".dcm: ");
+    EXPECT_REFUSED(refusal(folder_ / "nowhere"), io, "nowhere: no such file or folder");
+    fs::create_directory(folder_ / "bare");
+    EXPECT_REFUSED(refusal(folder_ / "bare"), invalid_input, "the folder holds no DICOM image");
+}
+
+}  // namespace
+}  // namespace kontur

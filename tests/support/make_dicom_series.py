@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""make_dicom_series.py CASE FOLDER: writes a small DICOM series that is hard to read in one way, and what it truly shows.
+
+FOLDER/dicom holds the files, FOLDER/truth.txt the size and the index-to-mm matrix (LPS, three rows of four numbers),
+FOLDER/truth.raw the values in modality units (float64, i fastest, slices ascending along the normal).
+"""
+
+import random
+import sys
+from pathlib import Path
+
+import numpy as np
+from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
+from pydicom.encaps import encapsulate
+from pydicom.sequence import Sequence
+from pydicom.uid import ExplicitVRLittleEndian, ImplicitVRLittleEndian, RLELossless, generate_uid
+
+CT = "1.2.840.10008.5.1.4.1.1.2"
+NZ, NY, NX = 9, 12, 14
+SPACING = (0.8, 0.7)  # between rows, between columns
+STEP = 2.5
+ORIGIN = np.array([-20.0, -30.0, 100.0])
+
+
+def uid(*words):
+    return generate_uid(entropy_srcs=[str(w) for w in words])
+
+
+def stored_values():
+    """A lopsided body on a ramp: no two axes can be swapped or flipped unnoticed."""
+    z, y, x = np.mgrid[0:NZ, 0:NY, 0:NX]
+    return 40 * x + 7 * y + 300 * z + 500 * ((x - 9) ** 2 + (y - 4) ** 2 + 4 * (z - 3) ** 2 < 20)
+
+
+def new_slice(case, name, series="only"):
+    meta = FileMetaDataset()
+    meta.MediaStorageSOPClassUID = CT
+    meta.MediaStorageSOPInstanceUID = uid(case, series, name)
+    meta.TransferSyntaxUID = ExplicitVRLittleEndian
+    d = FileDataset("", {}, file_meta=meta, preamble=b"\0" * 128)
+    d.SOPClassUID, d.SOPInstanceUID = CT, meta.MediaStorageSOPInstanceUID
+    d.Modality = "CT"
+    d.SeriesDescription = f"{series} {case}"
+    d.StudyInstanceUID, d.SeriesInstanceUID = uid(case, "study"), uid(case, series)
+    d.FrameOfReferenceUID = uid(case, "frame")
+    d.PatientName, d.PatientID = "Phantom^One", "P1"
+    d.Rows, d.Columns = NY, NX
+    d.PixelSpacing, d.SliceThickness = list(SPACING), STEP
+    d.SamplesPerPixel, d.PhotometricInterpretation = 1, "MONOCHROME2"
+    d.BitsAllocated, d.BitsStored, d.HighBit, d.PixelRepresentation = 16, 16, 15, 1
+    d.RescaleSlope, d.RescaleIntercept = 1, -1024
+    d.is_little_endian, d.is_implicit_VR = True, False
+    return d
+
+
+def set_pixels(d, values, dtype="<i2"):
+    d.PixelData = np.ascontiguousarray(values).astype(dtype).tobytes()
+    d["PixelData"].VR = "OB" if np.dtype(dtype).itemsize == 1 else "OW"
+
+
+def place(d, orientation, position):
+    d.ImageOrientationPatient = [f"{v:.9f}" for v in orientation]
+    d.ImagePositionPatient = [f"{v:.6f}" for v in position]
+
+
+def make(case, folder):
+    rng = random.Random(case)
+    files = folder / "dicom"
+    files.mkdir(parents=True)
+    c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
+    orientation = {"oblique": (c, s, 0, -s * c, c * c, s), "coronal": (1, 0, 0, 0, 0, -1)}.get(case, (1, 0, 0, 0, 1, 0))
+    row, column = np.array(orientation[:3]), np.array(orientation[3:])
+    normal = np.cross(row, column)
+    step = STEP * normal
+    if case == "tilt":
+        step = step + np.tan(np.radians(15)) * STEP * column
+    stored = stored_values()
+    truth = stored - 1024.0
+    names, numbers = rng.sample(range(100), NZ), rng.sample(range(1000), NZ)
+
+    def save(d, name):
+        d.save_as(files / name, write_like_original=False)
+
+    for k in range(NZ):
+        if case == "missing" and k in (3, 4, 7):
+            continue
+        d = new_slice(case, k)
+        d.InstanceNumber = numbers[k]
+        position = ORIGIN + k * step
+        if case == "jitter":
+            position = position + (0.2 if k == 4 else 0) * normal
+        if case == "shifted":
+            position = position + (0.5 if k == 4 else 0) * row
+        place(d, orientation, position)
+        set_pixels(d, stored[k])
+        if case == "fraction":
+            d.RescaleSlope, d.RescaleIntercept = 0.5, -0.25
+            truth[k] = stored[k] * 0.5 - 0.25
+        if case == "slopes":
+            d.RescaleSlope, d.RescaleIntercept = f"{1 + 0.001 * k:g}", 0
+            truth[k] = stored[k] * (1 + 0.001 * k)
+        if case == "masked":  # 12 signed bits above 2 unused ones, rubbish in the rest
+            d.BitsStored, d.HighBit, d.RescaleIntercept = 12, 13, 0
+            value = stored[k] - 1500
+            set_pixels(d, ((value & 0xFFF) << 2) | (rng.randrange(4) << 14) | rng.randrange(4), "<u2")
+            truth[k] = value
+        if case == "bytes":
+            d.BitsAllocated, d.BitsStored, d.HighBit, d.PixelRepresentation, d.RescaleIntercept = 8, 8, 7, 0, 0
+            set_pixels(d, stored[k] % 256, "u1")
+            truth[k] = stored[k] % 256
+        if case == "unsigned":
+            d.PixelRepresentation, d.RescaleIntercept = 0, 0
+            set_pixels(d, stored[k] + 60000, "<u2")
+            truth[k] = stored[k] + 60000
+        if case == "wide":
+            d.BitsAllocated, d.BitsStored, d.HighBit, d.RescaleIntercept = 32, 32, 31, 0
+            set_pixels(d, stored[k] * -100000, "<i4")
+            truth[k] = stored[k] * -100000
+        if case == "implicit":
+            d.file_meta.TransferSyntaxUID, d.is_implicit_VR = ImplicitVRLittleEndian, True
+        if case == "big_endian":
+            d.file_meta.TransferSyntaxUID, d.is_little_endian = "1.2.840.10008.1.2.2", False
+            set_pixels(d, stored[k], ">i2")
+        if case == "deflated":
+            d.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.1.99"
+        if case == "rle":
+            d.compress(RLELossless)
+        if case == "jpeg2000":  # refused by name, so the pixels need not be real
+            d.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.90"
+            d.PixelData = encapsulate([b"\0" * 64])
+            d["PixelData"].is_undefined_length = True
+        if case == "inverted":
+            d.PhotometricInterpretation = "MONOCHROME1"
+        if case == "colour":
+            d.PhotometricInterpretation, d.SamplesPerPixel, d.PlanarConfiguration = "RGB", 3, 0
+            d.BitsAllocated, d.BitsStored, d.HighBit, d.PixelRepresentation = 8, 8, 7, 0
+            set_pixels(d, np.repeat(stored[k] % 256, 3), "u1")
+        if case == "acquisitions":  # differs from slice to slice without meaning anything
+            d.AcquisitionNumber = k + 1
+        if case == "anonymised":
+            d.FrameOfReferenceUID = uid(case, "frame", k)
+        name = f"f{names[k]:04d}.dcm"
+        save(d, name)
+        if case == "truncated" and k == 5:
+            content = (files / name).read_bytes()
+            (files / name).write_bytes(content[:-100])
+        if case == "duplicated" and k == 5:
+            (files / "copy.dcm").write_bytes((files / name).read_bytes())
+        if case in ("echoes", "times", "other_series"):
+            series = "other" if case == "other_series" else "only"
+            d2 = new_slice(case, f"{k} again", series)
+            place(d2, orientation, position)
+            set_pixels(d2, stored[k] + 1)
+            if case == "echoes":
+                d.EchoNumbers, d2.EchoNumbers = 1, 2
+            if case == "times":  # no two slices share a time
+                d.TriggerTime, d2.TriggerTime = f"{300 - k}", f"{700 - 3 * k}"
+            save(d, name)
+            save(d2, f"a{names[k]:04d}.dcm")
+    if case == "company":
+        (files / "README.txt").write_text("not DICOM")
+        (files / "empty").write_bytes(b"")
+        d = new_slice(case, "structures", "structures")
+        for word in ("Rows", "Columns", "PixelSpacing", "RescaleSlope"):
+            delattr(d, word)
+        d.Modality = "RTSTRUCT"
+        save(d, "structures.dcm")
+        d = new_slice(case, "capture", "capture")
+        set_pixels(d, stored[0])
+        save(d, "capture.dcm")
+
+    affine = np.column_stack([row * SPACING[1], column * SPACING[0], step, ORIGIN])
+    lines = [f"{NX} {NY} {NZ}"] + [" ".join(repr(float(v)) for v in line) for line in affine]
+    (folder / "truth.txt").write_text("\n".join(lines) + "\n")
+    (folder / "truth.raw").write_bytes(truth.astype("<f8").tobytes())
+
+
+def make_enhanced(folder):
+    files = folder / "dicom"
+    files.mkdir(parents=True)
+    d = new_slice("enhanced", "frames")
+    d.SOPClassUID = d.file_meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2.1"
+    d.NumberOfFrames = NZ
+    frames = []
+    for k in range(NZ):
+        position = Dataset()
+        position.ImagePositionPatient = [0, 0, STEP * k]
+        frame = Dataset()
+        frame.PlanePositionSequence = Sequence([position])
+        frames.append(frame)
+    d.PerFrameFunctionalGroupsSequence = Sequence(frames)
+    set_pixels(d, stored_values())
+    d.save_as(files / "enhanced.dcm", write_like_original=False)
+
+
+case, folder = sys.argv[1], Path(sys.argv[2])
+make_enhanced(folder) if case == "enhanced" else make(case, folder)

@@ -4,29 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "kontur/base/error.h"
 #include "kontur/shape/grid.h"
+#include "support/contour_sets.h"
 
 namespace kontur {
 namespace {
 
-Contour circle(const Plane& plane, double radius, int count) {
-    Contour contour{plane, {}, true, false};
-    for (int i = 0; i < count; ++i) {
-        const double angle = 2 * std::numbers::pi * i / count;
-        contour.points.push_back(plane.from_uv(radius * std::cos(angle), radius * std::sin(angle)));
-    }
-    return contour;
-}
-
-ContourSet three_circles() {
-    ContourSet set;
-    for (int i = 0; i < 3; ++i) set.contours.push_back(circle(make_plane({1, 2, 3.0 * i}, {0.3, -0.2, 1}), 10, 20));
-    return set;
-}
+using test::three_circles;
 
 /// The message of the refusal; empty when the set passes.
 std::string refusal(const ContourSet& set, const ContourCheckOptions& options = {}) {

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/markups.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "kontur/base/error.h"
+#include "support/contour_sets.h"
+#include "support/temporary_folder.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSmall =
+    R"({"@schema": "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/)"
+    R"(markups-schema-v1.0.3.json#", "markups": [{"type": "ClosedCurve", "name": "Lesion", "coordinateSystem": "LPS", )"
+    R"("coordinateUnits": "mm", "locked": false, "controlPoints": [)"
+    R"({"id": "1", "position": [13.0, -11.0, 112.5], "positionStatus": "defined"},)"
+    R"({"id": "2", "position": [5.0, -3.0, 112.5], "positionStatus": "defined"},)"
+    R"({"id": "3", "position": [-3.0, -11.0, 112.5]}]}]})";
+
+std::string replaced(std::string_view what, std::string_view with) {
+    std::string text(kSmall);
+    const std::size_t at = text.find(what);
+    if (at == std::string::npos) throw std::logic_error("not in the sample: " + std::string(what));
+    return text.replace(at, what.size(), with);
+}
+
+class Markups : public testing::Test {
+protected:
+    ContourSet read(std::string_view text, const ReadMarkupsOptions& options = {}) {
+        std::ofstream(folder_ / "in.mrk.json", std::ios::binary) << text;
+        return read_markups(folder_ / "in.mrk.json", options);
+    }
+    std::string refusal(std::string_view text, ErrorKind kind) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), kind) << error.what();
+            EXPECT_TRUE(std::string_view(error.what()).starts_with((folder_ / "in.mrk.json").string())) << error.what();
+            return error.what();
+        }
+        ADD_FAILURE() << "accepted: " << text;
+        return {};
+    }
+    ContourSet written_and_read(const ContourSet& set) {
+        write_markups(folder_ / "out.mrk.json", set);
+        return read_markups(folder_ / "out.mrk.json");
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Markups, ReadsAClosedCurveWithItsPlane) {
+    const ContourSet set = read(kSmall);
+    EXPECT_EQ(set.name, "Lesion");
+    ASSERT_EQ(set.contours.size(), 1u);
+    EXPECT_EQ(set.contours[0].points, (std::vector<Vec3>{{13, -11, 112.5}, {5, -3, 112.5}, {-3, -11, 112.5}}));
+    EXPECT_TRUE(set.contours[0].closed);
+    EXPECT_FALSE(set.contours[0].hole);
+    EXPECT_NEAR(std::abs(set.contours[0].plane.normal.z), 1, 1e-12);
+    EXPECT_NO_THROW(check_contours(set));
+}
+
+TEST_F(Markups, FramesByNameAndByNumber) {
+    const Vec3 lps{13, -11, 112.5}, ras{-13, 11, 112.5};
+    for (const auto& [text, first] : std::vector<std::pair<std::string, Vec3>>{
+             {"\"LPS\"", lps}, {"\"1\"", lps}, {"1", lps}, {"\"RAS\"", ras}, {"\"0\"", ras}, {"0", ras}})
+        EXPECT_EQ(read(replaced("\"LPS\"", text)).contours[0].points[0], first) << text;
+    EXPECT_EQ(read(replaced("\"coordinateSystem\": \"LPS\", ", "")).contours[0].points[0], lps) << "the schema's default";
+    EXPECT_NE(refusal(replaced("\"LPS\"", "\"IJK\""), ErrorKind::unsupported).find("\"IJK\""), std::string::npos);
+}
+
+TEST_F(Markups, UnitsByCodeAloneOrWithItsScheme) {
+    EXPECT_EQ(read(replaced("\"mm\"", R"(["mm", "UCUM", "millimeter"])")).contours[0].points[0].z, 112.5);
+    EXPECT_DOUBLE_EQ(read(replaced("\"mm\"", "\"um\"")).contours[0].points[0].z, 0.1125);
+    EXPECT_NE(refusal(replaced("\"mm\"", "\"cm\""), ErrorKind::unsupported).find("\"cm\""), std::string::npos);
+}
+
+TEST_F(Markups, LeavesOutPointsWithoutAPosition) {
+    for (const char* extra : {R"({"id": "4", "position": "", "positionStatus": "undefined"})",
+                              R"({"id": "4", "position": [1.0, 2.0, 3.0], "positionStatus": "preview"})", R"({"id": "4"})"})
+        EXPECT_EQ(read(replaced("112.5]}]", std::string("112.5]}, ") + extra + "]")).contours[0].points.size(), 3u) << extra;
+}
+
+TEST_F(Markups, OtherTypesAreRefusedByName) {
+    for (const char* type : {"Fiducial", "Line", "Angle", "Curve", "Plane", "ROI"})
+        EXPECT_NE(refusal(replaced("ClosedCurve", type), ErrorKind::unsupported).find(std::string("type \"") + type + "\""),
+                  std::string::npos);
+    EXPECT_NE(refusal(replaced("schema-v1.0.3", "schema-v2.0.0"), ErrorKind::unsupported).find("schema-v2.0.0"),
+              std::string::npos);
+}
+
+TEST_F(Markups, RefusalsNameMarkupPointNumberAndLimit) {
+    EXPECT_NE(refusal(replaced("[5.0, -3.0, 112.5]", "[5.0, null, 112.5]"), ErrorKind::corrupt_file)
+                  .find("markup 1: control point 2: y is null, not a number"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced(R"(112.5], "positionStatus": "defined")", R"(112.5], "positionStatus": "undefined")"),
+                      ErrorKind::invalid_input)
+                  .find("markup 1: has 2 points with a position; at least 3 are needed"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced("[5.0, -3.0, 112.5]", "[5.0, -11.0, 112.5]"), ErrorKind::invalid_input)
+                  .find("markup 1: its 3 points lie on one line"),
+              std::string::npos);
+    refusal("[]", ErrorKind::corrupt_file);
+    refusal(R"({"@schema": "markups-schema-v1.0.0.json#"})", ErrorKind::corrupt_file);
+}
+
+TEST_F(Markups, ACurveThatIsNotPlanarIsRefusedWithTheDistance) {
+    ContourSet set = test::three_circles();
+    for (std::size_t i = 0; i < 20; ++i) set.contours[1].points[i] += (i % 2 ? 0.5 : -0.5) * set.contours[1].plane.normal;
+    write_markups(folder_ / "bent.mrk.json", set);
+    try {
+        read_markups(folder_ / "bent.mrk.json");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::invalid_input);
+        EXPECT_NE(std::string(error.what()).find("markup 2: is not planar: points lie up to 0.5 mm off"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_NO_THROW(read_markups(folder_ / "bent.mrk.json", {.plane_tolerance_mm = 0.6}));
+}
+
+TEST_F(Markups, WritingAndReadingGivesTheSamePointsHolesAndName) {
+    ContourSet set = test::three_circles();
+    set.name = "liver \"left\" ü";
+    set.contours[1].hole = true;
+    const ContourSet again = written_and_read(set);
+    EXPECT_EQ(again.name, set.name);
+    ASSERT_EQ(again.contours.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(again.contours[i].points, set.contours[i].points);
+        EXPECT_EQ(again.contours[i].hole, i == 1);
+        EXPECT_NEAR(std::abs(dot(again.contours[i].plane.normal, set.contours[i].plane.normal)), 1, 1e-12);
+    }
+}
+
+TEST_F(Markups, NamesSurviveNumbersOfTheirOwn) {
+    ContourSet set = test::three_circles();
+    for (const char* name : {"", "L5", "CC_1"}) {
+        set.name = name;
+        set.contours.resize(1);
+        EXPECT_EQ(written_and_read(set).name, name);
+    }
+    set.name = "T12";
+    set.contours.resize(12, set.contours[0]);
+    EXPECT_EQ(written_and_read(set).name, "T12");
+}
+
+TEST_F(Markups, WholeNumbersKeepTheirDecimalPoint) {
+    ContourSet set;
+    set.contours.push_back({Plane{}, {{0, 0, 0}, {100, 0, 0}, {0, 12345678, 0}}, true, false});
+    write_markups(folder_ / "out.mrk.json", set);
+    std::ostringstream text;
+    text << std::ifstream(folder_ / "out.mrk.json").rdbuf();
+    EXPECT_NE(text.str().find("[100.0,0.0,0.0]"), std::string::npos) << text.str();
+    EXPECT_EQ(read_markups(folder_ / "out.mrk.json").contours[0].points, set.contours[0].points);
+}
+
+TEST_F(Markups, RefusesToWriteWhatTheFormatCannotHold) {
+    ContourSet open = test::three_circles(), points = open, broken = open;
+    open.contours[1].closed = false;
+    points.interior = {{0, 0, 0}};
+    broken.contours[2].points[0].x = std::numeric_limits<double>::infinity();
+    for (const ContourSet& set : {open, points, broken}) EXPECT_THROW(write_markups(folder_ / "out.mrk.json", set), Error);
+    EXPECT_FALSE(fs::exists(folder_ / "out.mrk.json"));
+}
+
+TEST_F(Markups, EveryTruncatedPrefixIsRefused) {
+    for (std::size_t length = 0; length < kSmall.size(); ++length)
+        refusal(kSmall.substr(0, length), ErrorKind::corrupt_file);
+}
+
+TEST_F(Markups, FlippedBytesNeverDoMoreThanThrow) {
+    const auto seed = static_cast<unsigned>(std::hash<std::string>{}("Markups.FlippedBytesNeverDoMoreThanThrow"));
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    for (int run = 0; run < 2000; ++run) {
+        std::string text(kSmall);
+        for (int flips = 1 + run % 3; flips > 0; --flips) text[random() % text.size()] = static_cast<char>(random());
+        try {
+            read(text);
+        } catch (const Error&) {
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kontur

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "kontur/shape/contour.h"
+
+namespace kontur::test {
+
+/// A circle about the plane's origin.
+inline Contour circle(const Plane& plane, double radius_mm, int count) {
+    Contour contour{plane, {}, true, false};
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count;
+        contour.points.push_back(plane.from_uv(radius_mm * std::cos(angle), radius_mm * std::sin(angle)));
+    }
+    return contour;
+}
+
+/// Three circles of 20 points in parallel oblique planes.
+inline ContourSet three_circles() {
+    ContourSet set;
+    for (int i = 0; i < 3; ++i) set.contours.push_back(circle(make_plane({1, 2, 3.0 * i}, {0.3, -0.2, 1}), 10, 20));
+    return set;
+}
+
+}  // namespace kontur::test

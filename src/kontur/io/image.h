@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "kontur/io/read_image_options.h"
+#include "kontur/shape/volume.h"
+
+namespace kontur {
+
+/// Reads a scalar image in any known format, chosen by the file's name, else by its content. Geometry arrives in mm, LPS,
+/// with its shear. Errors: io, corrupt_file (truncated, lying or contradictory), unsupported (a variant, or an unknown
+/// format: the message lists the known ones), too_large. Every message names the file.
+Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {});
+
+/// The geometry alone; reads no voxels.
+Grid read_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});
+
+/// Reads a mask: the voxels with the value `label`, or without one all voxels other than 0. Throws Error(invalid_input),
+/// listing the labels in the file, when it holds several and none was chosen, or when the chosen one is not there.
+Mask read_mask(const std::filesystem::path& path, std::optional<std::int64_t> label = {},
+               const ReadImageOptions& options = {});
+
+struct WriteMaskOptions {
+    std::int64_t label_value = 1;            ///< value inside, 1 to 65535; 8-bit samples up to 255, else 16-bit ones
+    std::string segment_name = "Segment_1";  ///< for .seg.nrrd
+    std::array<double, 3> segment_color{0.5, 0.7, 0.4};  ///< for .seg.nrrd; red, green, blue from 0 to 1
+};
+
+/// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha), whole or not at all.
+void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
+
+/// Writes an image with its sample type, likewise.
+void write_image(const std::filesystem::path& path, const Image& image);
+
+/// Throws the Error(unsupported) of `write_mask` for a name without a known extension: so that a long computation is
+/// refused before it starts.
+void check_image_name(const std::filesystem::path& path);
+
+}  // namespace kontur

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+constexpr std::uint64_t kMaxInflation = 1100;
+constexpr std::size_t kMaxTrailingBytes = std::size_t{1} << 20;
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& reason) {
+    throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + reason);
+}
+
+[[noreturn]] void fail_corrupt(const std::filesystem::path& path, const std::string& reason) {
+    throw Error(ErrorKind::corrupt_file, path.string() + ": " + reason);
+}
+
+}  // namespace
+
+struct InputFile::Inflater {
+    z_stream stream{};
+    bool ended = false;
+
+    Inflater() {
+        constexpr int kGzipOrZlib = 32;
+        if (::inflateInit2(&stream, MAX_WBITS + kGzipOrZlib) != Z_OK) throw std::bad_alloc();
+    }
+    ~Inflater() { ::inflateEnd(&stream); }
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+};
+
+InputFile::InputFile(const std::filesystem::path& path)
+    : path_(path), buffer_(std::make_unique_for_overwrite<unsigned char[]>(kBufferBytes)) {
+    // Without O_NONBLOCK, opening a pipe would wait for its writer.
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor_ < 0) fail_to_read(path, std::generic_category().message(errno));
+    struct stat status {};
+    const bool known = ::fstat(descriptor_, &status) == 0;
+    if (known && S_ISREG(status.st_mode)) {
+        stored_bytes_ = static_cast<std::uint64_t>(status.st_size);
+        return;
+    }
+    ::close(descriptor_);
+    fail_to_read(path, known && S_ISDIR(status.st_mode) ? "it is a folder" : "it is no regular file");
+}
+
+InputFile::~InputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      stored_bytes_(other.stored_bytes_),
+      fetched_(other.fetched_),
+      buffer_(std::move(other.buffer_)),
+      buffer_begin_(other.buffer_begin_),
+      buffer_end_(other.buffer_end_),
+      inflater_(std::move(other.inflater_)),
+      declared_(other.declared_),
+      delivered_(other.delivered_) {}
+
+std::size_t InputFile::fetch(void* to, std::size_t count) {
+    ::ssize_t got;
+    do got = ::read(descriptor_, to, std::min<std::size_t>(count, std::size_t{1} << 30));
+    while (got < 0 && errno == EINTR);
+    if (got < 0) fail_to_read(path_, std::generic_category().message(errno));
+    fetched_ += static_cast<std::uint64_t>(got);
+    // A file that grows while it is read is read to the end it has now.
+    stored_bytes_ = std::max(stored_bytes_, fetched_);
+    return static_cast<std::size_t>(got);
+}
+
+bool InputFile::fill() {
+    if (buffer_begin_ < buffer_end_) return true;
+    buffer_begin_ = 0;
+    buffer_end_ = fetch(buffer_.get(), kBufferBytes);
+    return buffer_end_ > 0;
+}
+
+bool InputFile::at_gzip() {
+    return fill() && buffer_end_ - buffer_begin_ >= 2 && buffer_[buffer_begin_] == 0x1f &&
+           buffer_[buffer_begin_ + 1] == 0x8b;
+}
+
+void InputFile::inflate() { inflater_ = std::make_unique<Inflater>(); }
+
+std::optional<std::string> InputFile::read_line(std::size_t max_length) {
+    std::string line;
+    while (fill()) {
+        const auto* begin = buffer_.get() + buffer_begin_;
+        const auto* end = static_cast<const unsigned char*>(std::memchr(begin, '\n', buffer_end_ - buffer_begin_));
+        const std::size_t length = end ? static_cast<std::size_t>(end - begin) : buffer_end_ - buffer_begin_;
+        if (line.size() + length > max_length)
+            fail_corrupt(path_, "a header line is longer than " + std::to_string(max_length) + " bytes");
+        line.append(reinterpret_cast<const char*>(begin), length);
+        buffer_begin_ += length + (end ? 1 : 0);
+        if (!end) continue;
+        if (line.ends_with('\r')) line.pop_back();
+        return line;
+    }
+    if (line.empty()) return std::nullopt;
+    return line;
+}
+
+void InputFile::expect(std::uint64_t declared) {
+    const std::uint64_t stored = stored_bytes_left();
+    if (!inflater_ && declared > stored)
+        fail_corrupt(path_, "its header declares " + std::to_string(declared) + " bytes of voxels, but only " +
+                                std::to_string(stored) + " are there");
+    if (inflater_ && declared / kMaxInflation > stored)
+        fail_corrupt(path_, "its header declares " + std::to_string(declared) + " bytes of voxels, more than the " +
+                                std::to_string(stored) + " compressed bytes there can hold");
+    declared_ = declared;
+    delivered_ = 0;
+}
+
+void InputFile::read(void* to, std::size_t count) {
+    if (read_some(to, count) != count) fail_short();
+}
+
+std::size_t InputFile::read_some(void* to, std::size_t count) {
+    const std::size_t got = inflater_ ? read_inflated(static_cast<unsigned char*>(to), count) : read_stored(to, count);
+    delivered_ += got;
+    return got;
+}
+
+std::size_t InputFile::read_stored(void* to, std::size_t count) {
+    auto* next = static_cast<unsigned char*>(to);
+    std::size_t left = count;
+    while (left > 0) {
+        std::size_t got;
+        if (buffer_begin_ == buffer_end_ && left >= kBufferBytes) {
+            got = fetch(next, left);
+        } else {
+            if (!fill()) break;
+            got = std::min(left, buffer_end_ - buffer_begin_);
+            std::memcpy(next, buffer_.get() + buffer_begin_, got);
+            buffer_begin_ += got;
+        }
+        if (got == 0) break;
+        next += got;
+        left -= got;
+    }
+    return count - left;
+}
+
+std::size_t InputFile::read_inflated(unsigned char* to, std::size_t count) {
+    z_stream& stream = inflater_->stream;
+    std::size_t left = count;
+    while (left > 0 && !inflater_->ended) {
+        if (!fill()) fail_short();
+        stream.next_in = buffer_.get() + buffer_begin_;
+        stream.avail_in = static_cast<uInt>(buffer_end_ - buffer_begin_);
+        stream.next_out = to + (count - left);
+        const uInt room = static_cast<uInt>(std::min<std::size_t>(left, std::size_t{1} << 30));
+        stream.avail_out = room;
+        const int status = ::inflate(&stream, Z_NO_FLUSH);
+        buffer_begin_ = buffer_end_ - stream.avail_in;
+        left -= room - stream.avail_out;
+        if (status == Z_STREAM_END) inflater_->ended = !next_member();
+        else if (status != Z_OK && status != Z_BUF_ERROR)
+            fail_corrupt(path_,
+                         std::string("its compressed data are damaged: ") + (stream.msg ? stream.msg : "inflate failed"));
+    }
+    return count - left;
+}
+
+/// Parallel compressors write several gzip members one after the other.
+bool InputFile::next_member() { return at_gzip() && ::inflateReset(&inflater_->stream) == Z_OK; }
+
+void InputFile::skip(std::uint64_t count) {
+    if (inflater_) {
+        std::vector<unsigned char> discarded(std::min<std::uint64_t>(count, kBufferBytes));
+        for (std::uint64_t left = count; left > 0; left -= std::min<std::uint64_t>(left, discarded.size()))
+            read(discarded.data(), std::min<std::uint64_t>(left, discarded.size()));
+        return;
+    }
+    if (count > stored_bytes_left()) fail_short();
+    delivered_ += count;
+    const std::uint64_t buffered = std::min<std::uint64_t>(count, buffer_end_ - buffer_begin_);
+    buffer_begin_ += buffered;
+    if (count == buffered) return;
+    if (::lseek(descriptor_, static_cast<::off_t>(count - buffered), SEEK_CUR) < 0)
+        fail_to_read(path_, std::generic_category().message(errno));
+    fetched_ += count - buffered;
+}
+
+void InputFile::finish() {
+    if (!inflater_) return;
+    std::vector<unsigned char> trailing(kBufferBytes);
+    std::size_t total = 0;
+    while (!inflater_->ended) {
+        total += read_inflated(trailing.data(), trailing.size());
+        if (total > kMaxTrailingBytes)
+            fail_corrupt(path_, "more than " + std::to_string(kMaxTrailingBytes) + " bytes follow its last voxel");
+    }
+}
+
+void InputFile::fail_short() const {
+    if (!declared_) fail_corrupt(path_, "it ends after " + std::to_string(delivered_) + " bytes, within its header");
+    fail_corrupt(path_, "its header declares " + std::to_string(*declared_) + " bytes of voxels, but it ends after " +
+                            std::to_string(delivered_));
+}
+
+InputFile open_beside(const std::filesystem::path& header, const std::string& name) {
+    if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
+        throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + name +
+                                                "\"; only a plain file name in the header's own folder is accepted");
+    return InputFile(header.parent_path() / name);
+}
+
+}  // namespace kontur

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/image.h"
+
+#include "image_cases.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+using test::expect_error;
+using Labels = std::map<std::int64_t, std::int64_t>;
+
+Mask chessboard(const Grid& grid) {
+    Mask mask{grid, {}};
+    for (std::int64_t n = 0; n < grid.voxel_count(); ++n) mask.values.push_back(static_cast<std::uint8_t>(n % 2));
+    return mask;
+}
+
+class ImageFiles : public ::testing::TestWithParam<const char*> {
+protected:
+    fs::path path() const { return folder / ("mask" + std::string(GetParam())); }
+
+    test::TemporaryFolder folder;
+    Mask mask = chessboard(test::all_orientations()[49]);
+};
+
+TEST_P(ImageFiles, MaskComesBack) {
+    write_mask(path(), mask);
+    const Mask again = read_mask(path());
+    EXPECT_EQ(again.values, mask.values);
+    EXPECT_LT(corner_distance_mm(again.grid, mask.grid), 5e-4);
+    EXPECT_EQ(read_grid(path()), again.grid);
+}
+
+TEST_P(ImageFiles, LabelValueChoosesTheNarrowestSamples) {
+    for (const std::int64_t value : {1, 7, 255, 256, 65535}) {
+        WriteMaskOptions options;
+        options.label_value = value;
+        write_mask(path(), mask, options);
+        const Image image = read_image(path());
+        EXPECT_EQ(std::holds_alternative<std::vector<std::uint8_t>>(image.samples), value <= 255);
+        EXPECT_EQ(count_labels(image), (Labels{{value, 12}}));
+        EXPECT_EQ(read_mask(path(), value).values, mask.values);
+    }
+}
+
+TEST_P(ImageFiles, ImageComesBack) {
+    const Image image = test::pattern_image<float>(mask.grid);
+    write_image(path(), image);
+    EXPECT_EQ(read_image(path()).samples, image.samples);
+}
+
+TEST_P(ImageFiles, FailureLeavesNothing) {
+    fs::create_directory(folder / "file");
+    for (const std::int64_t value : {0, -1, 65536}) {
+        WriteMaskOptions options;
+        options.label_value = value;
+        expect_error(ErrorKind::invalid_input, "label value " + std::to_string(value),
+                     [&] { write_mask(path(), mask, options); });
+    }
+    Mask empty;
+    EXPECT_THROW(write_mask(path(), empty), Error);
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, ImageFiles, ::testing::Values(".nii", ".nii.gz"));
+
+TEST(ReadMask, AsksWhichOfSeveralLabels) {
+    const test::TemporaryFolder folder;
+    const Grid grid = test::all_orientations()[0];
+    std::vector<std::int16_t> values(24, 0);
+    values[3] = 5;
+    values[7] = values[8] = 9;
+    write_image(folder / "labels.nii", {grid, values});
+    expect_error(ErrorKind::invalid_input, "2 labels; choose one of 5, 9", [&] { read_mask(folder / "labels.nii"); });
+    expect_error(ErrorKind::invalid_input, "no label 6; its labels are 5, 9", [&] { read_mask(folder / "labels.nii", 6); });
+    EXPECT_EQ(select_nonzero({grid, read_mask(folder / "labels.nii", 9).values}).values[7], 1);
+}
+
+TEST(ReadMask, RefusesFractions) {
+    const test::TemporaryFolder folder;
+    write_image(folder / "image.nii", test::pattern_image<float>(test::all_orientations()[0]));
+    expect_error(ErrorKind::invalid_input, "no label map", [&] { read_mask(folder / "image.nii"); });
+}
+
+TEST(ReadImage, NamesTheKnownFormats) {
+    const test::TemporaryFolder folder;
+    test::put_content(folder / "picture.xyz", "something else");
+    expect_error(ErrorKind::unsupported, ".nii", [&] { read_image(folder / "picture.xyz"); });
+    expect_error(ErrorKind::unsupported, ".nii", [&] { write_mask(folder / "mask.xyz", chessboard({{4, 3, 2}, {}})); });
+    expect_error(ErrorKind::io, "No such file", [&] { read_image(folder / "missing.nii"); });
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+/// What is known of a real file by other readers.
+struct RealFile {
+    const char* path;
+    Index3 size;
+    Vec3 spacing_mm;
+    double determinant_sign;
+    Labels labels;
+};
+
+void PrintTo(const RealFile& file, std::ostream* out) { *out << file.path; }
+
+class RealLabelMaps : public ::testing::TestWithParam<RealFile> {};
+
+TEST_P(RealLabelMaps, HaveTheKnownGeometryAndCounts) {
+    const RealFile& known = GetParam();
+    KONTUR_REQUIRE_DATA(known.path);
+    const Image image = read_image(test::data_dir() / known.path);
+    EXPECT_EQ(image.grid.size, known.size);
+    EXPECT_LT(norm(image.grid.spacing_mm() - known.spacing_mm), 2e-4);
+    EXPECT_GT(image.grid.index_to_mm.determinant() * known.determinant_sign, 0);
+    const Labels counts = count_labels(image);
+    for (const auto& [label, count] : known.labels) EXPECT_EQ(counts.contains(label) ? counts.at(label) : 0, count) << label;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, RealLabelMaps,
+    ::testing::Values(
+        RealFile{"01_ct_abdomen_totalseg_3mm/example_seg.nii.gz",
+                 {122, 101, 30},
+                 {3, 3, 3},
+                 1,
+                 {{1, 9452}, {2, 3947}, {5, 38634}}},
+        RealFile{"02_ct_abdomen_torsoLabel_5mm/torsoLabel.nii.gz",
+                 {384, 320, 89},
+                 {0.782, 0.782, 5},
+                 1,
+                 {{1, 33634}, {6, 385168}}},
+        RealFile{"03_sarcoma_STS_002/PET/PET_mask.nii.gz", {30, 27, 48}, {5.46875, 5.46875, 3.27}, 1, {{1, 555}}},
+        RealFile{"04_sarcoma_STS_040/CT/CT_mask.nii.gz", {194, 204, 66}, {0.9766, 0.9766, 3.27}, 1, {{1, 128260}}},
+        RealFile{"06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", {78, 110, 64}, {1, 1, 1}, 1, {{1, 18138}, {4, 2250}, {7, 7661}}},
+        RealFile{"10_cine_mr_SC-HF-I-1/mask_ED_endo.nii.gz", {130, 130, 12}, {1.3672, 1.3672, 10}, -1, {{1, 10473}}},
+        RealFile{"12_ct_head_gantry_tilt_shear/shear_insert_threshold_mask.nii.gz",
+                 {306, 422, 54},
+                 {0.4824, 0.4824, 2.3708},
+                 1,
+                 {{1, 216417}}}));
+
+/// Angle between the second and the third axis, less 90 degrees.
+double shear_degrees(const Grid& grid) {
+    const Vec3 j = normalized(grid.index_to_mm.column(1)), k = normalized(grid.index_to_mm.column(2));
+    return std::abs(std::asin(dot(j, k))) * 180 / 3.14159265358979;
+}
+
+TEST(RealImages, GantryTiltKeepsItsShearOnceChosen) {
+    const char* file = "12_ct_head_gantry_tilt_shear/shear.nii.gz";
+    KONTUR_REQUIRE_DATA(file);
+    const fs::path path = test::data_dir() / file;
+    expect_error(ErrorKind::unsupported, "option prefer", [&] { read_image(path); });
+    ReadImageOptions options;
+    options.prefer = NiftiTransform::sform;
+    const Image image = read_image(path, options);
+    EXPECT_NEAR(shear_degrees(image.grid), 18.5, 0.1);
+    double low = 1e9, high = -1e9;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(image.grid.voxel_count()); ++n) {
+        low = std::min(low, sample(image, n));
+        high = std::max(high, sample(image, n));
+    }
+    EXPECT_NEAR(low, -1024, 0.01);
+    EXPECT_NEAR(high, 789, 1);
+    const Mask mask = read_mask(test::data_dir() / "12_ct_head_gantry_tilt_shear/shear_insert_threshold_mask.nii.gz");
+    EXPECT_LT(corner_distance_mm(mask.grid, image.grid), 1e-3);
+}
+
+TEST(RealImages, ObliqueCineNeedsAFrame) {
+    const char* file = "10_cine_mr_SC-HF-I-1/cine4d_crop.nii.gz";
+    KONTUR_REQUIRE_DATA(file);
+    const fs::path path = test::data_dir() / file;
+    expect_error(ErrorKind::unsupported, "20 frames", [&] { read_image(path); });
+    const Grid grid = read_grid(path);
+    EXPECT_LT(distance(normalized(grid.index_to_mm.column(0)), {-0.105, 0.346, -0.932}), 1e-3);
+    EXPECT_LT(distance(normalized(grid.index_to_mm.column(2)), {0.672, -0.666, -0.323}), 1e-3);
+}
+
+TEST(RealImages, FractionalLabelsAreNamed) {
+    const char* file = "11_4d_echo_itksnap/seg4d_11f.nii.gz";
+    KONTUR_REQUIRE_DATA(file);
+    std::int64_t refused = 0;
+    for (std::int64_t frame = 0; frame < 11; ++frame) {
+        ReadImageOptions options;
+        options.frame = frame;
+        try {
+            read_mask(test::data_dir() / file, 1, options);
+        } catch (const Error& error) {
+            refused += std::string(error.what()).find("not integers") != std::string::npos;
+        }
+    }
+    EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace kontur

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/nifti.h"
+
+#include <zlib.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "image_cases.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+using test::expect_error;
+
+/// Single precision of the header at the origin's distance, twice.
+constexpr double kFloatErrorMm = 5e-4;
+
+template <typename Value>
+void put(std::string& bytes, std::size_t offset, Value value) {
+    std::memcpy(bytes.data() + offset, &value, sizeof(value));
+}
+
+/// A valid uncompressed NIfTI-1 file as bytes, to be spoiled.
+std::string valid_file(const fs::path& scratch) {
+    write_nifti(scratch, test::pattern_image<std::int16_t>(test::all_orientations()[0]));
+    return test::content_of(scratch);
+}
+
+class Spoiled : public ::testing::Test {
+protected:
+    void expect_refused(ErrorKind kind, const std::string& part) {
+        test::put_content(folder / "spoiled.nii", bytes);
+        expect_error(kind, part, [&] { read_nifti(folder / "spoiled.nii", options); });
+    }
+
+    test::TemporaryFolder folder;
+    std::string bytes = valid_file(folder / "valid.nii");
+    ReadImageOptions options;
+};
+
+TEST(Nifti, WriteThenReadIsIdentityInAllOrientations) {
+    const test::TemporaryFolder folder;
+    int number = 0;
+    for (const Grid& grid : test::all_orientations())
+        for (const char* suffix : {".nii", ".nii.gz"}) {
+            const std::string name = std::to_string(number++) + suffix;
+            const Image image = test::pattern_image<std::int16_t>(grid);
+            write_nifti(folder / name, image);
+            const Image again = read_nifti(folder / name);
+            EXPECT_LT(corner_distance_mm(image.grid, again.grid), kFloatErrorMm) << name;
+            EXPECT_LT(corner_distance_mm(read_nifti_grid(folder / name), again.grid), 1e-12) << name;
+            EXPECT_EQ(again.samples, image.samples) << name;
+        }
+}
+
+TEST(Nifti, KeepsEverySampleType) {
+    const test::TemporaryFolder folder;
+    const Grid grid = test::all_orientations()[5];
+    const auto check = [&](const Image& image) {
+        write_nifti(folder / "a.nii.gz", image);
+        EXPECT_EQ(read_nifti(folder / "a.nii.gz").samples, image.samples);
+    };
+    check(test::pattern_image<std::uint8_t>(grid));
+    check(test::pattern_image<std::int16_t>(grid));
+    check(test::pattern_image<std::uint16_t>(grid));
+    check(test::pattern_image<float>(grid));
+    Image large = test::pattern_image<std::int32_t>(grid);
+    std::get<std::vector<std::int32_t>>(large.samples)[3] = std::numeric_limits<std::int32_t>::min();
+    check(large);
+}
+
+TEST(Nifti, NibabelReadsWhatIsWritten) {
+    const test::TemporaryFolder folder;
+    int number = 0;
+    const auto write = [&](const Image& image) {
+        const fs::path path = folder / (std::to_string(number) + (number % 2 ? ".nii" : ".nii.gz"));
+        write_nifti(path, image);
+        // The tolerance is that of the stored single-precision numbers; read_nifti sees the same ones.
+        Image stored = image;
+        stored.grid = read_nifti_grid(path);
+        test::write_expectation(path, stored, 1e-6);
+        EXPECT_LT(corner_distance_mm(stored.grid, image.grid), kFloatErrorMm);
+        ++number;
+    };
+    for (const Grid& grid : test::all_orientations()) write(test::pattern_image<std::int16_t>(grid));
+    const Grid grid = test::all_orientations().back();
+    write(test::pattern_image<std::uint8_t>(grid));
+    write(test::pattern_image<std::uint16_t>(grid));
+    write(test::pattern_image<std::int32_t>(grid));
+    write(test::pattern_image<float>(grid));
+    Grid long_grid = grid;
+    long_grid.size = {40000, 1, 1};
+    write(test::pattern_image<std::uint8_t>(long_grid));
+    test::run_image_oracle("check", folder.path());
+}
+
+TEST(Nifti, ReadsWhatNibabelWrites) {
+    const test::TemporaryFolder folder;
+    test::run_image_oracle("make-nifti", folder.path());
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+        if (entry.path().extension() == ".expect") continue;
+        const test::Expectation expected = test::read_expectation(entry.path());
+        const Image image = read_nifti(entry.path());
+        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
+        test::expect_same_values(image, expected.image, entry.path().string());
+        ++files;
+    }
+    EXPECT_EQ(files, 59);
+}
+
+TEST(Nifti, WritesNoQformForShear) {
+    const test::TemporaryFolder folder;
+    write_nifti(folder / "sheared.nii", test::pattern_image<std::uint8_t>(test::all_orientations().back()));
+    write_nifti(folder / "plain.nii", test::pattern_image<std::uint8_t>(test::all_orientations().front()));
+    const auto code = [&](const char* name, std::size_t offset) { return test::content_of(folder / name)[offset]; };
+    EXPECT_EQ(code("sheared.nii", 252), 0);
+    EXPECT_EQ(code("sheared.nii", 254), 1);
+    EXPECT_EQ(code("plain.nii", 252), 1);
+    EXPECT_EQ(code("plain.nii", 254), 1);
+}
+
+TEST(Nifti, SameImageSameBytes) {
+    const test::TemporaryFolder folder;
+    const Image image = test::pattern_image<float>(test::all_orientations()[50]);
+    write_nifti(folder / "a.nii.gz", image);
+    write_nifti(folder / "b.nii.gz", image);
+    EXPECT_EQ(test::content_of(folder / "a.nii.gz"), test::content_of(folder / "b.nii.gz"));
+    EXPECT_EQ(test::content_of(folder / "a.nii.gz").substr(4, 4), std::string(4, '\0'));
+}
+
+TEST(Nifti, RejectsEveryTruncatedPrefix) {
+    const test::TemporaryFolder folder;
+    for (const char* suffix : {".nii", ".nii.gz"}) {
+        const fs::path whole = folder / (std::string("whole") + suffix), part = folder / (std::string("part") + suffix);
+        write_nifti(whole, test::pattern_image<std::int16_t>(test::all_orientations()[50]));
+        test::expect_prefixes_refused(whole, part, [](const fs::path& path) { read_nifti(path); });
+    }
+}
+
+TEST(Nifti, ReadsSeveralGzipMembers) {
+    const test::TemporaryFolder folder;
+    const std::string bytes = valid_file(folder / "valid.nii");
+    for (std::size_t begin = 0; begin < bytes.size(); begin += 100) {
+        const gzFile file = ::gzopen((folder / "members.nii.gz").c_str(), begin ? "ab" : "wb");
+        const std::string part = bytes.substr(begin, 100);
+        ::gzwrite(file, part.data(), static_cast<unsigned>(part.size()));
+        ::gzclose(file);
+    }
+    EXPECT_EQ(read_nifti(folder / "members.nii.gz").samples, read_nifti(folder / "valid.nii").samples);
+}
+
+TEST(Nifti, RefusesAGzipBombBeforeAllocating) {
+    const test::TemporaryFolder folder;
+    std::string bytes = valid_file(folder / "valid.nii");
+    put<std::int16_t>(bytes, 42, 1024);
+    put<std::int16_t>(bytes, 44, 1024);
+    put<std::int16_t>(bytes, 46, 1024);
+    const gzFile file = ::gzopen((folder / "bomb.nii.gz").c_str(), "wb");
+    ::gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
+    ::gzclose(file);
+    expect_error(ErrorKind::corrupt_file, "2147483648 bytes of voxels", [&] { read_nifti(folder / "bomb.nii.gz"); });
+}
+
+TEST(Nifti, RefusesEndlessBytesBehindTheVoxels) {
+    const test::TemporaryFolder folder;
+    const std::string bytes = valid_file(folder / "valid.nii") + std::string(4 << 20, '\0');
+    const gzFile file = ::gzopen((folder / "long.nii.gz").c_str(), "wb");
+    ::gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
+    ::gzclose(file);
+    expect_error(ErrorKind::corrupt_file, "follow its last voxel", [&] { read_nifti(folder / "long.nii.gz"); });
+}
+
+TEST_F(Spoiled, ImpossibleSizesAreRefused) {
+    for (const auto axes : std::initializer_list<std::int16_t>{0, -1, 8, 32767}) {
+        put<std::int16_t>(bytes, 40, axes);
+        expect_refused(ErrorKind::corrupt_file, std::to_string(axes) + " axes");
+    }
+    put<std::int16_t>(bytes, 40, 3);
+    for (const auto size : std::initializer_list<std::int16_t>{0, -1, -32768}) {
+        put<std::int16_t>(bytes, 44, size);
+        expect_refused(ErrorKind::corrupt_file, std::to_string(size) + " voxels along axis 2");
+    }
+    put<std::int16_t>(bytes, 44, 30000);
+    put<std::int16_t>(bytes, 46, 30000);
+    expect_refused(ErrorKind::too_large, "3600000000 voxels");
+    options.max_voxels = std::numeric_limits<std::int64_t>::max();
+    expect_refused(ErrorKind::corrupt_file, "declares 7200000000 bytes of voxels, but only 48 are there");
+}
+
+TEST_F(Spoiled, VoxelCountsBeyond64BitsAreRefused) {
+    Grid grid = test::all_orientations()[0];
+    grid.size = {40000, 1, 1};
+    write_nifti(folder / "version2.nii", test::pattern_image<std::uint8_t>(grid));
+    bytes = test::content_of(folder / "version2.nii");
+    for (const std::int64_t size :
+         {std::int64_t{1} << 31, std::int64_t{1} << 62, std::numeric_limits<std::int64_t>::max()}) {
+        for (std::size_t axis = 1; axis <= 3; ++axis) put<std::int64_t>(bytes, 16 + 8 * axis, size);
+        expect_refused(ErrorKind::corrupt_file, "at most 2^53");
+    }
+    for (std::size_t axis = 1; axis <= 3; ++axis) put<std::int64_t>(bytes, 16 + 8 * axis, 2);
+    put<std::int64_t>(bytes, 16, 4);
+    put<std::int64_t>(bytes, 16 + 8 * 4, std::numeric_limits<std::int64_t>::max());
+    options.frame = 0;
+    expect_refused(ErrorKind::corrupt_file, "frames");
+}
+
+TEST_F(Spoiled, NonFiniteGeometryIsRefused) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    const std::string valid = bytes;
+    for (const float value : {nan, infinity})
+        for (const std::size_t offset : {76 + 4, 256, 268, 280, 292, 296, 308, 324}) {
+            bytes = valid;
+            put<float>(bytes, offset, value);
+            expect_refused(ErrorKind::corrupt_file, "not finite or linearly dependent");
+        }
+}
+
+TEST_F(Spoiled, OtherLiesAreRefused) {
+    const std::string valid = bytes;
+    const auto spoil = [&](std::size_t offset, auto value, ErrorKind kind, const std::string& part) {
+        bytes = valid;
+        put(bytes, offset, value);
+        expect_refused(kind, part);
+    };
+    spoil(0, std::int32_t{347}, ErrorKind::corrupt_file, "no NIfTI file");
+    spoil(344, std::int32_t{0}, ErrorKind::corrupt_file, "magic");
+    spoil(345, 'i', ErrorKind::unsupported, "second file");
+    spoil(70, std::int16_t{77}, ErrorKind::corrupt_file, "datatype 77");
+    spoil(70, std::int16_t{32}, ErrorKind::unsupported, "complex");
+    spoil(70, std::int16_t{128}, ErrorKind::unsupported, "colours");
+    spoil(108, 0.0f, ErrorKind::corrupt_file, "within its header");
+    spoil(108, -1e30f, ErrorKind::corrupt_file, "within its header");
+    spoil(108, 1e30f, ErrorKind::corrupt_file, "within its header");
+    spoil(108, 100000.0f, ErrorKind::corrupt_file, "ends after");
+    spoil(108, std::numeric_limits<float>::quiet_NaN(), ErrorKind::corrupt_file, "within its header");
+    spoil(112, std::numeric_limits<float>::infinity(), ErrorKind::corrupt_file, "scl_slope");
+    spoil(123, '\7', ErrorKind::corrupt_file, "unit of length 7");
+}
+
+TEST_F(Spoiled, ContradictingTransformsNeedAChoice) {
+    put<float>(bytes, 268, 200.0f);  // the qform's offset; the sform says 123.4
+    expect_refused(ErrorKind::unsupported, "differ by 76.");
+    options.prefer = NiftiTransform::sform;
+    EXPECT_NEAR(read_nifti(folder / "spoiled.nii", options).grid.index_to_mm.translation.x, -123.4, 1e-4);
+    options.prefer = NiftiTransform::qform;
+    EXPECT_NEAR(read_nifti(folder / "spoiled.nii", options).grid.index_to_mm.translation.x, -200, 1e-4);
+    put<float>(bytes, 268, 123.45f);
+    test::put_content(folder / "close.nii", bytes);
+    EXPECT_NO_THROW(read_nifti(folder / "close.nii"));
+}
+
+TEST_F(Spoiled, MissingTransformsNeedConsent) {
+    put<std::int16_t>(bytes, 252, 0);
+    put<std::int16_t>(bytes, 254, 0);
+    expect_refused(ErrorKind::unsupported, "allow_missing_geometry");
+    options.allow_missing_geometry = true;
+    const Grid grid = read_nifti(folder / "spoiled.nii", options).grid;
+    EXPECT_EQ(grid.index_to_mm.translation, Vec3{});
+    EXPECT_LT(distance(grid.index_to_mm.column(0), {-0.7, 0, 0}), 1e-6);
+    EXPECT_LT(distance(grid.index_to_mm.column(2), {0, 0, 2.5}), 1e-6);
+}
+
+TEST(Nifti, ReadsTheChosenFrame) {
+    KONTUR_REQUIRE_DATA("11_4d_echo_itksnap/seg4d_11f_label1.nii.gz");
+    const fs::path path = test::data_dir() / "11_4d_echo_itksnap/seg4d_11f_label1.nii.gz";
+    expect_error(ErrorKind::unsupported, "11 frames; choose one with the option frame (0 to 10)", [&] { read_nifti(path); });
+    ReadImageOptions options;
+    options.frame = 11;
+    expect_error(ErrorKind::invalid_input, "frame 11", [&] { read_nifti(path, options); });
+    options.frame = 0;
+    EXPECT_EQ(count_labels(read_nifti(path, options)), (std::map<std::int64_t, std::int64_t>{{1, 80}}));
+    EXPECT_EQ(read_nifti_grid(path).size, (Index3{38, 35, 38}));
+}
+
+}  // namespace
+}  // namespace kontur

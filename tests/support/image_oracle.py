@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Independent reader and writer of image files: nibabel for NIfTI, small parsers of its own for NRRD and MetaImage.
+
+    image_oracle.py check FOLDER        every FILE.expect in FOLDER must describe what is found in FILE
+    image_oracle.py make-nifti FOLDER   writes files and their FILE.expect (likewise make-nrrd, make-metaimage)
+
+An .expect file holds the size, the 3 x 4 matrix from index to mm (LPS) by rows, the tolerance in mm and all voxels, i fastest.
+"""
+import gzip
+import itertools
+import pathlib
+import sys
+import zlib
+
+import numpy as np
+
+RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
+
+
+def read_nifti(path):
+    import nibabel
+
+    image = nibabel.load(path)
+    header = image.header
+    qform, qcode = header.get_qform(coded=True)
+    if qcode > 0:
+        distance = corner_distance(image.shape, qform, header.get_sform())
+        assert distance < 0.02, f"qform and sform differ by {distance} mm"
+    assert header.get_xyzt_units()[0] == "mm"
+    assert header["descrip"].item().startswith(b"kontur ")
+    return RAS @ image.affine, np.asanyarray(image.dataobj)
+
+
+NRRD_TYPES = {"uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "float": "f4"}
+
+
+def read_nrrd(path):
+    head, _, body = path.read_bytes().partition(b"\n\n")
+    lines = head.decode("ascii").split("\n")
+    assert lines[0].startswith("NRRD000"), lines[0]
+    fields = dict(line.split(": ", 1) for line in lines[1:] if ": " in line and not line.startswith("#"))
+    assert fields["space"] == "left-posterior-superior" and fields["dimension"] == "3", fields
+    vectors = [list(map(float, v.strip("()").split(","))) for v in fields["space directions"].split()]
+    affine = np.eye(4)
+    affine[:3, :3] = np.array(vectors).T
+    affine[:3, 3] = list(map(float, fields["space origin"].strip("()").split(",")))
+    assert fields["endian"] == "little" or fields["type"] == "uint8"
+    if fields["encoding"] == "gzip":
+        body = gzip.decompress(body)
+    sizes = tuple(map(int, fields["sizes"].split()))
+    return affine, np.frombuffer(body, "<" + NRRD_TYPES[fields["type"]]).reshape(sizes, order="F")
+
+
+META_TYPES = {"MET_UCHAR": "u1", "MET_SHORT": "i2", "MET_USHORT": "u2", "MET_INT": "i4", "MET_FLOAT": "f4"}
+
+
+def read_metaimage(path):
+    data = path.read_bytes()
+    marker = b"ElementDataFile = LOCAL\n"
+    end = data.index(marker) + len(marker)
+    fields = dict(line.split(" = ", 1) for line in data[:end].decode("ascii").splitlines())
+    spacing = np.array(fields["ElementSpacing"].split(), float)
+    # MetaIO stores the direction of axis i, then of j, then of k.
+    directions = np.array(fields["TransformMatrix"].split(), float).reshape(3, 3)
+    affine = np.eye(4)
+    affine[:3, :3] = (directions * spacing[:, None]).T
+    affine[:3, 3] = np.array(fields["Offset"].split(), float)
+    body = data[end:]
+    if fields["CompressedData"] == "True":
+        assert int(fields["CompressedDataSize"]) == len(body)
+        body = zlib.decompress(body)
+    sizes = tuple(map(int, fields["DimSize"].split()))
+    return affine, np.frombuffer(body, "<" + META_TYPES[fields["ElementType"]]).reshape(sizes, order="F")
+
+
+def read(path):
+    if path.name.endswith((".nii", ".nii.gz")):
+        return read_nifti(path)
+    return read_nrrd(path) if path.suffix == ".nrrd" else read_metaimage(path)
+
+
+def corner_distance(shape, a, b):
+    corners = [[i * (shape[0] - 1), j * (shape[1] - 1), k * (shape[2] - 1), 1] for i, j, k in itertools.product((0, 1), repeat=3)]
+    return np.abs((a - b) @ np.array(corners).T).max()
+
+
+def check(folder):
+    paths = sorted(folder.glob("*.expect"))
+    assert paths, "nothing to check"
+    for expect in paths:
+        numbers = expect.read_text().split()
+        size = tuple(map(int, numbers[:3]))
+        expected_affine = np.vstack([np.array(numbers[3:15], float).reshape(3, 4), [0, 0, 0, 1]])
+        path = expect.with_suffix("")
+        affine, values = read(path)
+        assert values.shape == size, (path.name, values.shape)
+        distance = corner_distance(size, affine, expected_affine)
+        assert distance <= float(numbers[15]), (path.name, distance)
+        np.testing.assert_array_equal(values.ravel(order="F").astype(float), np.array(numbers[16:], float), path.name)
+
+
+def write_expectation(path, affine, values, tolerance=1e-6):
+    rows = [" ".join(map(str, values.shape))]
+    rows += [" ".join(repr(float(x)) for x in row) for row in affine[:3]]
+    rows += [repr(tolerance)] + [repr(float(v)) for v in values.ravel(order="F")]
+    path.with_name(path.name + ".expect").write_text("\n".join(rows) + "\n")
+
+
+def some_affines():
+    """Orthogonal (both hands), oblique and sheared, index to mm in LPS."""
+    rotation, _ = np.linalg.qr(np.random.default_rng(7).normal(size=(3, 3)))
+    axes = {
+        "axial": np.eye(3),
+        "sagittal": np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0.0]]),
+        "oblique": rotation,
+        "mirrored": rotation @ np.diag([1, 1, -1]),
+        "sheared": rotation @ np.array([[1, 0, 0], [0, 1, 0.3], [0, 0, 1]]),
+    }
+    for name, directions in axes.items():
+        affine = np.eye(4)
+        affine[:3, :3] = directions * [0.75, 1.25, 3]
+        affine[:3, 3] = [-120.5, 33.25, 1700.125]
+        yield name, affine
+
+
+def pattern(dtype, shape=(5, 4, 3)):
+    """Values over the type's range that a float holds exactly."""
+    count = int(np.prod(shape))
+    if np.issubdtype(dtype, np.integer):
+        limits = np.iinfo(dtype)
+        low, high = max(limits.min, -(2**23)), min(limits.max, 2**23)
+        values = np.linspace(low, high, count).round()
+    else:
+        values = np.linspace(-1000, 1000, count).round(1).astype(np.float32)
+    return values.astype(dtype).reshape(shape, order="F")
+
+
+def make_nifti(folder):
+    import nibabel
+
+    def save(name, image, expected_affine, values, tolerance=1e-6):
+        path = folder / name
+        nibabel.save(image, path)
+        write_expectation(path, expected_affine, values, tolerance)
+
+    for code in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
+        for order in "<>":
+            for version, suffix in ((nibabel.Nifti1Image, ".nii"), (nibabel.Nifti2Image, ".nii.gz")):
+                values = pattern(np.dtype(code))
+                header = version.header_class(endianness=order)
+                header.set_data_dtype(np.dtype(order + code))
+                image = version(values, np.diag([2.0, 3, 4, 1]), header)
+                save(f"{version.__name__}_{code}_{'le' if order == '<' else 'be'}{suffix}", image, RAS @ np.diag([2.0, 3, 4, 1]), values)
+    values = pattern(np.dtype("i2"))
+    for name, affine in some_affines():
+        ras = (RAS @ affine).astype(np.float32).astype(float)
+        image = nibabel.Nifti1Image(values, None)
+        image.header.set_sform(ras, 1)
+        save(f"{name}_sform.nii.gz", image, RAS @ ras, values)
+        if name != "sheared":
+            image = nibabel.Nifti1Image(values, None)
+            image.header.set_qform(ras, 1)
+            save(f"{name}_qform.nii", image, RAS @ image.header.get_qform(), values)
+    for unit, factor in (("meter", 1000), ("mm", 1), ("micron", 0.001), ("unknown", 1)):
+        image = nibabel.Nifti1Image(values, np.diag([2.0, 3, 4, 1]))
+        image.header.set_xyzt_units(unit)
+        save(f"unit_{unit}.nii", image, RAS @ np.diag([2.0 * factor, 3 * factor, 4 * factor, 1]), values)
+    for name, slope, inter in (("ct", 1, -1024), ("integers", 3, -7), ("reals", 0.5, -0.25), ("negative", -2, 0)):
+        image = nibabel.Nifti1Image(values, np.diag([2.0, 3, 4, 1]))
+        image.header.set_slope_inter(slope, inter)
+        scaled = values * float(slope) + inter
+        nibabel.save(image, folder / f"scaled_{name}.nii")
+        # nibabel divides by the slope when it saves; put the plain numbers back.
+        data = bytearray((folder / f"scaled_{name}.nii").read_bytes())
+        data[112:120] = np.array([slope, inter], "<f4").tobytes()
+        data[352:] = values.astype("<i2").tobytes(order="F")
+        (folder / f"scaled_{name}.nii").write_bytes(data)
+        write_expectation(folder / f"scaled_{name}.nii", RAS @ np.diag([2.0, 3, 4, 1]), scaled)
+    image = nibabel.Nifti1Image(values.reshape(5, 4, 3, 1, 1), np.diag([2.0, 3, 4, 1]))
+    save("trailing_axes.nii", image, RAS @ np.diag([2.0, 3, 4, 1]), values)
+    image = nibabel.Nifti1Image(values, np.diag([2.0, 3, 4, 1]))
+    image.header.extensions.append(nibabel.nifti1.Nifti1Extension("comment", b"text before the voxels"))
+    save("extension.nii", image, RAS @ np.diag([2.0, 3, 4, 1]), values)
+
+
+if __name__ == "__main__":
+    commands = {"check": check, "make-nifti": make_nifti}
+    commands[sys.argv[1]](pathlib.Path(sys.argv[2]))

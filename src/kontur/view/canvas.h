@@ -41,8 +41,8 @@ struct TextStyle {
     bool halo = false;  ///< a dark rim, for text on an image
 };
 
-/// Anti-aliased drawing onto an RGB picture. Text needs an installed font ("DejaVu Sans" where there is one); without any
-/// font, text is left out and the rest is drawn.
+/// Anti-aliased drawing onto an RGB picture. Text is in "DejaVu Sans" where that is installed, else in another
+/// font, in cairo's own line font where there is none at all; should even that fail, text is left out and the rest drawn.
 class Canvas {
 public:
     /// Black. Throws Error(too_large) when the picture does not fit into memory or exceeds 32767 pixels on a side.

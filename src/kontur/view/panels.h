@@ -16,7 +16,7 @@ inline constexpr Color kText{0.93, 0.95, 0.97};
 inline constexpr Color kMuted{0.60, 0.66, 0.73};
 inline constexpr Color kDrawn{1.0, 0.71, 0.16};
 inline constexpr Color kSurface{0.30, 0.79, 0.94};
-inline constexpr Color kMaterial{0.38, 0.66, 0.80};
+inline constexpr Color kMaterial{0.38, 0.64, 0.78};
 
 /// Where a panel stands, and the length in pixels of what measures 1 on a picture of 1600 x 1000.
 struct Place {

@@ -45,15 +45,23 @@ Layout lay_out(int width, int height) {
 
 /// One scale for all slices: the largest extent in any of them leaves a margin for the surroundings.
 double common_pixel_mm(const std::array<Slice, 3>& slices, const Rect& cell) {
-    constexpr double kFilled = 0.72;
+    constexpr double kFilled = 0.78;
     double pixel_mm = 0;
     for (const Slice& slice : slices)
         pixel_mm = std::max({pixel_mm, slice.width_mm / (kFilled * cell.width), slice.height_mm / (kFilled * cell.height)});
     return pixel_mm > 0 ? pixel_mm : 1;
 }
 
+std::string volume(const TriangleMesh& mesh) { return rounded(signed_volume_mm3(mesh) / 1000, 4) + " ml"; }
+
+std::string extent(const TriangleMesh& mesh) {
+    const Vec3 size = bounding_box(mesh.points).size();
+    return rounded(size.x, 3) + " × " + rounded(size.y, 3) + " × " + rounded(size.z, 3) + " mm";
+}
+
 std::vector<PictureFact> all_facts(const TriangleMesh& mesh, const ContourSet& contours, const PictureOptions& options) {
-    std::vector<PictureFact> facts{{"Volume", rounded(signed_volume_mm3(mesh) / 1000, 4) + " ml"},
+    std::vector<PictureFact> facts{{"Volume", volume(mesh)},
+                                   {"Extent RL × AP × SI", extent(mesh)},
                                    {"Contours", std::to_string(contours.contours.size())},
                                    {"Points", std::to_string(point_count(contours))}};
     facts.insert(facts.end(), options.facts.begin(), options.facts.end());
@@ -100,9 +108,11 @@ void draw_table(Canvas& canvas, const Place& place, const std::vector<PictureFac
     canvas.frame(place.rect, kFrame, u);
 }
 
-void draw_frame_texts(Canvas& canvas, const Layout& layout, const std::string& title, const std::string& program) {
+void draw_frame_texts(Canvas& canvas, const Layout& layout, const std::string& title, const std::string& subtitle,
+                      const std::string& program) {
     const double u = layout.unit;
-    canvas.text(layout.title, title, {.size_px = 29 * u, .color = kText, .bold = true});
+    const double width = canvas.text(layout.title, title, {.size_px = 29 * u, .color = kText, .bold = true});
+    canvas.text({layout.title.x + width + 18 * u, layout.title.y}, subtitle, {.size_px = 19 * u, .color = kMuted});
     canvas.text(layout.footer, program + " · research software, not a medical device",
                 {.size_px = 12.5 * u, .color = kMuted});
     canvas.text({layout.table.right(), layout.footer.y},
@@ -128,7 +138,8 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
-    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, options.program);
+    const std::string subtitle = volume(mesh) + " from " + std::to_string(contours.contours.size()) + " drawn contours";
+    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle, options.program);
     picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, options.threads);
 
     const std::array<Slice, 3> slices = choose_slices(mesh, contours, image);

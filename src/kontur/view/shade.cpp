@@ -82,7 +82,7 @@ private:
             const Vec3 d{static_cast<double>(sx - x), static_cast<double>(y - sy),
                          (buffer_.at(sx, sy).depth_mm - here.depth_mm) / pixel_mm_};
             const double length = norm(d), reach = length / (1.5 * radius_);
-            if (length > 0 && reach < 1) sum += std::max(0.0, dot(normal, d) / length - 0.05) * (1 - reach * reach);
+            if (length > 0) sum += std::max(0.0, dot(normal, d) / length - 0.05) / (1 + reach * reach);
         }
         return static_cast<float>(sum / kSamples);
     }
@@ -112,9 +112,9 @@ Vec3 lit(const Vec3& material, const Vec3& normal, double occlusion) {
     static const Vec3 key = normalized({-0.45, 0.62, 0.64}), fill = normalized({0.75, 0.05, 0.55});
     static const Vec3 halfway = normalized(key + Vec3{0, 0, 1});
     const double open = std::max(0.0, 1 - 2.6 * occlusion);
-    const double ambient = (0.26 + 0.10 * normal.y) * open;
-    const double direct = 0.78 * std::max(0.0, dot(normal, key)) * (0.45 + 0.55 * open);
-    const double from_right = 0.16 * std::max(0.0, dot(normal, fill)) * open;
+    const double ambient = (0.22 + 0.10 * normal.y) * open;
+    const double direct = 0.92 * std::max(0.0, dot(normal, key)) * (0.4 + 0.6 * open);
+    const double from_right = 0.14 * std::max(0.0, dot(normal, fill)) * open;
     const double gloss = 0.10 * std::pow(std::max(0.0, dot(normal, halfway)), 38) * open;
     const double rim = 0.10 * std::pow(1 - std::clamp(normal.z, 0.0, 1.0), 3) * (0.5 + 0.5 * normal.y) * open;
     return (ambient + direct + from_right) * material + Vec3{1, 1, 1} * (gloss + rim);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -90,7 +92,7 @@ std::string slice_position(const Slice& slice) {
     const char* side = slice.kind == SliceKind::axial     ? (at < 0 ? "I " : "S ")
                        : slice.kind == SliceKind::coronal ? (at < 0 ? "A " : "P ")
                                                           : (at < 0 ? "R " : "L ");
-    return side + rounded(std::abs(at), std::abs(at) < 100 ? 3 : 4) + " mm";
+    return side + fmt::format("{:.1f}", std::abs(at)) + " mm";
 }
 
 }  // namespace

@@ -2,12 +2,18 @@
 #include "kontur/view/slices.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace kontur {
 namespace {
 
 constexpr std::array kKinds{SliceKind::axial, SliceKind::coronal, SliceKind::sagittal};
 constexpr double kParallelDeg = 5;
+
+bool are_parallel(const Vec3& a, const Vec3& b) {
+    static const double cosine = std::cos(kParallelDeg * std::numbers::pi / 180);
+    return std::abs(dot(a, b)) >= cosine * norm(a) * norm(b);
+}
 
 double drawn_length(const Contour& contour) {
     double length = 0;
@@ -27,15 +33,24 @@ Plane turned_plane(SliceKind kind, const Vec3& normal, const Vec3& origin) {
     return {origin, turned(straight.normal), turned(straight.u), turned(straight.v)};
 }
 
-/// The direction that one of the three slices shall be perpendicular to.
+/// The direction that one of the three slices shall be perpendicular to: that of a tilted stack of contours, else the
+/// patient's axis.
 Vec3 leading_normal(const ContourSet& set) {
-    Vec3 longest{0, 0, 1};
-    double length = -1;
+    constexpr Vec3 kPatientAxis{0, 0, 1};
+    Vec3 longest = kPatientAxis;
+    double longest_length = 0;
     for (const Contour& contour : set.contours) {
-        if (obliquity_deg(contour.plane.normal) <= kParallelDeg) return {0, 0, 1};
-        if (const double l = drawn_length(contour); l > length) longest = contour.plane.normal, length = l;
+        if (obliquity_deg(contour.plane.normal) <= kParallelDeg) return kPatientAxis;
+        if (const double length = drawn_length(contour); length > longest_length)
+            longest = contour.plane.normal, longest_length = length;
     }
-    return longest;
+    double stack_length = 0, total_length = 0;
+    for (const Contour& contour : set.contours) {
+        const double length = drawn_length(contour);
+        total_length += length;
+        if (are_parallel(contour.plane.normal, longest)) stack_length += length;
+    }
+    return stack_length > 0.5 * total_length ? longest : kPatientAxis;
 }
 
 double slice_thickness_mm(const Image* image, const Vec3& normal) {

@@ -23,8 +23,9 @@ struct Slice {
 };
 
 /// The axial, coronal and sagittal slice that show most of what was drawn: each at the position with the greatest length of
-/// contours in it, or through the middle of the object. When no contour is parallel (within 5 degrees) to one of the
-/// patient's planes, the three are turned together so that one of them is parallel to the plane with the longest contour.
+/// contours in it, or through the middle of the object. When the contours form a stack that is parallel to none of the
+/// patient's planes (more than half of their length, within 5 degrees), the three are turned together so that one of them
+/// is parallel to the stack.
 /// `image` may be null.
 std::array<Slice, 3> choose_slices(const TriangleMesh& mesh, const ContourSet& contours, const Image* image);
 

@@ -82,7 +82,7 @@ void draw_contours(Canvas& canvas, const Place& place, const ContourOverlay& ove
         for (const auto& run : runs)
             if (run.visible == visible) canvas.stroke(run.line, false, color, width * place.unit);
     };
-    stroke_all(false, kDrawn.with_alpha(0.22), 1.4);
+    stroke_all(false, kDrawn.with_alpha(0.30), 1.4);
     stroke_all(true, {0.05, 0.04, 0.02, 0.55}, 4.6);
     stroke_all(true, kDrawn, 2.6);
 }
@@ -99,7 +99,7 @@ void draw_orientation_cube(Canvas& canvas, const Place& place, const Plane& scre
             const double facing = -dot(outward, screen.normal);
             if (facing <= 0) continue;
             // The text stands upright on the sides; on top it is read from the patient's front.
-            const Vec3 down = axis == 2 ? Vec3{0, -sign, 0} : Vec3{0, 0, -1}, right = cross(down, outward);
+            const Vec3 down = axis == 2 ? Vec3{0, -sign, 0} : Vec3{0, 0, -1}, right = cross(outward, down);
             const Point2 center = on_screen(outward), r = on_screen(right), d = on_screen(down);
             const auto corner = [&](double a, double b) {
                 return Point2{middle.x + center.x + a * r.x + b * d.x, middle.y + center.y + a * r.y + b * d.y};

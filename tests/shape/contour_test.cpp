@@ -144,6 +144,18 @@ ContourSet points_at_indices(const Grid& grid, const std::vector<Vec3>& indices)
     return set;
 }
 
+TEST(ContourProblems, ListsOnePerContourInOrder) {
+    EXPECT_TRUE(contour_problems(three_circles()).empty());
+    ContourSet set = three_circles();
+    set.contours[0].points.resize(2);
+    set.contours[2].points[4] += 0.5 * set.contours[2].plane.normal;
+    set.contours[2].points[5] += 0.5 * set.contours[2].plane.normal;
+    const std::vector<std::string> problems = contour_problems(set);
+    ASSERT_EQ(problems.size(), 2u);
+    EXPECT_EQ(problems[0], "contour 1 has 2 points; at least 3 are needed");
+    EXPECT_NE(problems[1].find("of contour 3 lies 0.5 mm off its plane"), std::string::npos) << problems[1];
+}
+
 TEST(CheckContoursInside, AcceptsPointsUpToTheOuterFaces) {
     const ContourSet set = points_at_indices(sheared_grid(), {{-0.5, -0.5, -0.5}, {9.5, 19.5, 4.5}, {3, 4, 2}});
     EXPECT_EQ(points_outside(set, sheared_grid()), 0u);

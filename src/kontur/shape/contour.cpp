@@ -103,11 +103,25 @@ std::size_t drop_duplicate_points(ContourSet& set) {
 }
 
 void check_contours(const ContourSet& set, const ContourCheckOptions& options) {
-    if (set.contours.empty()) refuse("there is no contour; at least 1 is needed");
+    const std::vector<std::string> problems = contour_problems(set, options);
+    if (!problems.empty()) refuse(problems.front());
+}
+
+std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options) {
+    std::vector<std::string> problems;
+    const auto collect = [&](const auto& check) {
+        try {
+            check();
+        } catch (const Error& error) {
+            problems.emplace_back(error.what());
+        }
+    };
+    if (set.contours.empty()) problems.emplace_back("there is no contour; at least 1 is needed");
     for (std::size_t i = 0; i < set.contours.size(); ++i)
-        check_contour(set.contours[i], options, fmt::format("contour {}", i + 1));
-    check_all_finite(set.interior, "the interior points");
-    check_all_finite(set.exterior, "the exterior points");
+        collect([&] { check_contour(set.contours[i], options, fmt::format("contour {}", i + 1)); });
+    collect([&] { check_all_finite(set.interior, "the interior points"); });
+    collect([&] { check_all_finite(set.exterior, "the exterior points"); });
+    return problems;
 }
 
 std::size_t points_outside(const ContourSet& set, const Grid& grid) {

@@ -49,6 +49,9 @@ struct ContourCheckOptions {
 /// than the tolerance, or a contour whose points lie on one line (zero area). Interior and exterior points must be finite.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
 
+/// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.
+std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options = {});
+
 /// Number of contour points outside of the grid's voxels (their outer faces belong to the grid).
 std::size_t points_outside(const ContourSet& set, const Grid& grid);
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
+#include "commands.h"
 #include "kontur/base/error.h"
 
 namespace kontur::app {
@@ -20,6 +22,114 @@ std::string footer() {
         code(ErrorKind::singular_system), code(ErrorKind::io), code(ErrorKind::too_large), code(ErrorKind::cancelled));
 }
 
+/// Adds the subcommand that runs a `Command`. Its members' values at this point are the defaults that --help shows.
+template <class Command>
+struct Binder {
+    Binder(CLI::App& app, Invocation& its_invocation, const std::string& name, const std::string& description,
+           const std::string& example)
+        : invocation(its_invocation), sub(app.add_subcommand(name, description)), command(std::make_shared<Command>()) {
+        sub->footer("Example:\n  " + example);
+        sub->parse_complete_callback([&target = invocation, command = command] {
+            target.command = [command](Console& console) { run(*command, console); };
+        });
+    }
+
+    /// A required word or list of words without a flag.
+    template <class Value>
+    void word(const std::string& name, Value& value, const std::string& help) {
+        sub->add_option(name, value, help)->required()->type_name("");
+    }
+    /// `unit` stands where the value goes: MM, FILE, N.
+    template <class Value>
+    CLI::Option* option(const std::string& name, Value& value, const std::string& unit, const std::string& help) {
+        return sub->add_option(name, value, help)->type_name(unit);
+    }
+    /// The same with its default shown.
+    template <class Value>
+    CLI::Option* defaulted(const std::string& name, Value& value, const std::string& unit, const std::string& help) {
+        return option(name, value, unit, help)->capture_default_str();
+    }
+    void flag(const std::string& name, bool& value, const std::string& help) { sub->add_flag(name, value, help); }
+    void quiet() { flag("--quiet", invocation.quiet, "No progress bar and no results, only warnings and errors"); }
+
+    Invocation& invocation;
+    CLI::App* sub;
+    std::shared_ptr<Command> command;
+};
+
+/// One of several named values, shown as a|b|c.
+template <class Value>
+void add_choice(CLI::App& sub, const std::string& flag, Value& value, std::vector<std::pair<std::string, Value>> choices,
+                const std::string& help) {
+    std::string names, default_name;
+    for (const auto& [name, choice] : choices) {
+        names += (names.empty() ? "" : "|") + name;
+        if (choice == value) default_name = name;
+    }
+    sub.add_option_function<std::string>(
+           flag,
+           [&value, choices, flag, names](const std::string& word) {
+               for (const auto& [name, choice] : choices)
+                   if (name == word) {
+                       value = choice;
+                       return;
+                   }
+               throw CLI::ValidationError(flag, fmt::format("is {}, not {}", names, word));
+           },
+           help)
+        ->type_name(names)
+        ->default_str(default_name);
+}
+
+void add_read_options(CLI::App& sub, ReadImageOptions& read) {
+    sub.add_option("--frame", read.frame, "Which frame of a 4D image, from 0")->type_name("N");
+    add_choice<std::optional<NiftiTransform>>(sub, "--prefer", read.prefer,
+                                              {{"qform", NiftiTransform::qform}, {"sform", NiftiTransform::sform}},
+                                              "Which transform of a NIfTI file counts when its two differ");
+    sub.add_flag("--allow-missing-geometry", read.allow_missing_geometry,
+                 "Accept an image that does not say where it lies in the patient");
+}
+
+void add_series_options(CLI::App& sub, DicomSeriesOptions& series) {
+    sub.add_option("--series", series.series_uid, "Which series of a DICOM folder")->type_name("UID");
+    sub.add_option("--volume", series.volume, "Which volume of the series (time, echo), from 1")->type_name("N");
+}
+
+void add_compare(CLI::App& app, Invocation& invocation) {
+    Binder<CompareCommand> bind(app, invocation, "compare",
+                                "Overlap, surface distances in mm and volumes in ml of two masks",
+                                "kontur compare liver.nii.gz truth.nii.gz --json");
+    CompareCommand& c = *bind.command;
+    bind.word("A", c.a, "Mask or label map (NIfTI, NRRD, MetaImage)");
+    bind.word("B", c.b, "Another one on the same grid");
+    bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
+    bind.flag("--json", c.json, "Print JSON");
+    bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");
+    add_read_options(*bind.sub, c.read);
+}
+
+void add_inspect(CLI::App& app, Invocation& invocation) {
+    Binder<InspectCommand> bind(app, invocation, "inspect",
+                                "What files are: geometry in mm, labels in ml, contours, problems found",
+                                "kontur inspect ct.nii.gz contours.json liver.stl dicom_folder/");
+    InspectCommand& c = *bind.command;
+    bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
+    bind.flag("--json", c.json, "Print JSON");
+    add_read_options(*bind.sub, c.read);
+}
+
+void add_convert(CLI::App& app, Invocation& invocation) {
+    Binder<ConvertCommand> bind(app, invocation, "convert", "Write the same content in another format",
+                                "kontur convert dicom_folder/ ct.nii.gz");
+    ConvertCommand& c = *bind.command;
+    bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
+    bind.word("OUT", c.output, "File to write; its name decides the format");
+    bind.option("--roi", c.roi, "NAME", "Which structure of a structure set, by name or number");
+    add_read_options(*bind.sub, c.input.file);
+    add_series_options(*bind.sub, c.input.series);
+    bind.quiet();
+}
+
 }  // namespace
 
 Invocation parse_command_line(int argc, const char* const* argv) {
@@ -28,12 +138,16 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     app.set_version_flag("--version", "kontur " KONTUR_VERSION, "Print the version");
     app.footer(footer());
     app.require_subcommand(0, 1);
+    app.get_formatter()->column_width(36);
+    add_compare(app, invocation);
+    add_inspect(app, invocation);
+    add_convert(app, invocation);
 
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        const auto parsed = app.get_subcommands();
-        invocation.text = parsed.empty() ? app.help() : parsed.front()->help();
+        invocation.text = app.help();  // of the subcommand when there is one
+        invocation.command = nullptr;
         return invocation;
     } catch (const CLI::CallForVersion& version) {
         invocation.text = std::string(version.what()) + "\n";
@@ -41,6 +155,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         invocation.text = error.what();
         invocation.exit_code = kUsageExitCode;
+        invocation.command = nullptr;
         return invocation;
     }
     if (!invocation.command) invocation.text = app.help();

@@ -10,6 +10,8 @@ namespace kontur::app {
 
 /// Wrong usage of the command line is no kontur::Error; sysexits' EX_USAGE.
 constexpr int kUsageExitCode = 64;
+/// An exception that should not have come this far; EX_SOFTWARE.
+constexpr int kInternalExitCode = 70;
 
 /// What the words on the command line ask for: either a text to show (help, version, a usage error) or a command to run.
 struct Invocation {

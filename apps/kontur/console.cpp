@@ -22,15 +22,21 @@ Progress Console::progress() {
     return progress;
 }
 
-void Console::print(std::string_view line) {
+void Console::print(std::string_view text) {
     if (quiet_) return;
     clear_bar();
-    fmt::print("{}\n", line);
+    std::fwrite(text.data(), 1, text.size(), stdout);  // main checks that it arrived
 }
 
 void Console::warn(std::string_view sentence) {
     clear_bar();
     fmt::print(stderr, "kontur: warning: {}\n", sentence);
+}
+
+void Console::note(std::span<const std::string> sentences) {
+    if (quiet_) return;
+    clear_bar();
+    for (const std::string& sentence : sentences) fmt::print(stderr, "kontur: note: {}\n", sentence);
 }
 
 void Console::draw(std::string_view stage, double fraction) {

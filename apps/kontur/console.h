@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -21,10 +22,12 @@ public:
     /// For long library calls: cancelled by Ctrl-C, drawn as a bar when stderr is a terminal.
     Progress progress();
 
-    /// One line on stdout, unless quiet.
-    void print(std::string_view line);
+    /// Text on stdout, unless quiet.
+    void print(std::string_view text);
     /// One line on stderr, "kontur: warning: SENTENCE".
     void warn(std::string_view sentence);
+    /// What was decided for the user, one line each on stderr, unless quiet.
+    void note(std::span<const std::string> sentences);
 
 private:
     void draw(std::string_view stage, double fraction);

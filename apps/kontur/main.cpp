@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <new>
 
 #include "command_line.h"
@@ -16,19 +17,29 @@ int fail(std::string_view sentence, int exit_code) {
     return exit_code;
 }
 
-int run(const Invocation& invocation) {
+/// What was printed must have arrived: a full disk behind a redirected stdout is a failure like any other.
+void flush_stdout() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw Error(ErrorKind::io, "standard output cannot be written");
+}
+
+void run_command(const Invocation& invocation) {
     const Interrupt interrupt;
+    Console console(invocation.quiet, interrupt.token());
+    invocation.command(console);
+}
+
+int run(const Invocation& invocation) {
     try {
-        Console console(invocation.quiet, interrupt.token());
-        invocation.command(console);
-        // What was printed must have arrived: a full disk behind a redirected stdout is a failure like any other.
-        if (std::fflush(stdout) != 0) throw Error(ErrorKind::io, "standard output cannot be written");
+        run_command(invocation);
+        flush_stdout();
         return 0;
     } catch (const Error& error) {
-        if (error.kind() == ErrorKind::cancelled) return fail("interrupted; nothing was written", exit_code(error.kind()));
-        return fail(error.what(), exit_code(error.kind()));
+        const bool cancelled = error.kind() == ErrorKind::cancelled;
+        return fail(cancelled ? "interrupted; nothing was written" : error.what(), exit_code(error.kind()));
     } catch (const std::bad_alloc&) {
         return fail("not enough memory for this input", exit_code(ErrorKind::too_large));
+    } catch (const std::exception& error) {
+        return fail(fmt::format("unexpected: {}", error.what()), kInternalExitCode);
     }
 }
 

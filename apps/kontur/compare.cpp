@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.h"
+#include "facts.h"
+#include "kontur/io/image.h"
+
+namespace kontur::app {
+namespace {
+
+Facts describe(const Comparison& comparison) {
+    Facts facts = {
+        {"dice", comparison.dice},
+        {"jaccard", comparison.jaccard},
+        {"hausdorff_mm", nullptr},
+        {"hausdorff95_mm", nullptr},
+        {"mean_surface_distance_mm", nullptr},
+        {"volume_a_ml", comparison.volume_a_ml},
+        {"volume_b_ml", comparison.volume_b_ml},
+    };
+    if (comparison.surface) {
+        facts["hausdorff_mm"] = comparison.surface->hausdorff_mm;
+        facts["hausdorff95_mm"] = comparison.surface->hausdorff95_mm;
+        facts["mean_surface_distance_mm"] = comparison.surface->mean_surface_distance_mm;
+    }
+    return facts;
+}
+
+}  // namespace
+
+void run(const CompareCommand& command, Console& console) {
+    const Mask a = read_mask(command.a, command.label, command.read);
+    const Mask b = read_mask(command.b, command.label, command.read);
+    const Facts facts = describe(compare(a, b, command.options, console.progress()));
+    console.print(command.json ? facts.dump(2) + "\n" : to_text(facts));
+}
+
+}  // namespace kontur::app

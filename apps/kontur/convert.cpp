@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+
+#include "commands.h"
+#include "kontur/base/error.h"
+#include "kontur/io/image.h"
+#include "outputs.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* words(FileKind kind) {
+    switch (kind) {
+        case FileKind::image:
+            return "an image";
+        case FileKind::contours:
+            return "contours";
+        case FileKind::mesh:
+            break;
+    }
+    return "a mesh";
+}
+
+/// The command that does what was asked of convert.
+const char* advice(FileKind from, FileKind to) {
+    if (from == FileKind::contours) return "kontur segment makes masks and meshes from contours";
+    if (from == FileKind::image && to == FileKind::contours) return "kontur trace cuts a mask into contours";
+    return "kontur makes meshes from contours only";
+}
+
+void check_kinds(const ConvertCommand& command, FileKind from, FileKind to) {
+    if (from == to) return;
+    throw Error(ErrorKind::unsupported,
+                fmt::format("{} holds {} and cannot be converted to {} in {}; {}", command.input.path.string(), words(from),
+                            words(to), command.output.string(), advice(from, to)));
+}
+
+void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
+    switch (kind) {
+        case FileKind::image: {
+            const LoadedImage loaded = load_image(command.input, console.progress());
+            console.note(loaded.notes);
+            return write_image(output, loaded.image);
+        }
+        case FileKind::contours: {
+            const LoadedContours loaded = load_contours({&command.input.path, 1}, command.roi);
+            console.note(loaded.notes);
+            return save_contours(output, loaded.contours);
+        }
+        case FileKind::mesh:
+            break;
+    }
+}
+
+}  // namespace
+
+void run(const ConvertCommand& command, Console& console) {
+    const FileKind kind = output_kind(command.output);
+    check_output(command.output, std::array{command.input.path});
+    check_kinds(command, input_kind(command.input.path), kind);
+    Outputs outputs;
+    outputs.write(command.output, [&](const fs::path& path) { convert(command, kind, path, console); });
+    outputs.commit();
+    console.print(command.output.string() + "\n");
+}
+
+}  // namespace kontur::app

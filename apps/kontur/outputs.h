@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace kontur::app {
+
+/// Throws, before any work is done, what writing to `target` would throw after it: Error(invalid_input) when it is one of
+/// the `inputs`, Error(io) when its folder does not exist or may not be written to, or it is no regular file.
+void check_output(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
+
+/// The files of one command, which appear all together or not at all. Each is written into a hidden folder beside its target
+/// and moved into place by `commit`; without a commit (an error, Ctrl-C) the hidden folders vanish with their content.
+class Outputs {
+public:
+    Outputs() = default;
+    ~Outputs();
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+
+    /// Calls `writer` with the path to write what shall become `target`; it has the same file name. Errors of the writer
+    /// name the target. Throws Error(io), and Error(invalid_input) for the same target twice.
+    void write(const std::filesystem::path& target, const std::function<void(const std::filesystem::path&)>& writer);
+
+    /// Moves everything into place. Call once, last. Throws Error(io).
+    void commit();
+
+private:
+    std::filesystem::path staging_folder(const std::filesystem::path& folder);
+
+    std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< target folder to hidden folder
+    std::map<std::filesystem::path, std::filesystem::path> files_;    ///< target to where it waits
+};
+
+}  // namespace kontur::app

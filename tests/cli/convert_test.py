@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur convert: the same content in another format, or a sentence that says why not."""
+import json
+
+import nibabel
+import numpy
+import pytest
+from support import ball_array, ball_planes, kontur, lps_affine, names, succeed, write_nifti, write_planes
+
+
+def sheared_affine():
+    affine = lps_affine(2.0)
+    affine[1, 2] = 0.7
+    return affine
+
+
+@pytest.mark.parametrize("through", ["nii"])
+def test_an_image_survives_the_way_through_another_format(tmp_path, through):
+    rng = numpy.random.default_rng(7)
+    array = rng.integers(-1000, 3000, (5, 6, 7), dtype=numpy.int16)
+    first = write_nifti(tmp_path / "in.nii.gz", array, sheared_affine())
+    succeed("convert", first, tmp_path / f"middle.{through}")
+    succeed("convert", tmp_path / f"middle.{through}", tmp_path / "out.nii.gz")
+    before, after = nibabel.load(first), nibabel.load(tmp_path / "out.nii.gz")
+    assert numpy.array_equal(numpy.asarray(before.dataobj), numpy.asarray(after.dataobj))
+    assert numpy.allclose(before.affine, after.affine, atol=1e-5)
+    assert after.get_data_dtype() == numpy.int16
+
+
+def test_frame_chooses_one_of_a_4d_image(tmp_path):
+    array = numpy.stack([ball_array(), 2 * ball_array()], axis=-1)
+    path = write_nifti(tmp_path / "4d.nii.gz", array)
+    assert kontur("convert", path, tmp_path / "out.nii.gz").returncode != 0
+    succeed("convert", path, tmp_path / "out.nii.gz", "--frame", 1)
+    assert numpy.array_equal(numpy.asarray(nibabel.load(tmp_path / "out.nii.gz").dataobj), array[..., 1])
+
+
+def test_contours_survive_the_way_through_markups(tmp_path):
+    planes = ball_planes()
+    first = write_planes(tmp_path / "in.json", planes)
+    succeed("convert", first, tmp_path / "middle.mrk.json")
+    succeed("convert", tmp_path / "middle.mrk.json", tmp_path / "out.json")
+    after = json.loads((tmp_path / "out.json").read_text())
+    before_points = [c["points"] for p in planes for c in p["contours"]]
+    after_points = [c["points"] for p in after["planes"] for c in p["contours"]]
+    assert numpy.allclose(before_points, after_points, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "source, target, advice",
+    [
+        ("contours.json", "mask.nii.gz", "kontur segment"),
+        ("contours.json", "mesh.stl", "kontur segment"),
+        ("mask.nii.gz", "contours.json", "kontur trace"),
+    ],
+)
+def test_what_is_no_conversion_names_the_command_that_does_it(tmp_path, source, target, advice):
+    write_planes(tmp_path / "contours.json", ball_planes())
+    write_nifti(tmp_path / "mask.nii.gz", ball_array())
+    before = names(tmp_path)
+    result = kontur("convert", tmp_path / source, tmp_path / target)
+    assert result.returncode == 69
+    assert advice in result.stderr
+    assert names(tmp_path) == before
+
+
+def test_an_input_is_never_replaced(tmp_path):
+    path = write_nifti(tmp_path / "mask.nii.gz", ball_array())
+    content = path.read_bytes()
+    result = kontur("convert", path, path)
+    assert result.returncode == 65
+    assert path.read_bytes() == content
+    assert names(tmp_path) == ["mask.nii.gz"]

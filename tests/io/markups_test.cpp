@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 #include <limits>
-#include <random>
 #include <sstream>
 
 #include "kontur/base/error.h"
 #include "support/contour_sets.h"
+#include "support/random.h"
 #include "support/temporary_folder.h"
 
 namespace kontur {
@@ -179,9 +178,7 @@ TEST_F(Markups, EveryTruncatedPrefixIsRefused) {
 }
 
 TEST_F(Markups, FlippedBytesNeverDoMoreThanThrow) {
-    const auto seed = static_cast<unsigned>(std::hash<std::string>{}("Markups.FlippedBytesNeverDoMoreThanThrow"));
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
+    std::mt19937 random = test::random_of_this_test();
     for (int run = 0; run < 2000; ++run) {
         std::string text(kSmall);
         for (int flips = 1 + run % 3; flips > 0; --flips) text[random() % text.size()] = static_cast<char>(random());

@@ -84,7 +84,7 @@ Contour read_contour(const json& item, const Plane& plane, PatientFrame frame) {
     return contour;
 }
 
-/// Calls `body(item, plane, frame)` for every plane of a file; whatever is wrong is reported with the file's name.
+/// Calls `body(item, plane, frame)` for every plane of a file.
 template <class Body>
 void for_each_plane(const json& document, Body body) {
     check_version(document);

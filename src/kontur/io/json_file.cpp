@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/json_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <vector>
 
 namespace kontur {
@@ -56,10 +58,17 @@ public:
     }
 
     std::string message() const {
+        constexpr std::size_t kDeepest = 8;  // files of ours have fewer; hostile ones have millions
         std::string place;
-        for (const Level& level : levels_)
-            if (level.is_array) place += fmt::format(" {}", level.items);
-            else if (!level.key.empty()) place += fmt::format("{}{}", place.empty() ? " in " : ", ", level.key);
+        bool after_key = false;
+        for (const Level& level : std::span(levels_).first(std::min(levels_.size(), kDeepest))) {
+            if (!level.is_array && level.key.empty()) continue;
+            place += after_key && level.is_array ? " " : place.empty() ? " in " : ", ";
+            place += !level.is_array ? level.key
+                     : after_key     ? fmt::format("{}", level.items)
+                                     : fmt::format("item {}", level.items);
+            after_key = !level.is_array;
+        }
         return message_ + place;
     }
 
@@ -88,9 +97,26 @@ private:
     std::string message_;
 };
 
+/// What a value is, with its article.
+std::string_view kind_of(const json& value) {
+    switch (value.type()) {
+        case json::value_t::null:
+            return "null";
+        case json::value_t::object:
+            return "an object";
+        case json::value_t::array:
+            return "an array";
+        case json::value_t::string:
+            return "text";
+        case json::value_t::boolean:
+            return "a truth value";
+        default:
+            return "a number";
+    }
+}
+
 double to_number(const json& value, std::string_view what) {
-    if (!value.is_number())
-        corrupt(fmt::format("{} is {}, not a number", what, value.is_null() ? "null" : value.type_name()));
+    if (!value.is_number()) corrupt(fmt::format("{} is {}, not a number", what, kind_of(value)));
     return value.get<double>();
 }
 
@@ -108,7 +134,7 @@ json read_json_file(const std::filesystem::path& path) {
 }
 
 const json& member(const json& object, const char* key) {
-    if (!object.is_object()) corrupt(fmt::format("is {}, not an object with '{}'", object.type_name(), key));
+    if (!object.is_object()) corrupt(fmt::format("is {}, not an object with '{}'", kind_of(object), key));
     const auto found = object.find(key);
     if (found == object.end()) corrupt(fmt::format("'{}' is missing", key));
     return *found;
@@ -116,28 +142,28 @@ const json& member(const json& object, const char* key) {
 
 const json& array_member(const json& object, const char* key) {
     const json& value = member(object, key);
-    if (!value.is_array()) corrupt(fmt::format("'{}' is {}, not an array", key, value.type_name()));
+    if (!value.is_array()) corrupt(fmt::format("'{}' is {}, not an array", key, kind_of(value)));
     return value;
 }
 
 std::string text_member(const json& object, const char* key, const std::string& fallback) {
     if (!object.contains(key)) return fallback;
     const json& value = member(object, key);
-    if (!value.is_string()) corrupt(fmt::format("'{}' is {}, not text", key, value.type_name()));
+    if (!value.is_string()) corrupt(fmt::format("'{}' is {}, not text", key, kind_of(value)));
     return value.get<std::string>();
 }
 
 bool flag_member(const json& object, const char* key, bool fallback) {
     if (!object.contains(key)) return fallback;
     const json& value = member(object, key);
-    if (!value.is_boolean()) corrupt(fmt::format("'{}' is {}, not true or false", key, value.type_name()));
+    if (!value.is_boolean()) corrupt(fmt::format("'{}' is {}, not true or false", key, kind_of(value)));
     return value.get<bool>();
 }
 
 Vec3 to_vec3(const json& value) {
     if (!value.is_array() || value.size() != 3)
         corrupt(value.is_array() ? fmt::format("has {} items, not the 3 numbers x, y, z", value.size())
-                                 : fmt::format("is {}, not the 3 numbers x, y, z", value.type_name()));
+                                 : fmt::format("is {}, not the 3 numbers x, y, z", kind_of(value)));
     return {to_number(value[0], "x"), to_number(value[1], "y"), to_number(value[2], "z")};
 }
 

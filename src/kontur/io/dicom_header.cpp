@@ -81,9 +81,15 @@ void check_pixels_fit(const DicomHeader& header, const DcmXfer& syntax, std::int
                       std::to_string(held) + " bytes");
 }
 
+bool is_placed(DcmDataset& dataset) {
+    return dataset.tagExistsWithValue(DCM_ImagePositionPatient) && dataset.tagExistsWithValue(DCM_ImageOrientationPatient) &&
+           dataset.tagExistsWithValue(DCM_PixelSpacing);
+}
+
+/// Some scanners put a sequence of frames beside the placement of a single one, which then counts.
 bool is_multi_frame(DcmDataset& dataset) {
-    return dataset.tagExists(DCM_PerFrameFunctionalGroupsSequence) ||
-           dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1;
+    return dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1 ||
+           (dataset.tagExists(DCM_PerFrameFunctionalGroupsSequence) && !is_placed(dataset));
 }
 
 DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
@@ -122,10 +128,7 @@ std::string reason_to_skip(DcmDataset& dataset) {
     const std::string modality = dcmtk::text(dataset, DCM_Modality);
     if (modality == "SEG" || modality == "RTDOSE") return modality;
     if (!dataset.tagExists(DCM_Rows)) return modality.empty() ? "DICOM without an image" : modality;
-    const bool placed = dataset.tagExistsWithValue(DCM_ImagePositionPatient) &&
-                        dataset.tagExistsWithValue(DCM_ImageOrientationPatient) &&
-                        dataset.tagExistsWithValue(DCM_PixelSpacing);
-    return placed || is_multi_frame(dataset) ? "" : "image without a position in space";
+    return is_placed(dataset) || is_multi_frame(dataset) ? "" : "image without a position in space";
 }
 
 }  // namespace
@@ -141,8 +144,8 @@ std::variant<DicomHeader, NotAnImage> read_dicom_header(const std::filesystem::p
     DcmFileFormat file;
     dcmtk::load(file, path, DCM_PixelData);
     DcmDataset& dataset = *file.getDataset();
-    if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
     try {
+        if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
         return read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
     } catch (const Error& error) {
         throw error.with_context(path.string());

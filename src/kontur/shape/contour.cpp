@@ -42,17 +42,8 @@ Vec3 farthest_from(const Vec3& from, const std::vector<Vec3>& points) {
                              [&](const Vec3& a, const Vec3& b) { return distance(from, a) < distance(from, b); });
 }
 
-/// Largest distance from the line through two far ends of the polygon: 0 when all points lie on one line.
-double width(const std::vector<Vec3>& points) {
-    const Vec3 one_end = farthest_from(points.front(), points);
-    const Vec3 axis = normalized(farthest_from(one_end, points) - one_end);
-    double widest = 0;
-    for (const Vec3& p : points) widest = std::max(widest, norm(cross(p - one_end, axis)));
-    return widest;
-}
-
 void check_area(const Contour& contour, double limit_mm, const std::string& owner) {
-    const double measured = width(contour.points);
+    const double measured = width_mm(contour.points);
     if (!(measured > limit_mm))
         refuse(fmt::format("{} has no area: its {} points lie within {:.2g} mm of one line; the limit is {:g} mm", owner,
                            contour.points.size(), measured, limit_mm));
@@ -90,6 +81,15 @@ Box3 bounding_box(const ContourSet& set) {
     for (const Contour& contour : set.contours)
         for (const Vec3& p : contour.points) box.extend(p);
     return box;
+}
+
+double width_mm(const std::vector<Vec3>& points) {
+    if (points.empty()) return 0;
+    const Vec3 one_end = farthest_from(points.front(), points);
+    const Vec3 axis = normalized(farthest_from(one_end, points) - one_end);
+    double widest = 0;
+    for (const Vec3& p : points) widest = std::max(widest, norm(cross(p - one_end, axis)));
+    return widest;
 }
 
 std::size_t drop_duplicate_points(ContourSet& set) {

@@ -34,6 +34,9 @@ std::size_t point_count(const ContourSet& set);
 /// Box of all contour points, in mm; empty for an empty set.
 Box3 bounding_box(const ContourSet& set);
 
+/// Largest distance in mm of the points from the line through two far ends of them: 0 when all lie on one line.
+double width_mm(const std::vector<Vec3>& points);
+
 /// Removes every point that repeats the one before it exactly, and last points that repeat the first of a closed contour.
 /// Returns how many were removed. Points of one contour that coincide without being neighbours stay: a contour may touch
 /// itself.

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/contour_nesting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace kontur {
+namespace {
+
+using Point2 = std::array<double, 2>;
+
+struct Polygon {
+    std::vector<Point2> points;
+    Point2 low{}, high{};
+};
+
+Polygon project(const Contour& contour) {
+    Polygon polygon;
+    polygon.low.fill(std::numeric_limits<double>::infinity());
+    polygon.high.fill(-std::numeric_limits<double>::infinity());
+    for (const Vec3& p : contour.points) {
+        polygon.points.push_back(contour.plane.to_uv(p));
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            polygon.low[axis] = std::min(polygon.low[axis], polygon.points.back()[axis]);
+            polygon.high[axis] = std::max(polygon.high[axis], polygon.points.back()[axis]);
+        }
+    }
+    return polygon;
+}
+
+bool boxes_meet(const Polygon& a, const Polygon& b) {
+    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1];
+}
+
+template <typename Visit>
+void for_each_edge(const Polygon& polygon, const Visit& visit) {
+    const std::size_t n = polygon.points.size();
+    for (std::size_t i = 0, j = n - 1; i < n; j = i++) visit(polygon.points[j], polygon.points[i]);
+}
+
+bool is_inside(const Point2& p, const Polygon& polygon) {
+    bool inside = false;
+    for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
+        if ((a[1] <= p[1]) != (b[1] <= p[1]) && p[0] < a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])))
+            inside = !inside;
+    });
+    return inside;
+}
+
+double distance_to_boundary(const Point2& p, const Polygon& polygon) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
+        const double du = b[0] - a[0], dv = b[1] - a[1], squared = du * du + dv * dv;
+        const double along = squared > 0 ? std::clamp(((p[0] - a[0]) * du + (p[1] - a[1]) * dv) / squared, 0.0, 1.0) : 0;
+        nearest = std::min(nearest, std::hypot(p[0] - a[0] - along * du, p[1] - a[1] - along * dv));
+    });
+    return nearest;
+}
+
+enum class Position { outside, inside, crossing };
+
+Position position_of(const Polygon& polygon, const Polygon& other, double tolerance) {
+    if (!boxes_meet(polygon, other)) return Position::outside;
+    std::size_t inside = 0, outside = 0;
+    for (const Point2& p : polygon.points) ++(is_inside(p, other) ? inside : outside);
+    if (inside == 0) return Position::outside;
+    if (outside == 0) return Position::inside;
+    inside = outside = 0;
+    for (const Point2& p : polygon.points)
+        if (distance_to_boundary(p, other) > tolerance) ++(is_inside(p, other) ? inside : outside);
+    return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
+}
+
+}  // namespace
+
+Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) {
+    std::vector<Polygon> polygons;
+    for (const Contour& contour : contours) polygons.push_back(project(contour));
+    Nesting nesting;
+    nesting.depth.assign(contours.size(), 0);
+    for (std::size_t a = 0; a < contours.size(); ++a)
+        for (std::size_t b = 0; b < contours.size(); ++b) {
+            if (a == b || !(contours[a].plane == contours[b].plane)) continue;
+            const Position position = position_of(polygons[a], polygons[b], tolerance_mm);
+            if (position == Position::inside) ++nesting.depth[a];
+            if (position == Position::crossing) nesting.crossings.emplace_back(std::min(a, b), std::max(a, b));
+        }
+    std::sort(nesting.crossings.begin(), nesting.crossings.end());
+    nesting.crossings.erase(std::unique(nesting.crossings.begin(), nesting.crossings.end()), nesting.crossings.end());
+    return nesting;
+}
+
+}  // namespace kontur

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/roi_contours.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "kontur/io/contour_nesting.h"
+#include "kontur/io/keyhole.h"
+#include "kontur/io/shared_planes.h"
+
+namespace kontur {
+namespace {
+
+/// Channels of keyholes are drawn there and back along the same points, up to the rounding of the file.
+constexpr double kChannelToleranceMm = 1e-3;
+
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The contours under construction and what is to be told about them.
+struct Interpretation {
+    InterpretedContours result;
+    std::map<std::string, std::size_t> other_types;
+    std::size_t without_area = 0;
+    std::size_t repeated = 0;
+    std::size_t keyholes = 0;
+    bool declared_xor = false;
+
+    void note(const std::string& text) { result.notes.push_back(text); }
+};
+
+bool has_area(const std::vector<Vec3>& points) {
+    return points.size() >= 3 && width_mm(points) > ContourCheckOptions{}.line_tolerance_mm;
+}
+
+void add_ring(Interpretation& interpretation, std::vector<Vec3> ring) {
+    if (!has_area(ring)) {
+        ++interpretation.without_area;
+        return;
+    }
+    Contour contour;
+    contour.points = std::move(ring);
+    interpretation.result.contours.push_back(std::move(contour));
+}
+
+void add_stored(Interpretation& interpretation, const StoredContour& stored) {
+    const bool exclusive = stored.type == "CLOSEDPLANAR_XOR";
+    if (!exclusive && stored.type != "CLOSED_PLANAR") {
+        ++interpretation.other_types[stored.type.empty() ? "unknown" : stored.type];
+        return;
+    }
+    interpretation.declared_xor |= exclusive;
+    std::vector<std::vector<Vec3>> rings = split_keyhole(stored.points, kChannelToleranceMm);
+    interpretation.keyholes += rings.size() > 1;
+    if (rings.empty()) ++interpretation.without_area;
+    for (std::vector<Vec3>& ring : rings) add_ring(interpretation, std::move(ring));
+}
+
+/// A copy of a contour would cancel it when filled even-odd; nobody means that by storing one twice.
+std::size_t count_repeated(const std::vector<StoredContour>& stored, std::vector<bool>& repeated) {
+    const auto before = [&](std::size_t a, std::size_t b) {
+        return std::lexicographical_compare(
+            stored[a].points.begin(), stored[a].points.end(), stored[b].points.begin(), stored[b].points.end(),
+            [](const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
+    };
+    std::set<std::size_t, decltype(before)> seen(before);
+    for (std::size_t n = 0; n < stored.size(); ++n)
+        if (stored[n].type == "CLOSED_PLANAR") repeated[n] = !seen.insert(n).second;
+    return static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), true));
+}
+
+void note_omissions(Interpretation& interpretation) {
+    for (const auto& [type, count] : interpretation.other_types)
+        interpretation.note(fmt::format("left out {} of type {}", counted(count, "contour"), type));
+    if (interpretation.without_area > 0)
+        interpretation.note(fmt::format("left out {} without area", counted(interpretation.without_area, "contour")));
+    if (interpretation.repeated > 0)
+        interpretation.note(fmt::format("left out {} of another contour", counted(interpretation.repeated, "repetition")));
+    if (interpretation.keyholes > 0)
+        interpretation.note(
+            fmt::format("split into outer contours and holes: {}", counted(interpretation.keyholes, "keyhole contour")));
+}
+
+void mark_holes(Interpretation& interpretation) {
+    std::vector<Contour>& contours = interpretation.result.contours;
+    const Nesting nesting = find_nesting(contours, kChannelToleranceMm);
+    std::size_t holes = 0;
+    for (std::size_t n = 0; n < contours.size(); ++n) holes += contours[n].hole = nesting.depth[n] % 2 == 1;
+    if (interpretation.declared_xor) return;
+    if (holes > 0)
+        interpretation.note(
+            fmt::format("read as holes, filling even-odd: {} inside others on the slice", counted(holes, "contour")));
+    for (const auto& [a, b] : nesting.crossings)
+        interpretation.note(
+            fmt::format("contours {} and {} overlap in part; even-odd filling leaves the overlap out", a + 1, b + 1));
+}
+
+void note_warped(Interpretation& interpretation, double tolerance) {
+    std::size_t warped = 0;
+    double worst = 0;
+    for (const Contour& contour : interpretation.result.contours) {
+        double off = 0;
+        for (const Vec3& p : contour.points) off = std::max(off, std::abs(contour.plane.distance_to(p)));
+        warped += off > tolerance;
+        worst = std::max(worst, off);
+    }
+    if (warped > 0)
+        interpretation.note(fmt::format("not planar: {}, with points up to {:.3g} mm off the best plane",
+                                        counted(warped, "contour"), worst));
+}
+
+}  // namespace
+
+InterpretedContours interpret_contours(const std::vector<StoredContour>& stored) {
+    Interpretation interpretation;
+    std::vector<bool> repeated(stored.size(), false);
+    interpretation.repeated = count_repeated(stored, repeated);
+    for (std::size_t n = 0; n < stored.size(); ++n)
+        if (!repeated[n]) add_stored(interpretation, stored[n]);
+    const double tolerance = ContourCheckOptions{}.plane_tolerance_mm;
+    assign_planes(interpretation.result.contours, tolerance);
+    note_omissions(interpretation);
+    note_warped(interpretation, tolerance);
+    mark_holes(interpretation);
+    return std::move(interpretation.result);
+}
+
+}  // namespace kontur

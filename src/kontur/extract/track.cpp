@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/extract/track.h"
+
+#include <algorithm>
+
+namespace kontur {
+namespace {
+
+// Stands in the lattice for a value that is being computed, so that it is asked for only once.
+constexpr double kPending = std::numeric_limits<double>::infinity();
+
+/// Whether a face's four corners, given as a mask of corner bits, have both signs.
+bool is_mixed(unsigned inside, unsigned face) { return (inside & face) != 0 && (inside & face) != face; }
+
+struct Face {
+    unsigned corners;  ///< as bits
+    Index3 neighbour;  ///< the cell on the other side
+};
+constexpr Face kFaces[6] = {{0b01010101u, {-1, 0, 0}}, {0b10101010u, {1, 0, 0}},  {0b00110011u, {0, -1, 0}},
+                            {0b11001100u, {0, 1, 0}},  {0b00001111u, {0, 0, -1}}, {0b11110000u, {0, 0, 1}}};
+
+class Tracker {
+public:
+    Tracker(const ImplicitFunction& function, const Grid& grid, int threads)
+        : function_(function), surface_{Lattice(grid), {}, 0}, threads_(threads) {}
+
+    /// Evaluates the cells' corners and returns the cells that the surface passes through.
+    std::vector<Index3> keep_mixed(std::vector<Index3> cells) {
+        evaluate_corners(cells);
+        std::erase_if(cells, [&](const Index3& c) {
+            const unsigned inside = inside_corners(surface_.lattice.corners(c));
+            return inside == 0 || inside == 0xffu;
+        });
+        return cells;
+    }
+
+    /// Adds mixed cells to the surface and returns the cells behind their mixed faces that nobody has seen.
+    std::vector<Index3> advance(const std::vector<Index3>& mixed) {
+        std::vector<Index3> next;
+        for (const Index3& c : mixed) {
+            surface_.cells.push_back(c);
+            const unsigned inside = inside_corners(surface_.lattice.corners(c));
+            for (const Face& face : kFaces) {
+                if (!is_mixed(inside, face.corners)) continue;
+                const Index3 n{c.i + face.neighbour.i, c.j + face.neighbour.j, c.k + face.neighbour.k};
+                if (surface_.lattice.is_cell(n) && surface_.lattice.mark_cell(n)) next.push_back(n);
+            }
+        }
+        return next;
+    }
+
+    std::vector<Index3> unseen(const std::vector<Index3>& cells) {
+        std::vector<Index3> result;
+        for (const Index3& c : cells)
+            if (surface_.lattice.is_cell(c) && surface_.lattice.mark_cell(c)) result.push_back(c);
+        return result;
+    }
+
+    SurfaceLattice finish() {
+        std::sort(surface_.cells.begin(), surface_.cells.end(), [](const Index3& a, const Index3& b) {
+            return a.k != b.k ? a.k < b.k : a.j != b.j ? a.j < b.j : a.i < b.i;
+        });
+        return std::move(surface_);
+    }
+
+private:
+    void evaluate_corners(const std::vector<Index3>& cells) {
+        std::vector<Index3> wanted;
+        for (const Index3& c : cells)
+            for (int n = 0; n < 8; ++n) {
+                const Index3 p = Lattice::corner(c, n);
+                if (!std::isnan(surface_.lattice.value(p))) continue;
+                surface_.lattice.set_value(p, kPending);
+                wanted.push_back(p);
+            }
+        std::vector<Vec3> points;
+        points.reserve(wanted.size());
+        for (const Index3& p : wanted) points.push_back(surface_.lattice.grid().center_mm(p.i, p.j, p.k));
+        std::vector<double> values(points.size());
+        function_.values(points, values, threads_);
+        for (std::size_t i = 0; i < wanted.size(); ++i) surface_.lattice.set_value(wanted[i], values[i]);
+        surface_.evaluations += static_cast<std::int64_t>(points.size());
+    }
+
+    const ImplicitFunction& function_;
+    SurfaceLattice surface_;
+    int threads_;
+};
+
+/// The cells that contain the points, and the 26 around each.
+std::vector<Index3> cells_around(const Grid& grid, std::span<const Vec3> points) {
+    const Affine3 mm_to_index = grid.index_to_mm.inverse();
+    std::vector<Index3> cells;
+    for (const Vec3& p : points) {
+        const Vec3 at = mm_to_index.apply(p);
+        // Far outside of any 64-bit index; also false for NaN.
+        if (!(std::abs(at.x) < 1e15 && std::abs(at.y) < 1e15 && std::abs(at.z) < 1e15)) continue;
+        const Index3 c{static_cast<std::int64_t>(std::floor(at.x)), static_cast<std::int64_t>(std::floor(at.y)),
+                       static_cast<std::int64_t>(std::floor(at.z))};
+        for (std::int64_t k = -1; k <= 1; ++k)
+            for (std::int64_t j = -1; j <= 1; ++j)
+                for (std::int64_t i = -1; i <= 1; ++i) cells.push_back({c.i + i, c.j + j, c.k + k});
+    }
+    return cells;
+}
+
+}  // namespace
+
+SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+                             const Progress& progress) {
+    Tracker tracker(function, grid, threads);
+    progress.report("voxelize", 0);
+
+    // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
+    // contour they are cells that the walk visits anyway.
+    std::vector<Index3> front = tracker.keep_mixed(tracker.unseen(cells_around(grid, starts)));
+    while (!front.empty()) {
+        progress.check();
+        front = tracker.keep_mixed(tracker.advance(front));
+    }
+    return tracker.finish();
+}
+
+SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& grid, int threads, const Progress& progress) {
+    SurfaceLattice surface{Lattice(grid), {}, 0};
+    std::vector<Vec3> points(static_cast<std::size_t>(grid.size.i * grid.size.j));
+    std::vector<double> values(points.size());
+    for (std::int64_t k = 0; k < grid.size.k; ++k) {
+        progress.report("voxelize", static_cast<double>(k) / static_cast<double>(grid.size.k));
+        for (std::int64_t j = 0; j < grid.size.j; ++j)
+            for (std::int64_t i = 0; i < grid.size.i; ++i)
+                points[static_cast<std::size_t>(i + grid.size.i * j)] = grid.center_mm(i, j, k);
+        function.values(points, values, threads);
+        for (std::int64_t j = 0; j < grid.size.j; ++j)
+            for (std::int64_t i = 0; i < grid.size.i; ++i)
+                surface.lattice.set_value({i, j, k}, values[static_cast<std::size_t>(i + grid.size.i * j)]);
+    }
+    surface.evaluations = grid.voxel_count();
+    for (std::int64_t k = -1; k < grid.size.k; ++k)
+        for (std::int64_t j = -1; j < grid.size.j; ++j)
+            for (std::int64_t i = -1; i < grid.size.i; ++i) {
+                const unsigned inside = inside_corners(surface.lattice.corners({i, j, k}));
+                if (inside != 0 && inside != 0xffu) surface.cells.push_back({i, j, k});
+            }
+    return surface;
+}
+
+}  // namespace kontur

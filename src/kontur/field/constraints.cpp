@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/constraints.h"
+
+#include <unordered_map>
+
+namespace kontur {
+namespace {
+
+/// Accepts points that keep a distance from all those accepted before. Cells of the size of that distance, so that only
+/// 27 of them need a look.
+class SpacingFilter {
+public:
+    explicit SpacingFilter(double distance) : distance_(distance), cell_(distance > 0 ? distance : 1.0) {}
+
+    bool accept(const Vec3& p) {
+        const Index3 at{cell(p.x), cell(p.y), cell(p.z)};
+        for (std::int64_t k = at.k - 1; k <= at.k + 1; ++k)
+            for (std::int64_t j = at.j - 1; j <= at.j + 1; ++j)
+                for (std::int64_t i = at.i - 1; i <= at.i + 1; ++i)
+                    if (repeats_one_of(cells_.find({i, j, k}), p)) return false;
+        cells_[at].push_back(p);
+        return true;
+    }
+
+private:
+    struct Hash {
+        std::size_t operator()(const Index3& c) const {
+            const auto mix = [](std::uint64_t h, std::int64_t v) {
+                return (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u;
+            };
+            return mix(mix(mix(0x2545F4914F6CDD1Du, c.i) >> 7, c.j) >> 7, c.k);
+        }
+    };
+    using Cells = std::unordered_map<Index3, std::vector<Vec3>, Hash>;
+
+    std::int64_t cell(double coordinate) const { return static_cast<std::int64_t>(std::floor(coordinate / cell_)); }
+
+    bool repeats_one_of(Cells::const_iterator found, const Vec3& p) const {
+        if (found == cells_.end()) return false;
+        for (const Vec3& q : found->second)
+            if (p == q || distance(p, q) < distance_) return true;
+        return false;
+    }
+
+    double distance_, cell_;
+    Cells cells_;
+};
+
+}  // namespace
+
+PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
+                                    std::span<const Vec3> interior, std::span<const Vec3> exterior,
+                                    const PlaceOptions& options) {
+    PlacedConstraints result;
+    SpacingFilter filter(options.merge_distance_mm);
+    const auto place = [&](const Vec3& at, double value, ConstraintKind kind) {
+        if (!filter.accept(at)) {
+            ++result.merged;
+            return false;
+        }
+        result.constraints.centers.push_back(at);
+        result.constraints.values.push_back(value);
+        result.constraints.kinds.push_back(kind);
+        return true;
+    };
+
+    const double offset = options.normal_offset_mm;
+    std::vector<bool> kept(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) kept[i] = place(points[i].position, 0, ConstraintKind::boundary);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (kept[i])
+            place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal);
+    for (const Vec3& p : interior) place(p, offset, ConstraintKind::interior);
+    for (const Vec3& p : exterior) place(p, -offset, ConstraintKind::exterior);
+    return result;
+}
+
+}  // namespace kontur

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+/// A point of a contour that takes part in the fit, with what its contour says about the surface there.
+struct BoundaryPoint {
+    Vec3 position;         ///< mm
+    Vec3 inplane_normal;   ///< unit, outward, in the contour's plane (Eq. 7)
+    Vec3 plane_normal;     ///< unit normal of the contour's plane: the direction in which the surface may tilt
+    std::int32_t contour;  ///< index into ContourSet::contours
+};
+
+enum class ConstraintKind : std::uint8_t {
+    boundary,  ///< f = 0 at a contour point
+    normal,    ///< f = -offset at a contour point moved outward by the offset
+    interior,  ///< f > 0 at a single point
+    exterior,  ///< f < 0 at a single point
+};
+
+/// Where the implicit function is prescribed, and its value there. Values are in mm, so that |f| near the surface is about
+/// the distance to it; with an offset of 1 mm they are the paper's 0 and -1.
+struct ConstraintSet {
+    std::vector<Vec3> centers;
+    std::vector<double> values;
+    std::vector<ConstraintKind> kinds;
+
+    std::size_t size() const { return centers.size(); }
+};
+
+struct PlaceOptions {
+    double normal_offset_mm = 1.0;  ///< length d > 0 of the normal constraints
+    double merge_distance_mm = 0;   ///< a constraint closer than this to an earlier one is left out (0: only exact copies)
+};
+
+struct PlacedConstraints {
+    ConstraintSet constraints;
+    std::size_t merged = 0;  ///< constraints left out because they (nearly) repeat others
+};
+
+/// Boundary constraints f = 0 at all points, and for each one normal constraint f = -d s at the distance d outside along
+/// its in-plane normal; then interior and exterior points with values of +d and -d. `slopes` holds s in (0, 1], one per
+/// point: how fast f falls along the in-plane normal, which for a distance-like f is the cosine of the surface's tilt
+/// against the contour's plane. All ones is the paper's choice.
+///
+/// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
+/// distance of an earlier one is dropped; boundary constraints come first and win.
+PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
+                                    std::span<const Vec3> interior, std::span<const Vec3> exterior,
+                                    const PlaceOptions& options = {});
+
+}  // namespace kontur

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/fit.h"
+
+#include <algorithm>
+
+namespace kontur {
+namespace {
+
+/// Cosine of the angle between the surface's normal and the contour's plane.
+double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slope) {
+    const Vec3 outward = -gradient;
+    const double inplane = std::max(dot(outward, point.inplane_normal), least_slope * norm(outward));
+    const double tilt = dot(outward, point.plane_normal);
+    return inplane > 0 ? inplane / std::hypot(inplane, tilt) : 1.0;
+}
+
+/// Reads all slopes from the function's gradient; returns the mean change of the tilt in degrees.
+double update_slopes(const ImplicitFunction& function, const std::vector<BoundaryPoint>& points, const FitOptions& options,
+                     std::vector<double>& slopes) {
+    std::vector<Vec3> positions(points.size()), gradients(points.size());
+    std::transform(points.begin(), points.end(), positions.begin(), [](const BoundaryPoint& p) { return p.position; });
+    function.gradients(positions, gradients, options.solve.threads);
+    double change = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double next = slope(points[i], gradients[i], options.least_slope);
+        change += std::abs(std::acos(std::min(next, 1.0)) - std::acos(std::min(slopes[i], 1.0)));
+        slopes[i] = next;
+    }
+    return change / static_cast<double>(points.size()) * 180 / M_PI;
+}
+
+/// One round's share of the whole progress.
+Progress part_of(const Progress& whole, int round, int rounds) {
+    if (!whole.callback) return whole;
+    return {[&whole, round, rounds](std::string_view stage, double done) { whole.callback(stage, (round + done) / rounds); },
+            whole.stop};
+}
+
+}  // namespace
+
+std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
+
+Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress) {
+    Fit result;
+    result.slopes.assign(contours.points.size(), 1.0);
+    const int rounds = options.normals == Normals::surface ? options.rounds : 0;
+    double start_smoothing = options.start_smoothing;
+    for (int round = 0; round <= rounds; ++round, start_smoothing *= options.smoothing_factor) {
+        const PlacedConstraints placed =
+            place_constraints(contours.points, result.slopes, set.interior, set.exterior, options.place);
+        SolveOptions solve_options = options.solve;
+        if (round < rounds) solve_options.smoothing = std::max(start_smoothing, options.solve.smoothing);
+        const Solution solution = solve(placed.constraints, solve_options, part_of(progress, round, rounds + 1));
+        result.function = solution.function;
+        result.report = solution.report;
+        result.iterations += solution.report.iterations;
+        result.merged = placed.merged;
+        result.constraints = placed.constraints.size();
+        ++result.solves;
+        if (round < rounds)
+            result.tilt_change_degrees = update_slopes(result.function, contours.points, options, result.slopes);
+    }
+    return result;
+}
+
+}  // namespace kontur

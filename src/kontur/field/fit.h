@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "kontur/field/prepare.h"
+#include "kontur/field/solve.h"
+
+namespace kontur {
+
+/// What the normal constraints know of the surface's direction.
+enum class Normals {
+    surface,   ///< its tilt against each contour's plane, found from all contours together
+    in_plane,  ///< only what each contour shows (Eq. 7): the paper's; leaks where contours of different planes cross
+};
+std::string_view name(Normals normals) noexcept;
+
+struct FitOptions {
+    Normals normals = Normals::surface;
+    int rounds = 3;                 ///< surface normals: how often the tilts are read from the fit and given back to it
+    double start_smoothing = 1e-3;  ///< surface normals: smoothing of the first fit, on unit-box coordinates
+    double smoothing_factor = 0.3;  ///< ... and its factor from round to round; the last fit has `solve.smoothing`
+    double least_slope = 0.2;       ///< surface normals: lower bound of the cosine of the tilt
+    PlaceOptions place;
+    SolveOptions solve;
+};
+
+struct Fit {
+    ImplicitFunction function;
+    SolveReport report;  ///< of the last solve
+    int solves = 0;
+    int iterations = 0;              ///< over all solves
+    std::size_t merged = 0;          ///< near-duplicate constraints left out
+    std::size_t constraints = 0;     ///< kept
+    double tilt_change_degrees = 0;  ///< mean change of the tilts in the last round
+    std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
+};
+
+/// Fits the implicit function to prepared contours. A contour fixes only the in-plane part of the surface's direction;
+/// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
+/// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
+/// gradient at the contour's points and the prescribed values are corrected, f(c + d n_inplane) = -d cos(tilt); the fit
+/// is repeated. To first order that is the normal constraint of the true 3D normal, but only the contour's own direction
+/// is prescribed: the tilt itself stays free, so jagged contours cannot amplify it from round to round
+/// (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start contradicts itself.
+Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress = {});
+
+}  // namespace kontur

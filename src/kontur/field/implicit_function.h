@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kontur/base/geometry.h"
+#include "kontur/field/kernel.h"
+
+namespace kontur {
+
+/// Coordinates in which the system is set up: x -> (x - center) / scale, so that the centres fill the box [-1, 1]^3. In
+/// raw millimetres the condition number is five orders of magnitude worse, with a patient offset nine.
+struct UnitFrame {
+    Vec3 center;
+    double scale = 1;
+
+    Vec3 to_unit(const Vec3& p) const { return (p - center) / scale; }
+    std::vector<Vec3> to_unit(std::span<const Vec3> points) const;
+};
+
+/// The frame of a point set: its box's centre and half its longest side (1 for a single point).
+UnitFrame unit_frame(std::span<const Vec3> points);
+
+/// f(x) = p0 + p . x + sum_j w_j phi(|x - c_j|) (paper Eq. 2), positive inside, in mm near the surface. Immutable, cheap to
+/// copy, safe to read from any thread.
+class ImplicitFunction {
+public:
+    /// The zero function.
+    ImplicitFunction();
+    /// `centers` in `frame`'s unit coordinates; `polynomial` = {p0, p1, p2, p3} on the same coordinates.
+    ImplicitFunction(Kernel kernel, const UnitFrame& frame, PointArrays centers, std::vector<double> weights,
+                     std::array<double, 4> polynomial);
+
+    Kernel kernel() const;
+    const UnitFrame& frame() const;
+    const PointArrays& centers() const;
+    std::span<const double> weights() const;
+    const std::array<double, 4>& polynomial() const;
+
+    double value(const Vec3& point_mm) const;
+    /// Gradient per mm; it points inward.
+    Vec3 gradient(const Vec3& point_mm) const;
+
+    /// out[i] = value(points[i]), the same bytes as `value`, in bulk on `threads` threads (0: the machine's).
+    void values(std::span<const Vec3> points_mm, std::span<double> out, int threads = 0) const;
+    /// out[i] = gradient(points[i]), in bulk.
+    void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads = 0) const;
+
+private:
+    struct Data;
+    std::shared_ptr<const Data> data_;
+};
+
+}  // namespace kontur

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/kernel.h"
+
+#include <algorithm>
+#include <array>
+
+#include "kontur/base/parallel.h"
+
+// One compilation per instruction set, chosen at run time. Sanitizers cannot instrument the resolver.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define KONTUR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define KONTUR_CLONES
+#endif
+
+namespace kontur {
+namespace {
+
+// Targets that are summed side by side in vector registers: the lanes are targets, never terms of one sum.
+constexpr int kLanes = 32;
+constexpr std::int64_t kTargetsPerChunk = 4 * kLanes;
+
+struct Lanes {
+    alignas(64) std::array<double, kLanes> x{}, y{}, z{};
+};
+
+struct Sources {
+    const double *x, *y, *z, *w;
+    std::size_t count;
+};
+
+KONTUR_CLONES void sum_triharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
+    alignas(64) double sum[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            const double r2 = dx * dx + dy * dy + dz * dz;
+            sum[l] += w * (r2 * std::sqrt(r2));
+        }
+    }
+    for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
+}
+
+KONTUR_CLONES void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
+    alignas(64) double sum[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            sum[l] += w * std::sqrt(dx * dx + dy * dy + dz * dz);
+        }
+    }
+    for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
+}
+
+// phi'(r) / r is 3 r for r^3 and 1 / r for r.
+KONTUR_CLONES void sum_triharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
+    alignas(64) double gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = 3 * s.w[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            const double factor = w * std::sqrt(dx * dx + dy * dy + dz * dz);
+            gx[l] += factor * dx;
+            gy[l] += factor * dy;
+            gz[l] += factor * dz;
+        }
+    }
+    for (int l = 0; l < kLanes; ++l) {
+        out.x[l] = gx[l];
+        out.y[l] = gy[l];
+        out.z[l] = gz[l];
+    }
+}
+
+KONTUR_CLONES void sum_biharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
+    alignas(64) double gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
+            const double factor = r > 0 ? w / r : 0.0;
+            gx[l] += factor * dx;
+            gy[l] += factor * dy;
+            gz[l] += factor * dz;
+        }
+    }
+    for (int l = 0; l < kLanes; ++l) {
+        out.x[l] = gx[l];
+        out.y[l] = gy[l];
+        out.z[l] = gz[l];
+    }
+}
+
+Sources sources(const PointArrays& centers, std::span<const double> weights) {
+    return {centers.x.data(), centers.y.data(), centers.z.data(), weights.data(), centers.size()};
+}
+
+/// Copies targets [begin, begin + count) into lanes; unused lanes repeat the first so that they cost no denormals.
+void load(const PointArrays& targets, std::size_t begin, std::size_t count, Lanes& lanes) {
+    for (std::size_t l = 0; l < kLanes; ++l) {
+        const std::size_t t = begin + (l < count ? l : 0);
+        lanes.x[l] = targets.x[t];
+        lanes.y[l] = targets.y[t];
+        lanes.z[l] = targets.z[t];
+    }
+}
+
+/// Calls body(begin, count) for runs of at most kLanes targets.
+template <class Body>
+void for_each_lane_group(std::size_t target_count, int threads, const Body& body) {
+    parallel_for(
+        static_cast<std::int64_t>(target_count), kTargetsPerChunk, threads, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t t = begin; t < end; t += kLanes)
+                body(static_cast<std::size_t>(t), static_cast<std::size_t>(std::min<std::int64_t>(kLanes, end - t)));
+        });
+}
+
+}  // namespace
+
+PointArrays::PointArrays(std::span<const Vec3> points) {
+    x.reserve(points.size());
+    y.reserve(points.size());
+    z.reserve(points.size());
+    for (const Vec3& p : points) {
+        x.push_back(p.x);
+        y.push_back(p.y);
+        z.push_back(p.z);
+    }
+}
+
+void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
+                std::span<double> out, int threads) {
+    const auto sum = kernel == Kernel::triharmonic ? sum_triharmonic : sum_biharmonic;
+    for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
+        Lanes lanes;
+        alignas(64) std::array<double, kLanes> result;
+        load(targets, begin, count, lanes);
+        sum(sources(centers, weights), lanes, result.data());
+        std::copy_n(result.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(begin));
+    });
+}
+
+void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
+                         const PointArrays& targets, std::span<Vec3> out, int threads) {
+    const auto sum = kernel == Kernel::triharmonic ? sum_triharmonic_gradient : sum_biharmonic_gradient;
+    for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
+        Lanes lanes, result;
+        load(targets, begin, count, lanes);
+        sum(sources(centers, weights), lanes, result);
+        for (std::size_t l = 0; l < count; ++l) out[begin + l] = {result.x[l], result.y[l], result.z[l]};
+    });
+}
+
+}  // namespace kontur

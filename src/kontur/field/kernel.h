@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kontur/base/geometry.h"
+
+namespace kontur {
+
+/// The radial basis function phi(r) of variational interpolation (paper Eq. 3 and 4).
+enum class Kernel {
+    triharmonic,  ///< r^3: C2, minimises the third-derivative energy; what the paper uses
+    biharmonic,   ///< r: C0 at the centres, minimises the second-derivative energy of Eq. 1
+};
+
+inline double kernel_value(Kernel kernel, double r) { return kernel == Kernel::triharmonic ? r * r * r : r; }
+
+/// Sign s that makes s * phi conditionally positive definite on weights with vanishing zeroth and first moments
+/// (Wendland 2005, ch. 8): +1 for r^3, -1 for r.
+inline double kernel_sign(Kernel kernel) { return kernel == Kernel::triharmonic ? 1.0 : -1.0; }
+
+/// Points as separate coordinate arrays, the layout that bulk evaluation runs on.
+struct PointArrays {
+    std::vector<double> x, y, z;
+
+    PointArrays() = default;
+    explicit PointArrays(std::span<const Vec3> points);
+
+    std::size_t size() const { return x.size(); }
+    Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// out[t] = sum_j weights[j] phi(|targets[t] - centers[j]|). The sum runs over j in order for every target, without
+/// contraction, so a value depends neither on the batch it is computed in, nor on the instruction set, nor on `threads`.
+void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
+                std::span<double> out, int threads);
+
+/// out[t] = gradient at targets[t] of the sum above. At a centre the term of that centre is 0 (for phi = r by convention).
+void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
+                         const PointArrays& targets, std::span<Vec3> out, int threads);
+
+}  // namespace kontur

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kontur/field/solve.h"
+
+namespace kontur {
+
+/// The interpolation problem in unit-box coordinates, as the solvers see it.
+struct LinearSystem {
+    Kernel kernel;
+    double smoothing;
+    PointArrays centers;         ///< unit-box coordinates
+    std::vector<double> values;  ///< mm
+
+    std::size_t size() const { return values.size(); }
+    double entry(std::size_t i, std::size_t j) const {
+        const double dx = centers.x[i] - centers.x[j], dy = centers.y[i] - centers.y[j], dz = centers.z[i] - centers.z[j];
+        const double phi = kernel_value(kernel, std::sqrt(dx * dx + dy * dy + dz * dz));
+        return i == j ? phi + diagonal() : phi;
+    }
+    /// Smoothing enters with the kernel's sign: it must add to the definite direction.
+    double diagonal() const { return kernel_sign(kernel) * smoothing; }
+};
+
+struct Coefficients {
+    std::vector<double> weights;
+    std::array<double, 4> polynomial{};
+    int iterations = 0;
+    double matrix_mb = 0;
+};
+
+/// Eq. 6 as printed, by dsysv (Bunch-Kaufman).
+Coefficients solve_dense(const LinearSystem& system);
+
+/// The reduced system, by Cholesky. Four well-spread centres carry the polynomial: with their Lagrange basis l_m, the
+/// weights that satisfy the side conditions are w = B v, and B^T Phi B is definite because phi is conditionally so. Blocked
+/// by tiles in a fixed order, so the result does not depend on the thread count.
+Coefficients solve_cholesky(const LinearSystem& system, int threads, const Progress& progress);
+
+/// Conjugate gradients on the weights that satisfy the side conditions.
+Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Progress& progress);
+
+/// Four centres, far apart and not in one plane, chosen greedily: the farthest from the mean, the farthest from it, then the
+/// largest triangle, then the largest tetrahedron. Throws Error(singular_system) when all centres lie in one plane.
+std::array<std::size_t, 4> spread_centers(const PointArrays& centers);
+
+/// Values at the four spread centres -> the linear polynomial through them.
+std::array<double, 4> linear_through(const PointArrays& centers, const std::array<std::size_t, 4>& spread,
+                                     const std::array<double, 4>& values);
+
+}  // namespace kontur

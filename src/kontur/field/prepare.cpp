@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/prepare.h"
+
+#include <algorithm>
+
+#include "kontur/field/orient.h"
+#include "kontur/field/reduce.h"
+
+namespace kontur {
+namespace {
+
+bool is_coplanar(const ContourSet& set) {
+    const Plane& plane = set.contours.front().plane;
+    const double tolerance = 1e-6 * bounding_box(set).diagonal();
+    for (const Contour& contour : set.contours)
+        for (const Vec3& p : contour.points)
+            if (std::abs(plane.distance_to(p)) > std::max(tolerance, 1e-3)) return false;
+    return true;
+}
+
+Contour shifted(Contour contour, const Vec3& by) {
+    contour.plane.origin += by;
+    for (Vec3& p : contour.points) p += by;
+    return contour;
+}
+
+void append(const Contour& drawn, std::int32_t index, const PrepareOptions& options, PreparedContours& prepared) {
+    Contour contour = reduce(drawn, {options.quality});
+    if (options.refine) contour = refine(contour);
+    const ContourOrientation orientation = orient(contour);
+    for (std::size_t i = 0; i < contour.points.size(); ++i)
+        prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});
+    prepared.crossings.insert(prepared.crossings.end(), orientation.crossings.begin(), orientation.crossings.end());
+}
+
+}  // namespace
+
+PreparedContours prepare(const ContourSet& set, const PrepareOptions& options, double copy_shift_mm) {
+    PreparedContours prepared;
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        append(set.contours[c], static_cast<std::int32_t>(c), options, prepared);
+    if (!set.contours.empty() && is_coplanar(set)) {
+        const Contour& first = set.contours.front();
+        append(shifted(first, copy_shift_mm * first.plane.normal), 0, options, prepared);
+        prepared.added_copies = 1;
+    }
+    return prepared;
+}
+
+double half_point_spacing_mm(const ContourSet& set) {
+    std::vector<double> spacings;
+    for (const Contour& contour : set.contours)
+        for (std::size_t i = 0; i < contour.points.size(); ++i)
+            spacings.push_back(distance(contour.points[i], contour.points[(i + 1) % contour.points.size()]));
+    if (spacings.empty()) return 0;
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::nth_element(spacings.begin(), middle, spacings.end());
+    return *middle / 2;
+}
+
+}  // namespace kontur

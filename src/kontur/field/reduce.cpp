@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/reduce.h"
+
+#include <algorithm>
+#include <queue>
+#include <string>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+namespace {
+
+double point_weight(const Vec3& before, const Vec3& at, const Vec3& after) {
+    const Vec3 a = at - before, b = after - at;
+    const double la = norm(a), lb = norm(b);
+    if (la == 0 || lb == 0) return 0;  // a repeated point carries no shape
+    const double angle_weight = (1 - dot(a, b) / (la * lb)) / 2;
+    return angle_weight * la * lb / (la + lb);
+}
+
+/// The contour as a doubly linked ring from which points are taken.
+class Ring {
+public:
+    explicit Ring(const std::vector<Vec3>& points) : points_(points), links_(points.size()) {
+        const std::size_t n = points.size();
+        for (std::size_t i = 0; i < n; ++i) links_[i] = {(i + n - 1) % n, (i + 1) % n, true, 0};
+        for (std::size_t i = 0; i < n; ++i) update(i);
+    }
+
+    void remove(std::size_t i) {
+        Link& link = links_[i];
+        link.alive = false;
+        links_[link.before].after = link.after;
+        links_[link.after].before = link.before;
+        update(link.before);
+        update(link.after);
+    }
+
+    std::size_t before(std::size_t i) const { return links_[i].before; }
+    std::size_t after(std::size_t i) const { return links_[i].after; }
+    bool alive(std::size_t i) const { return links_[i].alive; }
+    double weight(std::size_t i) const { return links_[i].weight; }
+
+private:
+    struct Link {
+        std::size_t before, after;
+        bool alive;
+        double weight;
+    };
+
+    void update(std::size_t i) {
+        links_[i].weight = point_weight(points_[links_[i].before], points_[i], points_[links_[i].after]);
+    }
+
+    const std::vector<Vec3>& points_;
+    std::vector<Link> links_;
+};
+
+}  // namespace
+
+Contour reduce(const Contour& contour, const ReduceOptions& options) {
+    if (!(options.quality > 0 && options.quality <= 1))
+        throw Error(ErrorKind::invalid_input,
+                    "the reduction quality is " + std::to_string(options.quality) + "; it must be in (0, 1]");
+    const std::size_t n = contour.points.size();
+    const auto wanted = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n)));
+    const std::size_t keep = std::max(wanted, options.min_points);
+    if (keep >= n) return contour;
+
+    Ring ring(contour.points);
+    using Candidate = std::pair<double, std::size_t>;  // weight when queued, point: ties go to the earlier point
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
+    for (std::size_t i = 0; i < n; ++i) queue.emplace(ring.weight(i), i);
+    for (std::size_t left = n; left > keep;) {
+        const auto [weight, i] = queue.top();
+        queue.pop();
+        if (!ring.alive(i) || weight != ring.weight(i)) continue;  // outdated
+        ring.remove(i);
+        --left;
+        for (const std::size_t neighbour : {ring.before(i), ring.after(i)}) queue.emplace(ring.weight(neighbour), neighbour);
+    }
+
+    Contour reduced{contour.plane, {}, contour.closed, contour.hole};
+    for (std::size_t i = 0; i < n; ++i)
+        if (ring.alive(i)) reduced.points.push_back(contour.points[i]);
+    return reduced;
+}
+
+Contour refine(const Contour& contour) {
+    const std::size_t n = contour.points.size();
+    double total = 0;
+    for (std::size_t i = 0; i < n; ++i) total += distance(contour.points[i], contour.points[(i + 1) % n]);
+    const double average = total / static_cast<double>(n);
+
+    Contour refined{contour.plane, {}, contour.closed, contour.hole};
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
+        const double length = distance(from, to);
+        const auto pieces = length > 2 * average ? static_cast<int>(std::round(length / average)) : 1;
+        for (int piece = 0; piece < pieces; ++piece) refined.points.push_back(from + (to - from) * (double(piece) / pieces));
+    }
+    return refined;
+}
+
+}  // namespace kontur

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+struct ReduceOptions {
+    double quality = 1.0;        ///< fraction q of the points to keep, in (0, 1]; 1 keeps all
+    std::size_t min_points = 6;  ///< a contour is never reduced below this many points
+};
+
+/// Removes the points that matter least for a contour's shape (paper section 4.3, after Latecki & Lakaemper 1999): weight
+/// = (1 - cos of the turning angle) / 2 * |a||b| / (|a| + |b|) for the adjacent edges a and b; the point of lowest weight
+/// goes, its neighbours' weights are updated, until ceil(q * original) points are left. O(m log m) for m points.
+/// Throws Error(invalid_input) for a quality outside (0, 1].
+Contour reduce(const Contour& contour, const ReduceOptions& options = {});
+
+/// Subdivides long segments (paper section 5.2): a segment longer than twice the contour's average segment length gets
+/// equally spaced points at about the average length. Drawn points stay as they are.
+Contour refine(const Contour& contour);
+
+}  // namespace kontur

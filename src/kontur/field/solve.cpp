@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/solve.h"
+
+#include <algorithm>
+#include <string>
+
+#include "kontur/base/error.h"
+#include "kontur/field/linear_system.h"
+
+namespace kontur {
+namespace {
+
+void check(const ConstraintSet& constraints, const SolveOptions& options) {
+    if (constraints.size() < 4)
+        throw Error(ErrorKind::invalid_input, "there are " + std::to_string(constraints.size()) +
+                                                  " constraints; a linear polynomial in space needs at least 4");
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (!is_finite(constraints.centers[i]) || !std::isfinite(constraints.values[i]))
+            throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
+    if (!(options.smoothing >= 0))
+        throw Error(ErrorKind::invalid_input, "the smoothing is " + std::to_string(options.smoothing) + "; it must be >= 0");
+}
+
+void check_memory(std::size_t centers, double bytes_per_entry, const SolveOptions& options) {
+    const double n = static_cast<double>(centers);
+    const double mb = n * n * bytes_per_entry / (1 << 20);
+    if (mb > options.max_memory_mb)
+        throw Error(ErrorKind::too_large, "the " + std::string(name(options.solver)) + " solver needs " +
+                                              std::to_string(static_cast<long long>(mb)) + " MB for " +
+                                              std::to_string(centers) + " centres; the limit is " +
+                                              std::to_string(static_cast<long long>(options.max_memory_mb)) + " MB");
+}
+
+Coefficients run(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
+    switch (options.solver) {
+        case Solver::dense:
+            check_memory(system.size(), 8, options);
+            return solve_dense(system);
+        case Solver::cholesky:
+            check_memory(system.size(), 4, options);
+            return solve_cholesky(system, options.threads, progress);
+        default:
+            return solve_iterative(system, options, progress);
+    }
+}
+
+double largest_residual(const LinearSystem& system, const Coefficients& c, int threads) {
+    std::vector<double> sums(system.size());
+    sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, threads);
+    double largest = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const Vec3 p = system.centers[i];
+        const double f = sums[i] + c.polynomial[0] + c.polynomial[1] * p.x + c.polynomial[2] * p.y + c.polynomial[3] * p.z;
+        largest = std::max(largest, std::abs(f + system.diagonal() * c.weights[i] - system.values[i]));
+    }
+    return largest;
+}
+
+}  // namespace
+
+std::string_view name(Solver solver) noexcept {
+    switch (solver) {
+        case Solver::automatic:
+            return "auto";
+        case Solver::iterative:
+            return "iterative";
+        case Solver::cholesky:
+            return "cholesky";
+        case Solver::dense:
+            return "dense";
+    }
+    return "?";
+}
+
+std::string_view name(Kernel kernel) noexcept { return kernel == Kernel::triharmonic ? "triharmonic" : "biharmonic"; }
+
+Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress) {
+    SolveOptions options = requested;
+    if (options.solver == Solver::automatic) options.solver = Solver::iterative;
+    check(constraints, options);
+    progress.check();
+
+    const UnitFrame frame = unit_frame(constraints.centers);
+    const LinearSystem system{options.kernel, options.smoothing, PointArrays(frame.to_unit(constraints.centers)),
+                              constraints.values};
+    Coefficients c = run(system, options, progress);
+    for (const double w : c.weights)
+        if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
+
+    Solution solution;
+    solution.report = {options.solver, system.size(), c.iterations, largest_residual(system, c, options.threads),
+                       c.matrix_mb};
+    solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
+    return solution;
+}
+
+}  // namespace kontur

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "kontur/base/progress.h"
+#include "kontur/field/constraints.h"
+#include "kontur/field/implicit_function.h"
+
+namespace kontur {
+
+enum class Solver {
+    automatic,  ///< iterative
+    iterative,  ///< projected conjugate gradients, sparse inverse Cholesky preconditioner: O(n) memory
+    cholesky,   ///< polynomials projected out, dense Cholesky: n^3/3 flops, 4 n^2 bytes
+    dense,      ///< the symmetric indefinite system of Eq. 6 by LAPACK dsysv, as printed in the paper: 8 n^2 bytes
+};
+std::string_view name(Solver solver) noexcept;
+std::string_view name(Kernel kernel) noexcept;
+
+struct SolveOptions {
+    Kernel kernel = Kernel::triharmonic;
+    Solver solver = Solver::automatic;
+    double smoothing = 0;          ///< >= 0, added to the diagonal on unit-box coordinates; 0 interpolates exactly
+    double tolerance_mm = 1e-3;    ///< iterative only: largest |f(c_i) - h_i| over all constraints at which it stops
+    int max_iterations = 500;      ///< iterative only
+    double max_memory_mb = 16384;  ///< a dense matrix larger than this is refused
+    int threads = 0;               ///< 0: the machine's
+};
+
+struct SolveReport {
+    Solver solver = Solver::automatic;  ///< the one that ran
+    std::size_t centres = 0;            ///< number of weights
+    int iterations = 0;                 ///< 0 for direct solvers
+    double residual = 0;                ///< largest |f(c_i) + smoothing w_i - h_i| over the constraints, in mm
+    double matrix_mb = 0;               ///< size of the factorised matrix or of the preconditioner
+};
+
+struct Solution {
+    ImplicitFunction function;
+    SolveReport report;
+};
+
+/// The variational interpolant through the constraints: Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
+/// Throws Error(singular_system) when the centres coincide or all lie in one plane, Error(too_large) when the dense matrix
+/// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints or values that are not finite.
+/// Results are the same bytes for any number of threads.
+Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {});
+
+}  // namespace kontur

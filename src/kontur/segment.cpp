@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/segment.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numeric>
+
+#include "kontur/base/error.h"
+#include "kontur/extract/polygonize.h"
+#include "kontur/measure/components.h"
+
+namespace kontur {
+namespace {
+
+// Fractions of the diagonal of the contours' box. The offset is short enough to stay clear of the opposite wall of thin
+// structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
+constexpr double kOffsetFraction = 3e-3;
+constexpr double kMergeFraction = 4e-4;
+constexpr double kSurfaceSmoothing = 1e-5;
+
+/// Collects the wall time of consecutive stages.
+class Stopwatch {
+public:
+    explicit Stopwatch(std::vector<std::pair<std::string, double>>& laps) : laps_(laps) {}
+    void lap(const char* stage) {
+        const auto now = Clock::now();
+        laps_.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+        last_ = now;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::vector<std::pair<std::string, double>>& laps_;
+    Clock::time_point last_ = Clock::now();
+};
+
+/// The contours without repeated points, checked, with a word on what was changed.
+ContourSet cleaned(ContourSet set, const Grid& grid, std::vector<std::string>& warnings) {
+    if (const std::size_t dropped = drop_duplicate_points(set); dropped > 0)
+        warnings.push_back(fmt::format("{} repeated points were left out", dropped));
+    check_contours(set);
+    check_grid(grid);
+    if (const auto warning = check_contours_inside(set, grid)) warnings.push_back(*warning);
+    return set;
+}
+
+FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
+    FitOptions fit;
+    fit.normals = options.normals;
+    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diagonal_mm);
+    fit.place.merge_distance_mm = kMergeFraction * diagonal_mm;
+    if (!(fit.place.normal_offset_mm > 0))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the normal offset is {} mm; it must be greater than 0", fit.place.normal_offset_mm));
+    fit.solve.kernel = options.kernel;
+    fit.solve.solver = options.solver;
+    fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
+    fit.solve.tolerance_mm = options.tolerance_mm;
+    fit.solve.threads = options.threads;
+    return fit;
+}
+
+/// Where the surface is known to pass: every drawn point, and where contours cross themselves.
+std::vector<Vec3> start_points(const ContourSet& set, const PreparedContours& prepared) {
+    std::vector<Vec3> starts = prepared.crossings;
+    for (const Contour& contour : set.contours) starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+    return starts;
+}
+
+SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts,
+                            const SegmentOptions& options, const Progress& progress) {
+    if (options.voxelizer == Voxelizer::exhaustive) return sample_everywhere(function, grid, options.threads, progress);
+    return track_surface(function, grid, starts, options.threads, progress);
+}
+
+bool reaches_border(const Mask& mask) {
+    const Index3& n = mask.grid.size;
+    for (std::int64_t k = 0; k < n.k; ++k)
+        for (std::int64_t j = 0; j < n.j; ++j) {
+            const bool border_row = k == 0 || k == n.k - 1 || j == 0 || j == n.j - 1;
+            for (std::int64_t i = 0; i < n.i; i += border_row || n.i == 1 ? 1 : n.i - 1)
+                if (mask.values[mask.grid.offset(i, j, k)]) return true;
+        }
+    return false;
+}
+
+void describe_fit(const PreparedContours& prepared, const Fit& fit, const FitOptions& options, SegmentReport& report) {
+    report.constraints = fit.constraints;
+    report.centres = fit.report.centres;
+    report.kernel = options.solve.kernel;
+    report.normals = options.normals;
+    report.normal_offset_mm = options.place.normal_offset_mm;
+    report.smoothing = options.solve.smoothing;
+    report.solver = fit.report.solver;
+    report.solves = fit.solves;
+    report.iterations = fit.iterations;
+    if (prepared.added_copies > 0)
+        report.warnings.push_back("all contours lie in one plane; a copy of the first one was added close to it");
+    if (!prepared.crossings.empty())
+        report.warnings.push_back(fmt::format(
+            "contours cross themselves at {} points; lobes are filled by the even-odd rule", prepared.crossings.size()));
+    if (fit.merged > 0)
+        report.warnings.push_back(fmt::format("{} constraints within {:.3g} mm of others were left out", fit.merged,
+                                              options.place.merge_distance_mm));
+}
+
+void describe_mask(const SurfaceLattice& surface, const Mask& mask, SegmentReport& report) {
+    report.evaluations = surface.evaluations;
+    report.surface_voxels = static_cast<std::int64_t>(surface.cells.size());
+    const std::vector<std::int64_t> components = component_sizes(mask);
+    report.mask_voxels = std::accumulate(components.begin(), components.end(), std::int64_t{0});
+    report.mask_components = static_cast<std::int64_t>(components.size());
+    report.mask_volume_ml = static_cast<double>(report.mask_voxels) * mask.grid.voxel_volume_mm3() / 1000;
+    if (report.mask_voxels == 0) report.warnings.push_back("the mask is empty: no voxel centre lies inside of the surface");
+    if (reaches_border(mask)) report.warnings.push_back("the object reaches the border of the image and is cut off there");
+}
+
+}  // namespace
+
+Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOptions& options, const Progress& progress) {
+    Segmentation result;
+    SegmentReport& report = result.report;
+    Stopwatch watch(report.seconds);
+
+    const ContourSet contours = cleaned(drawn, grid, report.warnings);
+    const FitOptions fitting = fit_options(options, bounding_box(contours).diagonal());
+    const PreparedContours prepared = prepare(contours, {options.quality}, fitting.place.normal_offset_mm);
+    watch.lap("prepare");
+    const Fit fitted = fit(prepared, contours, fitting, progress);
+    result.function = fitted.function;
+    watch.lap("fit");
+    const SurfaceLattice surface = find_surface(result.function, grid, start_points(contours, prepared), options, progress);
+    result.mask = fill(surface, options.threads);
+    watch.lap("voxelize");
+    if (options.mesh) {
+        result.mesh = polygonize(surface, result.function, options.threads, progress);
+        watch.lap("polygonize");
+    }
+
+    report.contours = contours.contours.size();
+    report.points = point_count(contours);
+    report.quality = options.quality;
+    report.voxelizer = options.voxelizer;
+    describe_fit(prepared, fitted, fitting, report);
+    report.residual = residual(result.function, contours, options.threads);
+    describe_mask(surface, result.mask, report);
+    watch.lap("measure");
+    return result;
+}
+
+}  // namespace kontur

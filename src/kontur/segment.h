@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kontur/base/progress.h"
+#include "kontur/extract/voxelize.h"
+#include "kontur/field/fit.h"
+#include "kontur/field/residual.h"
+#include "kontur/shape/contour.h"
+#include "kontur/shape/mesh.h"
+#include "kontur/shape/volume.h"
+
+namespace kontur {
+
+/// How contours become a segmentation. `normals = in_plane`, `normal_offset_mm = 1`, `solver = dense` is the paper as
+/// printed.
+struct SegmentOptions {
+    Kernel kernel = Kernel::triharmonic;
+    Normals normals = Normals::surface;
+    std::optional<double>
+        normal_offset_mm;             ///< length of the normal constraints; unset: 0.3 % of the contours' box diagonal
+    std::optional<double> smoothing;  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
+    double quality = 1.0;             ///< fraction of each contour's points that the fit uses, in (0, 1]
+    Solver solver = Solver::automatic;
+    double tolerance_mm = 1e-3;  ///< of the iterative solver, at all constraints
+    Voxelizer voxelizer = Voxelizer::tracked;
+    bool mesh = false;  ///< also make the surface
+    int threads = 0;    ///< 0: the machine's
+};
+
+struct SegmentReport {
+    std::size_t contours = 0;
+    std::size_t points = 0;       ///< drawn points
+    std::size_t constraints = 0;  ///< placed and kept
+    std::size_t centres = 0;      ///< weights of the implicit function
+    Kernel kernel = Kernel::triharmonic;
+    Normals normals = Normals::surface;
+    double normal_offset_mm = 0;
+    double smoothing = 0;
+    double quality = 1;
+    Solver solver = Solver::automatic;
+    Voxelizer voxelizer = Voxelizer::tracked;
+    int solves = 0;
+    int iterations = 0;               ///< over all solves; 0 for direct solvers
+    Residual residual;                ///< at all drawn points
+    std::int64_t evaluations = 0;     ///< function values computed to voxelize
+    std::int64_t surface_voxels = 0;  ///< lattice cells that the surface passes through
+    std::int64_t mask_voxels = 0;
+    double mask_volume_ml = 0;
+    std::int64_t mask_components = 0;                     ///< face-connected
+    std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
+    std::vector<std::string> warnings;                    ///< choices made for the user and doubts, one sentence each
+};
+
+struct Segmentation {
+    Mask mask;
+    ImplicitFunction function;
+    std::optional<TriangleMesh> mesh;
+    SegmentReport report;
+};
+
+/// Contours to mask (and mesh) on a grid. Throws Error as check_contours, check_contours_inside, solve and check_grid do.
+/// The same bytes for any number of threads.
+Segmentation segment(const ContourSet& contours, const Grid& grid, const SegmentOptions& options = {},
+                     const Progress& progress = {});
+
+}  // namespace kontur

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/contours.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "kontur/base/error.h"
+#include "kontur/io/contour_json.h"
+#include "kontur/io/json_file.h"
+#include "kontur/io/markups.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first bytes, enough to tell formats apart.
+std::string head_of(const fs::path& path) {
+    std::array<char, 132> head{};
+    std::ifstream file(path, std::ios::binary);
+    if (!file || (file.read(head.data(), head.size()), file.bad()))
+        throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+    return {head.data(), static_cast<std::size_t>(file.gcount())};
+}
+
+bool is_json(std::string_view head) {
+    const std::size_t start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return start != std::string_view::npos && (head[start] == '{' || head[start] == '[');
+}
+
+bool is_markups(const fs::path& path) { return path.string().ends_with(".mrk.json"); }
+
+}  // namespace
+
+ReadContours read_contours(const fs::path& path, const ReadContoursOptions& options) {
+    const std::string head = head_of(path);
+    if (!is_json(head))
+        throw Error(ErrorKind::unsupported, path.string() +
+                                                " holds no contours: kontur's .json and 3D Slicer's .mrk.json "
+                                                "are read");
+    if (is_markups(path) || read_json_file(path).contains("markups"))
+        return {read_markups(path, {options.plane_tolerance_mm}), {}};
+    return {read_contour_json(path), {}};
+}
+
+ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
+    ReadContours all;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (const fs::path& path : paths) {
+        const ReadContours one = read_contours(path, options);
+        if (all.contours.name.empty()) all.contours.name = one.contours.name;
+        append(all.contours.contours, one.contours.contours);
+        append(all.contours.interior, one.contours.interior);
+        append(all.contours.exterior, one.contours.exterior);
+        for (const std::string& note : one.notes) all.notes.push_back(path.string() + ": " + note);
+    }
+    return all;
+}
+
+void write_contours(const fs::path& path, const ContourSet& set) {
+    if (is_markups(path)) write_markups(path, set);
+    else if (path.extension() == ".json") write_contour_json(path, set);
+    else
+        throw Error(ErrorKind::unsupported,
+                    "contours are written to names that end in .json or .mrk.json, not to " + path.filename().string());
+}
+
+}  // namespace kontur

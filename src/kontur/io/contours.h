@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+struct ReadContoursOptions {
+    double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< for curves whose plane must be fitted
+};
+
+struct ReadContours {
+    ContourSet contours;
+    std::vector<std::string> notes;  ///< how the file was interpreted and what was left out, for the user to see
+};
+
+/// Reads kontur's contour file or 3D Slicer's markups; the content decides which. Throws
+/// Error(unsupported) for any other file and what the format's own reader throws.
+ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});
+
+/// The contours of several files as one object, in the order of the files, named after the first that has a name. Notes
+/// begin with their file's name.
+ReadContours read_contours(const std::vector<std::filesystem::path>& paths, const ReadContoursOptions& options = {});
+
+/// Writes 3D Slicer's markups to a name that ends in .mrk.json and kontur's contour file to any other .json. Throws
+/// Error(unsupported) for another extension.
+void write_contours(const std::filesystem::path& path, const ContourSet& set);
+
+}  // namespace kontur

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "kontur/shape/mesh.h"
+#include "kontur/view/camera.h"
+
+namespace kontur {
+
+/// What lies nearest to the viewer at the centre of each pixel.
+struct DepthBuffer {
+    struct Pixel {
+        float depth_mm = -std::numeric_limits<float>::infinity();  ///< towards the viewer
+        std::array<float, 3> normal{};                             ///< unit, on the screen: right, up, towards the viewer
+        bool is_covered() const { return depth_mm > -std::numeric_limits<float>::infinity(); }
+    };
+    int width = 0;
+    int height = 0;
+    std::vector<Pixel> pixels;
+
+    const Pixel& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
+};
+
+/// Fills the triangles by a depth test with interpolated normals, which are turned to face the viewer.
+DepthBuffer rasterize(const TriangleMesh& mesh, const Camera& camera, int threads);
+
+/// A unit normal per point, the mean over its triangles by area; (0, 0, 0) for points in no triangle.
+std::vector<Vec3> point_normals(const TriangleMesh& mesh);
+
+}  // namespace kontur

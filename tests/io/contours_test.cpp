@@ -10,6 +10,7 @@
 #include "kontur/io/markups.h"
 #include "support/contour_sets.h"
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 
 namespace kontur {
 namespace {
@@ -81,6 +82,36 @@ TEST_F(Contours, SeveralFilesBecomeOneObject) {
     EXPECT_EQ(read.contours.contours[3].points, second.contours[0].points);
     EXPECT_EQ(read.contours.interior, second.interior);
     EXPECT_TRUE(read_contours(std::vector<fs::path>{}).contours.contours.empty());
+}
+
+TEST_F(Contours, RtStructureSetsAreReadByRoi) {
+    KONTUR_REQUIRE_DATA("03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm");
+    const fs::path sarcoma = test::data_dir() / "03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm";
+    const ReadContours read = read_contours(sarcoma, {.roi = "GTV_Mass_CT"});
+    EXPECT_EQ(read.contours.name, "GTV_Mass_CT");
+    EXPECT_EQ(read.contours.contours.size(), 16u);
+    EXPECT_NO_THROW(check_contours(read.contours));
+    try {
+        read_contours(sarcoma, {.roi = "spleen"});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("RTSTRUCT_RS.dcm"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(Contours, RtStructureSetsSurviveAsContourFiles) {
+    KONTUR_REQUIRE_DATA("04_sarcoma_STS_040/CT/RTSTRUCT_RS.dcm");
+    const ContourSet set =
+        read_contours(test::data_dir() / "04_sarcoma_STS_040/CT/RTSTRUCT_RS.dcm", {.roi = "GTV_Mass_CT"}).contours;
+    for (const char* name : {"a.json", "a.mrk.json"}) {
+        write_contours(folder_ / name, set);
+        const ContourSet again = read_contours(folder_ / name).contours;
+        ASSERT_EQ(again.contours.size(), set.contours.size());
+        for (std::size_t i = 0; i < set.contours.size(); ++i) {
+            EXPECT_EQ(again.contours[i].points, set.contours[i].points);
+            EXPECT_EQ(again.contours[i].hole, set.contours[i].hole);
+        }
+    }
 }
 
 }  // namespace

@@ -12,13 +12,14 @@
 #include "kontur/io/contour_json.h"
 #include "kontur/io/json_file.h"
 #include "kontur/io/markups.h"
+#include "kontur/io/rtstruct.h"
 
 namespace kontur {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The first bytes, enough to tell formats apart.
+/// The first bytes, up to DICOM's mark and including it.
 std::string head_of(const fs::path& path) {
     std::array<char, 132> head{};
     std::ifstream file(path, std::ios::binary);
@@ -27,9 +28,21 @@ std::string head_of(const fs::path& path) {
     return {head.data(), static_cast<std::size_t>(file.gcount())};
 }
 
+bool is_dicom(const fs::path& path, std::string_view head) {
+    return (head.size() == 132 && head.ends_with("DICM")) || path.extension() == ".dcm";
+}
+
 bool is_json(std::string_view head) {
     const std::size_t start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     return start != std::string_view::npos && (head[start] == '{' || head[start] == '[');
+}
+
+ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options) {
+    const StructureSet set = read_rtstruct(path);
+    return in_context(path.string(), [&] {
+        Roi roi = select_roi(set, options.roi);
+        return ReadContours{std::move(roi.contours), std::move(roi.notes)};
+    });
 }
 
 bool is_markups(const fs::path& path) { return path.string().ends_with(".mrk.json"); }
@@ -38,10 +51,11 @@ bool is_markups(const fs::path& path) { return path.string().ends_with(".mrk.jso
 
 ReadContours read_contours(const fs::path& path, const ReadContoursOptions& options) {
     const std::string head = head_of(path);
+    if (is_dicom(path, head)) return read_roi(path, options);
     if (!is_json(head))
         throw Error(ErrorKind::unsupported, path.string() +
-                                                " holds no contours: kontur's .json and 3D Slicer's .mrk.json "
-                                                "are read");
+                                                " holds no contours: kontur's .json, 3D Slicer's .mrk.json and DICOM RT "
+                                                "structure sets are read");
     if (is_markups(path) || read_json_file(path).contains("markups"))
         return {read_markups(path, {options.plane_tolerance_mm}), {}};
     return {read_contour_json(path), {}};

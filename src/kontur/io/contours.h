@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 namespace kontur {
 
 struct ReadContoursOptions {
+    std::optional<std::string> roi;  ///< RT structure sets: the ROI's name or number; needed when several have contours
     double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< for curves whose plane must be fitted
 };
 
@@ -18,7 +20,7 @@ struct ReadContours {
     std::vector<std::string> notes;  ///< how the file was interpreted and what was left out, for the user to see
 };
 
-/// Reads kontur's contour file or 3D Slicer's markups; the content decides which. Throws
+/// Reads kontur's contour file, 3D Slicer's markups or a DICOM RT structure set; the content decides which. Throws
 /// Error(unsupported) for any other file and what the format's own reader throws.
 ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});
 

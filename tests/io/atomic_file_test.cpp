@@ -2,6 +2,7 @@
 #include "kontur/io/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -94,6 +95,18 @@ TEST(AtomicFile, ShortWriteLeavesNothingAndKeepsTheOldFile) {
         }
     EXPECT_EQ(content_of(folder / "old.bin"), "whole");
     EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(AtomicFile, FullDiskLeavesNothingAndKeepsTheOldFile) {
+    const test::TemporaryFolder folder;
+    if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
+        GTEST_SKIP() << "mounting a small file system needs root";
+    write_file_atomically(folder / "old.bin", "whole");
+    const std::string message = io_error_of([&] { write_file_atomically(folder / "old.bin", std::string(1000000, 'x')); });
+    EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+    EXPECT_EQ(content_of(folder / "old.bin"), "whole");
+    EXPECT_EQ(folder.entry_count(), 1);
+    EXPECT_EQ(::umount(folder.path().c_str()), 0);
 }
 
 TEST(AtomicFile, KeepsPermissionsAndFollowsLinks) {

@@ -105,6 +105,23 @@ inline void expect_prefixes_refused(const std::filesystem::path& whole, const st
     }
 }
 
+/// No flipped bit may do more than make the reader throw an Error: no crash, no huge allocation, no other exception.
+inline void expect_flips_survived(const std::filesystem::path& whole, const std::filesystem::path& spoiled,
+                                  const std::function<void(const std::filesystem::path&)>& read) {
+    std::string bytes = content_of(whole);
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+        const auto flip = static_cast<char>(1 << bit % 8);
+        bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ flip);
+        put_content(spoiled, bytes);
+        try {
+            read(spoiled);
+        } catch (const Error& error) {
+            ASSERT_FALSE(std::string(error.what()).empty());
+        }
+        bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ flip);
+    }
+}
+
 /// What an independent reader must find in `image_path`, beside it: size, index to mm (LPS) by rows, tolerance in mm,
 /// voxels.
 inline void write_expectation(const std::filesystem::path& image_path, const Image& image, double tolerance_mm) {

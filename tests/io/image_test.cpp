@@ -2,6 +2,7 @@
 #include "kontur/io/image.h"
 
 #include "image_cases.h"
+#include "kontur/io/nrrd.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
 
@@ -47,7 +48,7 @@ TEST_P(ImageFiles, LabelValueChoosesTheNarrowestSamples) {
 }
 
 TEST_P(ImageFiles, ImageComesBack) {
-    const Image image = test::pattern_image<float>(mask.grid);
+    const Image image = test::pattern_image<std::uint16_t>(mask.grid);
     write_image(path(), image);
     EXPECT_EQ(read_image(path()).samples, image.samples);
 }
@@ -65,7 +66,7 @@ TEST_P(ImageFiles, FailureLeavesNothing) {
     EXPECT_EQ(folder.entry_count(), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ImageFiles, ::testing::Values(".nii", ".nii.gz"));
+INSTANTIATE_TEST_SUITE_P(Formats, ImageFiles, ::testing::Values(".nii", ".nii.gz", ".nrrd", ".seg.nrrd", ".mha"));
 
 TEST(ReadMask, AsksWhichOfSeveralLabels) {
     const test::TemporaryFolder folder;
@@ -90,8 +91,35 @@ TEST(ReadImage, NamesTheKnownFormats) {
     test::put_content(folder / "picture.xyz", "something else");
     expect_error(ErrorKind::unsupported, ".nii", [&] { read_image(folder / "picture.xyz"); });
     expect_error(ErrorKind::unsupported, ".nii", [&] { write_mask(folder / "mask.xyz", chessboard({{4, 3, 2}, {}})); });
+    expect_error(ErrorKind::unsupported, ".mha", [&] { check_image_name(folder / "mask.mhd"); });
+    EXPECT_NO_THROW(check_image_name(folder / "mask.SEG.NRRD"));
     expect_error(ErrorKind::io, "No such file", [&] { read_image(folder / "missing.nii"); });
     EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST_P(ImageFiles, FlippedBitsNeverDoMoreThanThrow) {
+    write_mask(path(), mask);
+    const fs::path spoiled = folder / ("spoiled" + std::string(GetParam()));
+    test::expect_flips_survived(path(), spoiled, [](const fs::path& file) { read_mask(file); });
+}
+
+TEST_P(ImageFiles, ContentTellsWhatANamelessFileIs) {
+    write_mask(path(), mask);
+    fs::rename(path(), folder / "nameless");
+    EXPECT_EQ(read_mask(folder / "nameless").values, mask.values);
+}
+
+TEST(WriteImage, SegmentationHasOneSegmentForEachLabel) {
+    const test::TemporaryFolder folder;
+    std::vector<std::int16_t> values(24, 0);
+    values[3] = 5;
+    values[7] = values[8] = 9;
+    write_image(folder / "a.seg.nrrd", {test::all_orientations()[0], values});
+    const auto segments = read_nrrd_segments(folder / "a.seg.nrrd");
+    ASSERT_EQ(segments.size(), 2u);
+    EXPECT_EQ(segments[0].label_value, 5);
+    EXPECT_EQ(segments[1].label_value, 9);
+    EXPECT_NE(segments[0].color, segments[1].color);
 }
 
 /// What is known of a real file by other readers.
@@ -134,6 +162,10 @@ INSTANTIATE_TEST_SUITE_P(
         RealFile{"03_sarcoma_STS_002/PET/PET_mask.nii.gz", {30, 27, 48}, {5.46875, 5.46875, 3.27}, 1, {{1, 555}}},
         RealFile{"04_sarcoma_STS_040/CT/CT_mask.nii.gz", {194, 204, 66}, {0.9766, 0.9766, 3.27}, 1, {{1, 128260}}},
         RealFile{"06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", {78, 110, 64}, {1, 1, 1}, 1, {{1, 18138}, {4, 2250}, {7, 7661}}},
+        RealFile{"07_mr_brain_tumour_brain1/brain1_label.nrrd", {256, 256, 25}, {0.78125, 0.78125, 6.5}, -1, {{1, 4137}}},
+        RealFile{"07_mr_brain_tumour_brain1/lung1_label.nrrd", {512, 512, 48}, {0.5703, 0.5703, 5}, 1, {{1, 837}}},
+        RealFile{
+            "08_spine_vertebral_bodies/vb-seg.mha", {640, 633, 299}, {0.34375, 0.34375, 1}, 1, {{1, 107980}, {7, 183404}}},
         RealFile{"10_cine_mr_SC-HF-I-1/mask_ED_endo.nii.gz", {130, 130, 12}, {1.3672, 1.3672, 10}, -1, {{1, 10473}}},
         RealFile{"12_ct_head_gantry_tilt_shear/shear_insert_threshold_mask.nii.gz",
                  {306, 422, 54},
@@ -145,6 +177,18 @@ INSTANTIATE_TEST_SUITE_P(
 double shear_degrees(const Grid& grid) {
     const Vec3 j = normalized(grid.index_to_mm.column(1)), k = normalized(grid.index_to_mm.column(2));
     return std::abs(std::asin(dot(j, k))) * 180 / 3.14159265358979;
+}
+
+TEST(RealImages, DicomFolderAndItsFilesAreOneImage) {
+    const char* file = "03_sarcoma_STS_002/CT";
+    KONTUR_REQUIRE_DATA(file);
+    const fs::path folder = test::data_dir() / file / "image";
+    const Image image = read_image(folder);
+    EXPECT_EQ(image.grid.size, (Index3{161, 143, 48}));
+    EXPECT_EQ(read_grid(folder), image.grid);
+    const fs::path slice = fs::directory_iterator(folder)->path();
+    EXPECT_EQ(read_image(slice).samples, image.samples);
+    EXPECT_LT(corner_distance_mm(read_grid(test::data_dir() / file / "CT_mask.nii.gz"), image.grid), 0.01);
 }
 
 TEST(RealImages, GantryTiltKeepsItsShearOnceChosen) {

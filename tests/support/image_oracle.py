@@ -47,8 +47,27 @@ def read_nrrd(path):
     assert fields["endian"] == "little" or fields["type"] == "uint8"
     if fields["encoding"] == "gzip":
         body = gzip.decompress(body)
+    if path.name.endswith(".seg.nrrd"):
+        check_segments(dict(line.split(":=", 1) for line in lines if ":=" in line), fields, body)
     sizes = tuple(map(int, fields["sizes"].split()))
     return affine, np.frombuffer(body, "<" + NRRD_TYPES[fields["type"]]).reshape(sizes, order="F")
+
+
+def check_segments(keys, fields, body):
+    """The keys that 3D Slicer's documentation asks for, each segment's extent against the voxels."""
+    assert keys["Segmentation_MasterRepresentation"] == "Binary labelmap"
+    assert keys["Segmentation_ContainedRepresentationNames"] == "Binary labelmap|"
+    assert keys["Segmentation_ReferenceImageExtentOffset"] == "0 0 0"
+    sizes = tuple(map(int, fields["sizes"].split()))
+    values = np.frombuffer(body, "<" + NRRD_TYPES[fields["type"]]).reshape(sizes, order="F")
+    labels = [int(keys[f"Segment{n}_LabelValue"]) for n in range(sum(key.endswith("_ID") for key in keys))]
+    assert sorted(labels) == sorted(set(values[values != 0].tolist())), labels
+    for n, label in enumerate(labels):
+        inside = np.argwhere(values == label)
+        extent = np.array(keys[f"Segment{n}_Extent"].split(), int).reshape(3, 2)
+        np.testing.assert_array_equal(extent, np.stack([inside.min(0), inside.max(0)], 1))
+        assert keys[f"Segment{n}_Layer"] == "0" and keys[f"Segment{n}_Name"]
+        assert all(0 <= float(part) <= 1 for part in keys[f"Segment{n}_Color"].split())
 
 
 META_TYPES = {"MET_UCHAR": "u1", "MET_SHORT": "i2", "MET_USHORT": "u2", "MET_INT": "i4", "MET_FLOAT": "f4"}
@@ -183,6 +202,108 @@ def make_nifti(folder):
     save("extension.nii", image, RAS @ np.diag([2.0, 3, 4, 1]), values)
 
 
+def nrrd_text(values, affine, encoding, order, space="left-posterior-superior", signs=(1, 1, 1), more=""):
+    names = {"u1": "unsigned char", "i1": "signed char", "u2": "ushort", "i2": "short", "u4": "uint", "i4": "int", "u8": "uint64",
+             "i8": "long long int", "f4": "float", "f8": "double"}
+    turned = np.diag(signs) @ affine[:3]
+    vector = lambda v: "(" + ",".join(repr(float(x)) for x in v) + ")"
+    lines = ["NRRD0005", "# by the oracle", f"type: {names[values.dtype.str[1:]]}", "dimension: 3", f"space: {space}",
+             "sizes: " + " ".join(map(str, values.shape)),
+             "space directions: " + " ".join(vector(turned[:, axis]) for axis in range(3)), "kinds: domain domain domain",
+             f"encoding: {encoding}", f"space origin: {vector(turned[:, 3])}"]
+    if values.dtype.itemsize > 1:
+        lines.append("endian: " + ("little" if order == "<" else "big"))
+    return "\n".join(lines) + "\n" + more
+
+
+def stored(values, order):
+    return values.astype(values.dtype.newbyteorder(order)).tobytes(order="F")
+
+
+def ascii_text(values):
+    return " ".join(str(v) for v in values.ravel(order="F")).encode() + b"\n"
+
+
+def make_nrrd(folder):
+    affine = np.array([[2.0, 0, 0, -7], [0, 3, 0, 8], [0, 0, 4, 9.5], [0, 0, 0, 1]])
+    for code in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
+        values = pattern(np.dtype(code))
+        for order in "<>":
+            for encoding, pack in (("raw", bytes), ("gzip", gzip.compress)):
+                path = folder / f"{code}_{'le' if order == '<' else 'be'}_{encoding}.nrrd"
+                path.write_bytes(nrrd_text(values, affine, encoding, order).encode() + b"\n" + pack(stored(values, order)))
+                write_expectation(path, affine, values)
+        path = folder / f"{code}_text.nrrd"
+        path.write_bytes(nrrd_text(values, affine, "ascii", "<").encode() + b"\n" + ascii_text(values))
+        write_expectation(path, affine, values)
+    values = pattern(np.dtype("i2"))
+    for name, oblique in some_affines():
+        for space, signs in (("LPS", (1, 1, 1)), ("right-anterior-superior", (-1, -1, 1)), ("LAS", (1, -1, 1))):
+            path = folder / f"{name}_{space}.nrrd"
+            path.write_bytes(nrrd_text(values, oblique, "raw", "<", space, signs).encode() + b"\n" + stored(values, "<"))
+            write_expectation(path, oblique, values)
+    scaled = np.diag([0.001, 0.001, 0.001, 1])
+    path = folder / "micrometres.nrrd"
+    path.write_bytes(nrrd_text(values, affine, "raw", "<", more='space units: "um" "um" "um"\n').encode() + b"\n" + stored(values, "<"))
+    write_expectation(path, scaled @ affine, values)
+    path = folder / "skips.nrrd"
+    text = nrrd_text(values, affine, "raw", "<", more="line skip: 2\nbyte skip: 3\nkey:=value\n")
+    path.write_bytes(text.encode() + b"\none line\nanother line\n123" + stored(values, "<"))
+    write_expectation(path, affine, values)
+    path = folder / "at_the_end.nrrd"
+    path.write_bytes(nrrd_text(values, affine, "raw", "<", more="byte skip: -1\n").encode() + b"\nanything" + stored(values, "<"))
+    write_expectation(path, affine, values)
+    path = folder / "detached.nhdr"
+    path.write_bytes(nrrd_text(values, affine, "raw", "<", more="data file: voxels.expect.raw\n").encode())
+    (folder / "voxels.expect.raw").write_bytes(stored(values, "<"))
+    write_expectation(path, affine, values)
+    path = folder / "windows_lines.nrrd"
+    path.write_bytes(nrrd_text(values, affine, "raw", "<").replace("\n", "\r\n").encode() + b"\r\n" + stored(values, "<"))
+    write_expectation(path, affine, values)
+
+
+def metaimage_text(values, affine, order, fields):
+    names = {"u1": "UCHAR", "i1": "CHAR", "u2": "USHORT", "i2": "SHORT", "u4": "UINT", "i4": "INT", "u8": "ULONG_LONG",
+             "i8": "LONG_LONG", "f4": "FLOAT", "f8": "DOUBLE"}
+    spacing = np.linalg.norm(affine[:3, :3], axis=0)
+    row = lambda numbers: " ".join(repr(float(x)) for x in numbers)
+    header = {"ObjectType": "Image", "NDims": "3", "BinaryData": "True", "BinaryDataByteOrderMSB": str(order == ">"),
+              "CompressedData": "False", "TransformMatrix": row((affine[:3, :3] / spacing).T.ravel()), "Offset": row(affine[:3, 3]),
+              "CenterOfRotation": "0 0 0", "AnatomicalOrientation": "RAI", "ElementSpacing": row(spacing),
+              "DimSize": " ".join(map(str, values.shape)), "ElementType": "MET_" + names[values.dtype.str[1:]]}
+    header.update(fields)
+    header["ElementDataFile"] = header.pop("ElementDataFile", "LOCAL")
+    return "".join(f"{key} = {value}\n" for key, value in header.items()).encode()
+
+
+def make_metaimage(folder):
+    affine = np.array([[2.0, 0, 0, -7], [0, 3, 0, 8], [0, 0, 4, 9.5], [0, 0, 0, 1]])
+
+    def save(name, values, affine, order, fields, body):
+        path = folder / name
+        path.write_bytes(metaimage_text(values, affine, order, fields) + body)
+        write_expectation(path, affine, values)
+
+    for code in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
+        values = pattern(np.dtype(code))
+        for order in "<>":
+            raw = stored(values, order)
+            stem = f"{code}_{'le' if order == '<' else 'be'}"
+            save(f"{stem}.mha", values, affine, order, {}, raw)
+            packed = zlib.compress(raw)
+            size = {"CompressedDataSize": len(packed)} if order == "<" else {}
+            save(f"{stem}_packed.mha", values, affine, order, {"CompressedData": "True", **size}, packed)
+        save(f"{code}_text.mha", values, affine, "<", {"BinaryData": "False"}, ascii_text(values))
+    values = pattern(np.dtype("i2"))
+    raw = stored(values, "<")
+    for name, oblique in some_affines():
+        save(f"{name}.mha", values, oblique, "<", {}, raw)
+    save("skip.mha", values, affine, "<", {"HeaderSize": 5}, b"12345" + raw)
+    save("at_the_end.mha", values, affine, "<", {"HeaderSize": -1}, b"anything" + raw)
+    save("detached.mhd", values, affine, "<", {"ElementDataFile": "voxels.expect.raw"}, b"")
+    (folder / "voxels.expect.raw").write_bytes(raw)
+
+
 if __name__ == "__main__":
-    commands = {"check": check, "make-nifti": make_nifti}
+    commands = {"check": check, "make-nifti": make_nifti, "make-nrrd": make_nrrd, "make-metaimage": make_metaimage}
     commands[sys.argv[1]](pathlib.Path(sys.argv[2]))

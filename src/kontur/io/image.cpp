@@ -2,36 +2,73 @@
 #include "kontur/io/image.h"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <map>
+#include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kontur/base/error.h"
 #include "kontur/io/image_view.h"
+#include "kontur/io/input_file.h"
+#include "kontur/io/metaimage.h"
 #include "kontur/io/nifti.h"
+#include "kontur/io/nifti_header.h"
+#include "kontur/io/nrrd.h"
+#include "kontur/io/text_header.h"
 
 namespace kontur {
 namespace fs = std::filesystem;
 namespace {
 
-enum class Format { unknown, nifti };
+enum class Format { unknown, nifti, nrrd, seg_nrrd, metaimage, dicom };
 
-Format format_by_name(const fs::path& path) {
-    std::string name = path.filename().string();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return Format::nifti;
-    return Format::unknown;
+struct NameRule {
+    std::string_view suffix;
+    Format format;
+    bool writable;
+};
+
+/// Longer suffixes first.
+constexpr NameRule kNameRules[] = {
+    {".nii.gz", Format::nifti, true},   {".nii", Format::nifti, true},  {".seg.nrrd", Format::seg_nrrd, true},
+    {".nrrd", Format::nrrd, true},      {".nhdr", Format::nrrd, false}, {".mha", Format::metaimage, true},
+    {".mhd", Format::metaimage, false}, {".dcm", Format::dicom, false},
+};
+
+NameRule rule_for(const fs::path& path) {
+    const std::string name = lower_case(path.filename().string());
+    for (const NameRule& rule : kNameRules)
+        if (name.ends_with(rule.suffix)) return rule;
+    return {"", Format::unknown, false};
 }
 
-[[noreturn]] void refuse_name(const fs::path& path) {
-    throw Error(ErrorKind::unsupported, path.string() + " has no known image format; known are .nii and .nii.gz");
+Format format_by_content(const fs::path& path) {
+    if (fs::is_directory(path) || looks_like_dicom(path)) return Format::dicom;
+    InputFile file(path);
+    if (file.at_gzip()) file.inflate();
+    std::array<unsigned char, 10> start{};
+    file.read_some(start.data(), start.size());
+    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+    if (text.starts_with("NRRD000")) return Format::nrrd;
+    if (text.starts_with("ObjectType") || text.starts_with("NDims")) return Format::metaimage;
+    return nifti_kind(std::span(start).first<4>()).version ? Format::nifti : Format::unknown;
 }
 
 Format readable_format(const fs::path& path) {
-    const Format format = format_by_name(path);
-    if (format == Format::unknown) refuse_name(path);
+    Format format = rule_for(path).format;
+    if (format == Format::unknown || fs::is_directory(path)) format = format_by_content(path);
+    if (format == Format::unknown)
+        throw Error(ErrorKind::unsupported, path.string() +
+                                                " has no known image format; known are NIfTI (.nii, .nii.gz), NRRD "
+                                                "(.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd) and DICOM");
     return format;
+}
+
+void report(const std::vector<std::string>& notes, const ReadImageOptions& options) {
+    if (!options.on_note) return;
+    for (const std::string& note : notes) options.on_note(note);
 }
 
 std::string list_of(const std::map<std::int64_t, std::int64_t>& labels) {
@@ -68,25 +105,79 @@ void check_label_value(std::int64_t value) {
                                                   std::to_string(kMaxLabel) + " can");
 }
 
-void write(const fs::path& path, const ImageView& image) {
+/// Colours that neighbouring segments are told apart by.
+constexpr std::array<std::array<double, 3>, 8> kPalette{{{0.9, 0.7, 0.3},
+                                                         {0.3, 0.6, 0.9},
+                                                         {0.4, 0.75, 0.4},
+                                                         {0.85, 0.4, 0.4},
+                                                         {0.65, 0.5, 0.8},
+                                                         {0.5, 0.8, 0.8},
+                                                         {0.9, 0.55, 0.75},
+                                                         {0.6, 0.6, 0.45}}};
+
+std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int64_t>& labels) {
+    std::vector<NrrdSegment> segments;
+    for (const auto& [label, count] : labels)
+        segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
+    return segments;
+}
+
+/// `segments` is asked for only where the format has any.
+template <typename Segments>
+void write(const fs::path& path, const ImageView& image, const Segments& segments) {
     check_image_name(path);
-    write_nifti(path, image);
+    switch (rule_for(path).format) {
+        case Format::nifti:
+            return write_nifti(path, image);
+        case Format::nrrd:
+            return write_nrrd(path, image);
+        case Format::seg_nrrd:
+            return write_seg_nrrd(path, image, segments());
+        default:
+            return write_metaimage(path, image);
+    }
 }
 
 }  // namespace
 
 void check_image_name(const fs::path& path) {
-    if (format_by_name(path) == Format::unknown) refuse_name(path);
+    if (!rule_for(path).writable)
+        throw Error(ErrorKind::unsupported,
+                    path.string() + " cannot be written; known are .nii, .nii.gz, .nrrd, .seg.nrrd and .mha");
 }
 
 Image read_image(const fs::path& path, const ReadImageOptions& options) {
-    readable_format(path);
-    return read_nifti(path, options);
+    switch (readable_format(path)) {
+        case Format::nifti:
+            return read_nifti(path, options);
+        case Format::nrrd:
+        case Format::seg_nrrd:
+            return read_nrrd(path, options);
+        case Format::metaimage:
+            return read_metaimage(path, options);
+        default:
+            break;
+    }
+    DicomVolume volume = read_dicom_series(path, options.dicom);
+    report(volume.notes, options);
+    return std::move(volume.image);
 }
 
 Grid read_grid(const fs::path& path, const ReadImageOptions& options) {
-    readable_format(path);
-    return read_nifti_grid(path, options);
+    switch (readable_format(path)) {
+        case Format::nifti:
+            return read_nifti_grid(path, options);
+        case Format::nrrd:
+        case Format::seg_nrrd:
+            return read_nrrd_grid(path, options);
+        case Format::metaimage:
+            return read_metaimage_grid(path, options);
+        default:
+            break;
+    }
+    const DicomGrid volume = read_dicom_grid(path, options.dicom);
+    report(volume.notes, options);
+    return volume.grid;
 }
 
 Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options) {
@@ -102,13 +193,16 @@ Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const Re
 }
 
 void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& options) {
-    check_label_value(options.label_value);
-    if (options.label_value == 1) write(path, mask);
-    else if (options.label_value <= 255)
-        write(path, Image{mask.grid, with_value_inside<std::uint8_t>(mask, options.label_value)});
-    else write(path, Image{mask.grid, with_value_inside<std::uint16_t>(mask, options.label_value)});
+    const std::int64_t value = options.label_value;
+    check_label_value(value);
+    const auto segment = [&] { return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0}}; };
+    if (value == 1) write(path, mask, segment);
+    else if (value <= 255) write(path, Image{mask.grid, with_value_inside<std::uint8_t>(mask, value)}, segment);
+    else write(path, Image{mask.grid, with_value_inside<std::uint16_t>(mask, value)}, segment);
 }
 
-void write_image(const fs::path& path, const Image& image) { write(path, image); }
+void write_image(const fs::path& path, const Image& image) {
+    write(path, image, [&] { return one_segment_each(labels_of(image, path)); });
+}
 
 }  // namespace kontur

@@ -12,9 +12,10 @@
 
 namespace kontur {
 
-/// Reads a scalar image in any known format, chosen by the file's name, else by its content. Geometry arrives in mm, LPS,
-/// with its shear. Errors: io, corrupt_file (truncated, lying or contradictory), unsupported (a variant, or an unknown
-/// format: the message lists the known ones), too_large. Every message names the file.
+/// Reads a scalar image: NIfTI, NRRD, MetaImage, or a DICOM series by its folder or one of its files. The file's name says
+/// which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file (truncated, lying or
+/// contradictory), unsupported (a variant, or an unknown format: the message lists the known ones), too_large,
+/// invalid_input (options that fit no frame or series). Every message names the file.
 Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {});
 
 /// The geometry alone; reads no voxels.
@@ -28,17 +29,17 @@ Mask read_mask(const std::filesystem::path& path, std::optional<std::int64_t> la
 struct WriteMaskOptions {
     std::int64_t label_value = 1;            ///< value inside, 1 to 65535; 8-bit samples up to 255, else 16-bit ones
     std::string segment_name = "Segment_1";  ///< for .seg.nrrd
-    std::array<double, 3> segment_color{0.5, 0.7, 0.4};  ///< for .seg.nrrd; red, green, blue from 0 to 1
+    std::array<double, 3> segment_color{0.9, 0.7, 0.3};  ///< for .seg.nrrd; red, green, blue from 0 to 1
 };
 
 /// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha), whole or not at all.
 void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
 
-/// Writes an image with its sample type, likewise.
+/// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label.
 void write_image(const std::filesystem::path& path, const Image& image);
 
-/// Throws the Error(unsupported) of `write_mask` for a name without a known extension: so that a long computation is
-/// refused before it starts.
+/// Throws Error(unsupported), as the writers do, for a name whose extension is not among theirs: so that a long computation
+/// is refused before it starts.
 void check_image_name(const std::filesystem::path& path);
 
 }  // namespace kontur

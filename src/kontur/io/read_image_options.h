@@ -2,7 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string_view>
+
+#include "kontur/io/dicom_series.h"
 
 namespace kontur {
 
@@ -19,6 +23,10 @@ struct ReadImageOptions {
     bool allow_missing_geometry = false;
     /// Files with more voxels (of one frame) are refused.
     std::int64_t max_voxels = 2'200'000'000;
+    /// Which DICOM series and volume of a folder.
+    DicomSeriesOptions dicom = {};
+    /// Called with each sentence on what the reader decided for the user (a gantry tilt kept, files left out).
+    std::function<void(std::string_view)> on_note = {};
 };
 
 }  // namespace kontur

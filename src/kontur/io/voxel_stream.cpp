@@ -198,7 +198,12 @@ std::int64_t chosen_component(const OpenImage& image, const std::optional<std::i
     return frame.value_or(0);
 }
 
-/// Bytes of all voxels; throws when they are too many to count.
+}  // namespace
+
+std::size_t byte_size(VoxelType type) noexcept {
+    return with_type(type, [](auto zero) { return sizeof(zero); });
+}
+
 std::uint64_t declared_bytes(const OpenImage& image) {
     const auto voxels = static_cast<std::uint64_t>(image.grid.voxel_count());
     const auto components = static_cast<std::uint64_t>(image.encoding.components);
@@ -209,12 +214,6 @@ std::uint64_t declared_bytes(const OpenImage& image) {
         throw Error(ErrorKind::corrupt_file, image.data.path().string() + ": its header declares " + std::to_string(voxels) +
                                                  " voxels in " + std::to_string(components) + " frames");
     return image.encoding.text ? bytes - 1 : bytes;
-}
-
-}  // namespace
-
-std::size_t byte_size(VoxelType type) noexcept {
-    return with_type(type, [](auto zero) { return sizeof(zero); });
 }
 
 void check_header_grid(const Grid& grid, const std::filesystem::path& path) {

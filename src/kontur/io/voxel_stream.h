@@ -34,6 +34,9 @@ struct OpenImage {
     InputFile data;  ///< at the first byte of the voxels
 };
 
+/// Bytes of all voxels as declared (for text: the least they can take). Throws Error(corrupt_file) beyond 64 bits.
+std::uint64_t declared_bytes(const OpenImage& image);
+
 /// The component that the options choose, in the narrowest sample type that is exact. Checks the declared size against the
 /// file and against `max_voxels` before it allocates.
 Image read_voxels(OpenImage&& image, const ReadImageOptions& options);

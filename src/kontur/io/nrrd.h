@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kontur/io/image_view.h"
+#include "kontur/io/read_image_options.h"
+
+namespace kontur {
+
+/// Reads NRRD 1 to 5 (.nrrd, and .nhdr whose data file is a plain name in the same folder): raw, gzip and text encoding,
+/// both byte orders, all scalar types, three axes of space and at most one of layers or channels, before or behind them.
+/// The space may be LPS, RAS or any other of left/right, anterior/posterior, superior/inferior; lengths in mm, cm, m, um.
+/// A file without a named space, directions and an origin is refused unless `allow_missing_geometry`. Shear is kept.
+/// Errors: corrupt_file, unsupported, too_large, io. Source: the NRRD file format specification (teem, nrrd/format.html).
+Image read_nrrd(const std::filesystem::path& path, const ReadImageOptions& options = {});
+
+/// The geometry alone, from the header.
+Grid read_nrrd_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});
+
+/// Writes NRRD 4, LPS, gzip, the same bytes each time. Geometry in full double precision, shear included.
+void write_nrrd(const std::filesystem::path& path, const ImageView& image);
+
+/// One segment of a 3D Slicer segmentation (.seg.nrrd).
+struct NrrdSegment {
+    std::string name;
+    std::array<double, 3> color{};  ///< red, green, blue from 0 to 1
+    std::int64_t label_value = 1;
+    std::int64_t layer = 0;  ///< which frame of the file holds it; 0 in what kontur writes
+};
+
+/// Writes a label map of integers as 3D Slicer reads it, one segment for each of its values that is listed.
+void write_seg_nrrd(const std::filesystem::path& path, const ImageView& labels, std::span<const NrrdSegment> segments);
+
+/// The segments that a file names, in its order; none in a plain NRRD file.
+std::vector<NrrdSegment> read_nrrd_segments(const std::filesystem::path& path);
+
+}  // namespace kontur

@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "kontur/base/error.h"
+#include "support/damage.h"
+#include "support/recompress.h"
 #include "support/run_python.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
@@ -46,9 +48,14 @@ protected:
         return folder_ / name / "dicom";
     }
 
-    /// Reads and compares every voxel and the corners of the grid with the truth.
     DicomVolume read_and_check(const std::string& name, const DicomSeriesOptions& options = {}) {
-        const fs::path files = make(name);
+        make(name);
+        return check(name, options);
+    }
+
+    /// Reads and compares every voxel and the corners of the grid with the truth.
+    DicomVolume check(const std::string& name, const DicomSeriesOptions& options = {}) {
+        const fs::path files = folder_ / name / "dicom";
         const Truth truth = read_truth(folder_ / name);
         DicomVolume volume = read_dicom_series(files, options);
         EXPECT_LT(corner_distance_mm(volume.image.grid, truth.grid), 1e-5);
@@ -143,6 +150,17 @@ TEST_F(DicomSeriesTest, ReadsEveryUncompressedAndRunLengthEncoding) {
     }
 }
 
+TEST_F(DicomSeriesTest, ReadsJpegAndJpegLs) {
+    for (const char* name : {"axial", "bytes", "unsigned"})
+        for (const E_TransferSyntax syntax : {EXS_JPEGProcess14SV1, EXS_JPEGLSLossless}) {
+            SCOPED_TRACE(std::string(name) + " in " + DcmXfer(syntax).getXferName());
+            const fs::path files = make(name);
+            test::recompress(files, syntax);
+            check(name);
+            fs::remove_all(files.parent_path());
+        }
+}
+
 TEST_F(DicomSeriesTest, LeavesOutFilesThatAreNoImagesAndSaysSo) {
     const DicomVolume volume = read_and_check("company");
     EXPECT_TRUE(notes_mention(volume.notes, "left out 2 files (not a DICOM file): README.txt, ..."));
@@ -195,12 +213,48 @@ TEST_F(DicomSeriesTest, RefusesDuplicatesAndUnsupportedVariantsByName) {
     EXPECT_REFUSED(refusal(make("colour")), unsupported, "'RGB'");
 }
 
+TEST_F(DicomSeriesTest, RefusesMoreVoxelsThanAllowed) {
+    EXPECT_REFUSED(refusal(make("axial"), {.max_voxels = 1511}), too_large,
+                   "the volume has 14 x 12 x 9 voxels; the limit is 1511 voxels");
+}
+
 TEST_F(DicomSeriesTest, RefusesDamagedAndAbsentFiles) {
     EXPECT_REFUSED(refusal(make("truncated")), corrupt_file, ".dcm: ");
     EXPECT_REFUSED(refusal(folder_ / "nowhere"), io, "nowhere: no such file or folder");
     fs::create_directory(folder_ / "bare");
-    EXPECT_REFUSED(refusal(folder_ / "bare"), invalid_input, "the folder holds no DICOM image");
+    EXPECT_REFUSED(refusal(folder_ / "bare"), invalid_input, "bare: there is no DICOM image to read");
+    test::write_bytes(folder_ / "bare" / "notes.txt", "x");
+    EXPECT_REFUSED(refusal(folder_ / "bare"), invalid_input, "left out 1 file (not a DICOM file): notes.txt");
 }
+
+/// A folder with the first slice of a series, which is a series of its own.
+class DamagedDicomTest : public DicomSeriesTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(DamagedDicomTest, EndsInAnErrorOrAVolume) {
+    const std::string kind = GetParam();
+    const fs::path files = make(kind == "rle" || kind == "deflated" || kind == "implicit" ? kind : "axial");
+    if (kind == "jpeg") test::recompress(files, EXS_JPEGProcess14SV1);
+    if (kind == "jpeg_ls") test::recompress(files, EXS_JPEGLSLossless);
+    const std::string bytes = test::read_bytes(fs::directory_iterator(files)->path());
+    const fs::path alone = folder_ / "alone";
+    fs::create_directory(alone);
+    int accepted = 0;
+    const auto read_damaged = [&](const std::string& damaged) {
+        test::write_bytes(alone / "slice.dcm", damaged);
+        try {
+            read_dicom_series(alone);
+            ++accepted;
+        } catch (const Error&) {
+        }
+    };
+    test::for_each_prefix(bytes, 13, read_damaged);
+    EXPECT_EQ(accepted, 0) << "a part of a file is no slice";
+    test::for_each_mutant(bytes, 300, 5, read_damaged);
+    EXPECT_GT(accepted, 0) << "changed pixels or names are still a slice";
+}
+
+INSTANTIATE_TEST_SUITE_P(Encodings, DamagedDicomTest,
+                         testing::Values("axial", "implicit", "deflated", "rle", "jpeg", "jpeg_ls"));
 
 }  // namespace
 }  // namespace kontur

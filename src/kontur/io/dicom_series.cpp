@@ -55,9 +55,14 @@ FolderContent read_folder(const fs::path& folder, const Progress& progress) {
 
 DicomSeries describe(const DicomStack& stack) {
     const DicomHeader& first = stack.slices.front();
-    DicomSeries series{
-        first.series_uid, first.modality, first.description, stack.distinction, first.frame_of_reference_uid, {},
-        first.columns,    first.rows};
+    DicomSeries series;
+    series.series_uid = first.series_uid;
+    series.modality = first.modality;
+    series.description = first.description;
+    series.distinction = stack.distinction;
+    series.frame_of_reference_uid = first.frame_of_reference_uid;
+    series.columns = first.columns;
+    series.rows = first.rows;
     for (const DicomHeader& slice : stack.slices) series.files.push_back(slice.path);
     return series;
 }
@@ -91,23 +96,23 @@ void keep(std::vector<DicomStack>& stacks, const std::string& what, const Condit
     if (stacks.empty()) throw Error(ErrorKind::invalid_input, fmt::format("there is no {}; there are: {}", what, all));
 }
 
+std::string series_of(const DicomStack& stack) { return stack.slices.front().series_uid; }
+
+/// A file stands for its series and, unless a volume was asked for, for its volume.
+void keep_own_of_file(std::vector<DicomStack>& stacks, const fs::path& file, const DicomSeriesOptions& options) {
+    std::vector<DicomStack> own = stacks;
+    keep(own, "volume with the file " + file.filename().string(),
+         [&](const DicomStack& stack) { return contains_file(stack, file); });
+    if (!options.volume) stacks = std::move(own);
+    else std::erase_if(stacks, [&](const DicomStack& stack) { return series_of(stack) != series_of(own.front()); });
+}
+
 DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& options, const std::optional<fs::path>& file) {
-    if (stacks.empty()) throw Error(ErrorKind::invalid_input, "the folder holds no DICOM image");
-    std::optional<std::string> series_uid = options.series_uid;
-    if (file) {
-        auto own = stacks;
-        keep(own, "volume with the file " + file->filename().string(),
-             [&](const DicomStack& stack) { return contains_file(stack, *file); });
-        if (!series_uid) series_uid = own.front().slices.front().series_uid;
-        if (!options.volume) stacks = std::move(own);
-    }
-    if (series_uid)
-        keep(stacks, "series " + *series_uid,
-             [&](const DicomStack& stack) { return stack.slices.front().series_uid == *series_uid; });
-    const auto is_first_series = [&](const DicomStack& stack) {
-        return stack.slices.front().series_uid == stacks.front().slices.front().series_uid;
-    };
-    if (!std::all_of(stacks.begin(), stacks.end(), is_first_series))
+    if (file) keep_own_of_file(stacks, *file, options);
+    if (options.series_uid)
+        keep(stacks, "series " + *options.series_uid,
+             [&](const DicomStack& stack) { return series_of(stack) == *options.series_uid; });
+    if (series_of(stacks.front()) != series_of(stacks.back()))
         throw Error(ErrorKind::invalid_input, "the folder holds several series; name one: " + listed(stacks));
     if (stacks.size() > 1 && !options.volume)
         throw Error(ErrorKind::invalid_input, "the series holds several volumes; name one: " + listed(stacks));
@@ -115,6 +120,12 @@ DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& opti
     if (volume < 1 || static_cast<std::size_t>(volume) > stacks.size())
         throw Error(ErrorKind::invalid_input, fmt::format("there is no volume {}; there are: {}", volume, listed(stacks)));
     return std::move(stacks[static_cast<std::size_t>(volume) - 1]);
+}
+
+void check_size(const Grid& grid, std::int64_t max_voxels) {
+    if (grid.voxel_count() > max_voxels)
+        throw Error(ErrorKind::too_large, fmt::format("the volume has {} x {} x {} voxels; the limit is {} voxels",
+                                                      grid.size.i, grid.size.j, grid.size.k, max_voxels));
 }
 
 /// The chosen stack with its grid; `notes` are the folder's, then the stack's.
@@ -129,10 +140,15 @@ Located locate(const fs::path& path, const DicomSeriesOptions& options, const Pr
     if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");
     const fs::path folder = is_folder ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
     FolderContent content = read_folder(folder, progress);
+    if (content.stacks.empty())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{}: there is no DICOM image to read{}{}", path.string(), content.notes.empty() ? "" : "; ",
+                                fmt::join(content.notes, "; ")));
     Located result;
     try {
         result.stack = choose(std::move(content.stacks), options, is_folder ? std::nullopt : std::optional(path));
         result.geometry = stack_grid(result.stack);
+        check_size(result.geometry.grid, options.max_voxels);
     } catch (const Error& error) {
         throw error.with_context(path.string());
     }

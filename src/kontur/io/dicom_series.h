@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,10 +26,12 @@ struct DicomSeries {
 };
 
 struct DicomSeriesOptions {
-    std::optional<std::string> series_uid =
-        std::nullopt;  ///< which series of the folder; may be left out when there is only one
-    std::optional<int> volume =
-        std::nullopt;  ///< which volume of the series, from 1; may be left out when there is only one
+    /// Which series of the folder; may be left out when there is only one.
+    std::optional<std::string> series_uid = std::nullopt;
+    /// Which volume of the series, from 1; may be left out when there is only one.
+    std::optional<int> volume = std::nullopt;
+    /// Larger volumes are refused before their pixels are read.
+    std::int64_t max_voxels = 2'200'000'000;
 };
 
 struct DicomVolume {
@@ -57,7 +60,7 @@ std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder);
 /// Throws Error(invalid_input) when the options leave more than one volume, listing them, or none; Error(unsupported) for
 /// missing slices, irregular spacing, several slices at one position, enhanced multi-frame images, colour, MONOCHROME1,
 /// lookup tables and JPEG 2000 or other compression than JPEG, JPEG-LS, RLE and deflate; Error(corrupt_file) for damaged
-/// files, naming the file; Error(io) when there is nothing to read.
+/// files, naming the file; Error(too_large); Error(io) when there is nothing to read.
 DicomVolume read_dicom_series(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
                               const Progress& progress = {});
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "kontur/view/rasterize.h"
+#include "kontur/view/depth_buffer.h"
 #include "support/bodies.h"
 
 namespace kontur {
@@ -46,10 +46,10 @@ TEST(Camera, FitShowsEverythingWithItsMargin) {
     EXPECT_NEAR(left + right, 300, 1e-6);
 }
 
-TEST(Rasterize, BallHasItsDepthNormalAndAreaEverywhere) {
+TEST(RenderDepth, BallHasItsDepthNormalAndAreaEverywhere) {
     const Vec3 center{3, -4, 5};
     const Camera camera{view_plane(center, {0.4, -0.8, 0.3}), 120, 120, 0.2};
-    const DepthBuffer buffer = rasterize(ball(center, 10, 5), camera, 2);
+    const DepthBuffer buffer = render_depth(ball(center, 10, 5), camera, 2);
     int covered = 0;
     for (int y = 0; y < 120; ++y)
         for (int x = 0; x < 120; ++x) {
@@ -66,15 +66,15 @@ TEST(Rasterize, BallHasItsDepthNormalAndAreaEverywhere) {
     EXPECT_NEAR(covered * 0.04, std::numbers::pi * 100, 1.5);
 }
 
-TEST(Rasterize, LeavesNoGapBetweenTrianglesOfAnySize) {
+TEST(RenderDepth, LeavesNoGapBetweenTrianglesOfAnySize) {
     for (const int levels : {0, 2, 7}) {
         const Camera camera{view_plane({}, {0.3, -0.7, 0.6}), 64, 64, 0.01};
-        const DepthBuffer buffer = rasterize(ball({}, 1, levels), camera, 1);
+        const DepthBuffer buffer = render_depth(ball({}, 1, levels), camera, 1);
         for (const auto& pixel : buffer.pixels) ASSERT_TRUE(pixel.is_covered()) << levels;
     }
 }
 
-TEST(Rasterize, NearerSurfaceHidesTheFarther) {
+TEST(RenderDepth, NearerSurfaceHidesTheFarther) {
     TriangleMesh mesh = ball({0, 0, 0}, 5, 3);
     const TriangleMesh front = ball({0, -50, 0}, 2, 3);
     for (const auto& [a, b, c] : front.triangles) {
@@ -83,13 +83,13 @@ TEST(Rasterize, NearerSurfaceHidesTheFarther) {
     }
     mesh.points.insert(mesh.points.end(), front.points.begin(), front.points.end());
     mesh.normals.insert(mesh.normals.end(), front.normals.begin(), front.normals.end());
-    const DepthBuffer buffer = rasterize(mesh, {view_plane({}, kFromFront), 101, 101, 0.2}, 1);
+    const DepthBuffer buffer = render_depth(mesh, {view_plane({}, kFromFront), 101, 101, 0.2}, 1);
     EXPECT_NEAR(buffer.at(50, 50).depth_mm, 52, 0.1);
     EXPECT_NEAR(buffer.at(50, 30).depth_mm, 3, 0.1);
 }
 
-TEST(Rasterize, ClipsWhatLiesBesideThePicture) {
-    const DepthBuffer buffer = rasterize(ball({1000, 0, 0}, 5, 3), {view_plane({}, kFromFront), 50, 50, 0.2}, 1);
+TEST(RenderDepth, ClipsWhatLiesBesideThePicture) {
+    const DepthBuffer buffer = render_depth(ball({1000, 0, 0}, 5, 3), {view_plane({}, kFromFront), 50, 50, 0.2}, 1);
     for (const auto& pixel : buffer.pixels) EXPECT_FALSE(pixel.is_covered());
 }
 

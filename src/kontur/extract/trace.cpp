@@ -66,18 +66,19 @@ std::optional<BoxCorners> object_region(const Mask& mask) {
     return region;
 }
 
+bool is_frame(const Plane& plane) {
+    constexpr double kTolerance = 1e-4;  // files round the axes to a few decimals
+    const auto holds = [](double value, double expected) { return std::abs(value - expected) <= kTolerance; };
+    return is_finite(plane.origin) && holds(norm(plane.u), 1) && holds(norm(plane.v), 1) && holds(norm(plane.normal), 1) &&
+           holds(dot(plane.u, plane.v), 0) && holds(dot(plane.u, plane.normal), 0) && holds(dot(plane.v, plane.normal), 0);
+}
+
 void check_planes(std::span<const Plane> planes) {
-    for (std::size_t p = 0; p < planes.size(); ++p) {
-        const Plane& plane = planes[p];
-        double error = 0;
-        for (const Vec3& axis : {plane.u, plane.v, plane.normal}) error = std::max(error, std::abs(dot(axis, axis) - 1));
-        for (const double cosine : {dot(plane.u, plane.v), dot(plane.u, plane.normal), dot(plane.v, plane.normal)})
-            error = std::max(error, std::abs(cosine));
-        if (!(error <= 1e-4) || !is_finite(plane.origin))
-            throw Error(ErrorKind::invalid_input, "plane " + std::to_string(p + 1) + " of " + std::to_string(planes.size()) +
-                                                      " has no orthonormal u, v and normal (off by " +
-                                                      std::to_string(error) + "; at most 0.0001 is allowed)");
-    }
+    for (std::size_t p = 0; p < planes.size(); ++p)
+        if (!is_frame(planes[p]))
+            throw Error(ErrorKind::invalid_input,
+                        "plane " + std::to_string(p + 1) + " of " + std::to_string(planes.size()) +
+                            " has no finite origin or no orthonormal u, v and normal (within 0.0001)");
 }
 
 /// u and v as close as possible to those given, orthogonal to the normal and each other within rounding: a file's six

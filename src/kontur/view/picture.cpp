@@ -108,12 +108,11 @@ void draw_table(Canvas& canvas, const Place& place, const std::vector<PictureFac
     canvas.frame(place.rect, kFrame, u);
 }
 
-void draw_frame_texts(Canvas& canvas, const Layout& layout, const std::string& title, const std::string& subtitle,
-                      const std::string& program) {
+void draw_frame_texts(Canvas& canvas, const Layout& layout, const std::string& title, const std::string& subtitle) {
     const double u = layout.unit;
     const double width = canvas.text(layout.title, title, {.size_px = 29 * u, .color = kText, .bold = true});
     canvas.text({layout.title.x + width + 18 * u, layout.title.y}, subtitle, {.size_px = 19 * u, .color = kMuted});
-    canvas.text(layout.footer, program + " · research software, not a medical device",
+    canvas.text(layout.footer, "kontur " KONTUR_VERSION " · research software, not a medical device",
                 {.size_px = 12.5 * u, .color = kMuted});
     canvas.text({layout.table.right(), layout.footer.y},
                 "slices in radiological convention: the patient's right is on the left",
@@ -139,7 +138,7 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
     const std::string subtitle = volume(mesh) + " from " + std::to_string(contours.contours.size()) + " drawn contours";
-    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle, options.program);
+    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle);
     picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, options.threads);
 
     const std::array<Slice, 3> slices = choose_slices(mesh, contours, image);

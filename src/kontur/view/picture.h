@@ -24,7 +24,6 @@ struct PictureOptions {
     std::string title = {};               ///< empty: the contour set's name
     std::vector<PictureFact> facts = {};  ///< below the volume and the counts, which the picture gives by itself
     std::optional<Window> window = {};    ///< of the slices; unset: `suggest_window`
-    std::string program = "kontur";       ///< name and version, for the footer
     int threads = 0;                      ///< 0: the machine's
 };
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "kontur/base/parallel.h"
-#include "kontur/view/rasterize.h"
+#include "kontur/view/depth_buffer.h"
 
 namespace kontur {
 namespace {
@@ -133,7 +133,7 @@ std::uint32_t premultiplied_argb(const Vec3& linear, double alpha) {
 ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeOptions& options) {
     const int samples = std::max(1, options.samples);
     const Camera fine_camera{camera.plane, camera.width * samples, camera.height * samples, camera.pixel_mm / samples};
-    const DepthBuffer fine = rasterize(mesh, fine_camera, options.threads);
+    const DepthBuffer fine = render_depth(mesh, fine_camera, options.threads);
     const DepthBuffer coarse = nearest_per_pixel(fine, samples);
     const Occlusion occlusion(coarse, camera.pixel_mm, options.threads);
     const Vec3 material{linear_from_srgb(options.color.x), linear_from_srgb(options.color.y),

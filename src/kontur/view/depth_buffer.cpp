@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/view/rasterize.h"
+#include "kontur/view/depth_buffer.h"
 
 #include <algorithm>
 
@@ -98,7 +98,7 @@ std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
     return normals;
 }
 
-DepthBuffer rasterize(const TriangleMesh& mesh, const Camera& camera, int threads) {
+DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, int threads) {
     DepthBuffer buffer{camera.width, camera.height, {}};
     buffer.pixels.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
     const std::vector<ScreenPoint> points = project(mesh, camera);

@@ -27,7 +27,7 @@ struct DepthBuffer {
 };
 
 /// Fills the triangles by a depth test with interpolated normals, which are turned to face the viewer.
-DepthBuffer rasterize(const TriangleMesh& mesh, const Camera& camera, int threads);
+DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, int threads);
 
 /// A unit normal per point, the mean over its triangles by area; (0, 0, 0) for points in no triangle.
 std::vector<Vec3> point_normals(const TriangleMesh& mesh);

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "support/bodies.h"
+#include "support/expect_error.h"
+#include "support/run_python.h"
+#include "support/temporary_folder.h"
+
+namespace kontur {
+namespace {
+
+using test::TemporaryFolder;
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void save(const std::filesystem::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+TriangleMesh read_text(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+    save(folder / name, text);
+    return read_mesh(folder / name);
+}
+
+TriangleMesh body() { return test::torus({-123.456789, 45.678912, 1534.987654}, 30, 9, 24); }
+
+double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, distance(a[i], b[i]));
+    return largest;
+}
+
+TEST(MeshFile, PlyKeepsPointsNormalsAndTrianglesExactly) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = body();
+    write_mesh(folder / "body.ply", mesh);
+    const TriangleMesh read = read_mesh(folder / "body.ply");
+    EXPECT_EQ(read.points, mesh.points);
+    EXPECT_EQ(read.triangles, mesh.triangles);
+    EXPECT_LT(largest_distance(read.normals, mesh.normals), 1e-7);
+}
+
+TEST(MeshFile, ObjKeepsPointsAndNormalsToItsDecimals) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = body();
+    write_mesh(folder / "body.obj", mesh);
+    const TriangleMesh read = read_mesh(folder / "body.obj");
+    EXPECT_LT(largest_distance(read.points, mesh.points), 1e-6);
+    EXPECT_LT(largest_distance(read.normals, mesh.normals), 1e-6);
+    EXPECT_EQ(read.triangles, mesh.triangles);
+}
+
+TEST(MeshFile, StlComesBackAsOneClosedSurfaceInPlace) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = body();
+    write_mesh(folder / "body.STL", mesh);
+    const TriangleMesh read = read_mesh(folder / "body.STL");
+    EXPECT_EQ(read.points.size(), mesh.points.size());
+    ASSERT_EQ(read.triangles.size(), mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int corner = 0; corner < 3; ++corner)
+            EXPECT_LT(distance(read.points[read.triangles[t][corner]], mesh.points[mesh.triangles[t][corner]]), 1e-4);
+    const MeshTopology shape = topology(read);
+    EXPECT_TRUE(shape.closed);
+    EXPECT_TRUE(shape.oriented);
+    EXPECT_EQ(shape.euler, 0);
+}
+
+TEST(MeshFile, EmptyMeshAndMeshWithoutNormalsSurvive) {
+    const TemporaryFolder folder;
+    TriangleMesh bare = body();
+    bare.normals.clear();
+    for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+        write_mesh(folder / name, {});
+        EXPECT_TRUE(read_mesh(folder / name).points.empty()) << name;
+        EXPECT_TRUE(read_mesh(folder / name).triangles.empty()) << name;
+        write_mesh(folder / name, bare);
+        EXPECT_TRUE(read_mesh(folder / name).normals.empty()) << name;
+        EXPECT_EQ(read_mesh(folder / name).triangles.size(), bare.triangles.size()) << name;
+    }
+}
+
+TEST(MeshFile, SaysThatItIsLps) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+        write_mesh(folder / name, body());
+        EXPECT_NE(bytes_of(folder / name).substr(0, 120).find("SPACE=LPS"), std::string::npos) << name;
+    }
+}
+
+TEST(MeshFile, DeclaredRasIsTurnedAndKeepsItsOutside) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = body();
+    for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+        write_mesh(folder / name, mesh);
+        std::string bytes = bytes_of(folder / name);
+        for (auto at = bytes.find("SPACE=LPS"); at < 200; at = bytes.find("SPACE=LPS", at))
+            bytes.replace(at, 9, "SPACE=RAS");
+        save(folder / name, bytes);
+        const TriangleMesh read = read_mesh(folder / name);
+        const Vec3 p = mesh.points[mesh.triangles[5][1]], q = read.points[read.triangles[5][1]];
+        EXPECT_LT(distance(q, {-p.x, -p.y, p.z}), 1e-4) << name;
+        EXPECT_NEAR(signed_volume_mm3(read), signed_volume_mm3(mesh), 0.1) << name;
+        if (read.normals.empty()) continue;
+        const Vec3 n = mesh.normals[7];
+        EXPECT_LT(distance(read.normals[7], {-n.x, -n.y, n.z}), 1e-6) << name;
+    }
+}
+
+TEST(MeshFile, IndependentReaderFindsTheSameTriangles) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = body();
+    for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+        write_mesh(folder / name, mesh);
+        const auto python = test::run_python("mesh_volume.py", {folder / name});
+        ASSERT_EQ(python.exit_code, 0) << python.output;
+        std::istringstream output(python.output);
+        std::size_t triangles = 0;
+        double volume = 0, worst_normal = 0;
+        output >> triangles >> volume >> worst_normal;
+        EXPECT_EQ(triangles, mesh.triangles.size()) << name;
+        EXPECT_NEAR(volume, signed_volume_mm3(mesh), 1e-5 * volume) << name;
+        EXPECT_GT(worst_normal, 0.9) << name << ": normals point out of the triangles";
+    }
+}
+
+TEST(MeshFile, ReadsTextPlyWithPolygonsAndPropertiesItDoesNotKnow) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh =
+        read_text(folder, "a.ply",
+                  "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement vertex 4\r\nproperty uchar red\r\n"
+                  "property float x\r\nproperty float y\r\nproperty float z\r\nelement note 2\r\n"
+                  "property list uchar float value\r\nelement face 1\r\nproperty list uchar int vertex_index\r\n"
+                  "property int flag\r\nend_header\r\n9 0 0 0\r\n9 1 0 0\r\n9 1 1e0 +0\r\n9 0 1 -0.5\r\n2 7 8\r\n0\r\n"
+                  "4 0 1 2 3 77\r\n");
+    EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, -0.5}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(MeshFile, ReadsBigEndianPlyWithFacesBeforeThePoints) {
+    const TemporaryFolder folder;
+    std::string bytes =
+        "ply\nformat binary_big_endian 1.0\nelement face 1\nproperty list uint8 uint16 vertex_indices\n"
+        "element vertex 3\nproperty float x\nproperty short y\nproperty double z\nend_header\n";
+    const auto append = [&](auto value) {
+        std::array<char, sizeof value> raw;
+        std::memcpy(raw.data(), &value, sizeof value);
+        bytes.append(raw.rbegin(), raw.rend());
+    };
+    append(std::uint8_t{3});
+    for (const int corner : {2, 0, 1}) append(static_cast<std::uint16_t>(corner));
+    for (int i = 0; i < 3; ++i) {
+        append(1.5f * static_cast<float>(i));
+        append(static_cast<std::int16_t>(-i));
+        append(300.25);
+    }
+    const TriangleMesh mesh = read_text(folder, "a.ply", bytes);
+    EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 300.25}, {1.5, -1, 300.25}, {3, -2, 300.25}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{2, 0, 1}}));
+}
+
+TEST(MeshFile, ReadsObjOfOtherPrograms) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = read_text(folder, "a.obj",
+                                        "mtllib x.mtl\nv 0 0 0 1\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvt 0 0\nvn 0 0 1\ng part\n"
+                                        "f 1/1/1 2/1/1 -2/1/1 4//1\n");
+    EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(mesh.normals, std::vector<Vec3>(4, {0, 0, 1}));
+    const TriangleMesh creased =
+        read_text(folder, "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 3//1 2//1\n");
+    EXPECT_TRUE(creased.normals.empty());
+    EXPECT_EQ(creased.triangles.size(), 2u);
+}
+
+TEST(MeshFile, StlMergesEqualPointsOnlyAndDropsCollapsedTriangles) {
+    const TemporaryFolder folder;
+    // 0 and -0 are the same place; the second triangle is thinner than a float near 1e5 mm can tell.
+    const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, 0}, {1e5, 0, 0}, {1e5 + 1e-6, 0, 0}, {1, 1e-6, 0}},
+                            {},
+                            {{0, 1, 2}, {3, 4, 5}, {3, 6, 2}}};
+    write_mesh(folder / "a.stl", mesh);
+    const TriangleMesh read = read_mesh(folder / "a.stl");
+    EXPECT_EQ(read.triangles.size(), 2u);
+    EXPECT_EQ(read.triangles[0][0], read.triangles[1][0]);
+    EXPECT_NE(read.triangles[0][1], read.triangles[1][1]);
+}
+
+TEST(MeshFile, RejectsEveryTruncatedPrefix) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = test::ball({}, 10, 0);
+    for (const char* name : {"a.stl", "a.ply"}) {
+        write_mesh(folder / name, mesh);
+        const std::string whole = bytes_of(folder / name);
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            save(folder / name, whole.substr(0, size));
+            EXPECT_KONTUR_ERROR(read_mesh(folder / name), ErrorKind::corrupt_file, name);
+        }
+    }
+}
+
+TEST(MeshFile, FlippedBytesGiveAnErrorOrAMeshButNothingWorse) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+        write_mesh(folder / name, test::ball({}, 10, 0));
+        const std::string whole = bytes_of(folder / name);
+        for (std::size_t i = 0; i < whole.size(); i += 3) {
+            std::string damaged = whole;
+            damaged[i] = static_cast<char>(damaged[i] ^ (1 << i % 8));
+            save(folder / name, damaged);
+            try {
+                const TriangleMesh mesh = read_mesh(folder / name);
+                for (const auto& triangle : mesh.triangles)
+                    for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.points.size());
+            } catch (const Error& error) {
+                EXPECT_TRUE(error.kind() == ErrorKind::corrupt_file || error.kind() == ErrorKind::unsupported ||
+                            error.kind() == ErrorKind::too_large)
+                    << error.what();
+            }
+        }
+    }
+}
+
+TEST(MeshFile, RefusesLyingCountsBeforeAllocation) {
+    const TemporaryFolder folder;
+    std::string stl(84, '\0');
+    stl.replace(80, 4, "\xff\xff\xff\xff");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", stl), ErrorKind::corrupt_file, "4294967295 triangles");
+    const auto ply = [](const std::string& coding, const std::string& elements, const std::string& data) {
+        return "ply\nformat " + coding + " 1.0\n" + elements + "end_header\n" + data;
+    };
+    const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+    for (const char* coding : {"ascii", "binary_little_endian"}) {
+        EXPECT_KONTUR_ERROR(read_text(folder, "a.ply", ply(coding, "element vertex 4000000000\n" + xyz, "0 0 0\n")),
+                            ErrorKind::corrupt_file, "4000000000 of \"vertex\"");
+        EXPECT_KONTUR_ERROR(read_text(folder, "a.ply", ply(coding, "element dust 9000000000000000000\n", "")),
+                            ErrorKind::corrupt_file, "no properties");
+        EXPECT_KONTUR_ERROR(read_text(folder, "a.ply", ply(coding, "element vertex -1\n" + xyz, "")),
+                            ErrorKind::corrupt_file, "-1");
+    }
+    const std::string face = "element face 1\nproperty list uint int vertex_indices\n";
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.ply", ply("binary_little_endian", face, "\xff\xff\xff\x7fxxxx")),
+                        ErrorKind::corrupt_file, "a list of 2147483647");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.ply", ply("ascii", face, "1000000 0 1 2\n")), ErrorKind::corrupt_file,
+                        "a list of 1000000");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.ply", ply("ascii", face, "3 0 1 2\n")), ErrorKind::corrupt_file,
+                        "refers to point 0");
+}
+
+TEST(MeshFile, NamesWhatIsWrongInAText) {
+    const TemporaryFolder folder;
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 0\nv 1 x 0\n"), ErrorKind::corrupt_file, "line 2: \"x\"");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 nan\n"), ErrorKind::corrupt_file, "nan");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 0\nf 1 1 2\n"), ErrorKind::corrupt_file, "point 2 of 1");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.obj", "v 0 0 0\nf 1 1\n"), ErrorKind::corrupt_file, "2 corners");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\n facet normal 0 0 1\n"), ErrorKind::unsupported, "text STL");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.vtk", ""), ErrorKind::unsupported, ".vtk");
+    EXPECT_KONTUR_ERROR(read_mesh(folder / "missing.stl"), ErrorKind::io, "missing.stl");
+}
+
+TEST(MeshFile, RefusesMeshesThatMakeNoSenseAndLeavesNothingBehind) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.stl", "a.ply", "a.obj"}) {
+        EXPECT_KONTUR_ERROR(write_mesh(folder / name, {{{0, NAN, 0}}, {}, {}}), ErrorKind::invalid_input, "point 1");
+        EXPECT_KONTUR_ERROR(write_mesh(folder / name, {{{0, 1e300, 0}}, {}, {}}), ErrorKind::invalid_input, "1e+300");
+        EXPECT_KONTUR_ERROR(write_mesh(folder / name, {{{0, 0, 0}}, {}, {{0, 0, 1}}}), ErrorKind::invalid_input,
+                            "point 2 of 1");
+        EXPECT_KONTUR_ERROR(write_mesh(folder / name, {{{0, 0, 0}}, {{}, {}}, {}}), ErrorKind::invalid_input,
+                            "2 normals for 1");
+    }
+    EXPECT_KONTUR_ERROR(write_mesh(folder / "mesh", {}), ErrorKind::unsupported, "mesh");
+    EXPECT_EQ(folder.entry_count(), 0);
+}
+
+}  // namespace
+}  // namespace kontur

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""decode_png.py PICTURE.png RAW: checks an 8-bit RGB PNG by the specification alone, writes its pixels, prints its size."""
+
+import struct
+import sys
+import zlib
+
+
+def chunks(data):
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at = 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + size]
+        (checksum,) = struct.unpack(">I", data[at + 8 + size : at + 12 + size])
+        assert checksum == zlib.crc32(kind + body)
+        yield kind, body
+        at += 12 + size
+
+
+def paeth(a, b, c):
+    return min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+
+
+def unfilter(data, width, height):
+    stride = 3 * width
+    above, pixels = bytearray(stride), bytearray()
+    for y in range(height):
+        kind, row = data[y * (stride + 1)], bytearray(data[y * (stride + 1) + 1 : (y + 1) * (stride + 1)])
+        for x in range(stride):
+            a, b, c = (row[x - 3] if x > 2 else 0), above[x], (above[x - 3] if x > 2 else 0)
+            row[x] = (row[x] + (0, a, b, (a + b) // 2, paeth(a, b, c))[kind]) & 255
+        pixels += row
+        above = row
+    return pixels
+
+
+parts = list(chunks(open(sys.argv[1], "rb").read()))
+assert parts[0][0] == b"IHDR" and parts[-1] == (b"IEND", b"")
+width, height, depth, colour, *methods = struct.unpack(">IIBBBBB", parts[0][1])
+assert (depth, colour, methods) == (8, 2, [0, 0, 0])
+data = zlib.decompress(b"".join(body for kind, body in parts if kind == b"IDAT"))
+assert len(data) == height * (3 * width + 1)
+open(sys.argv[2], "wb").write(unfilter(data, width, height))
+print(width, height)

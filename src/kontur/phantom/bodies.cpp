@@ -11,19 +11,20 @@ constexpr Vec3 kMetastasisCenter{-112, -16, 10};
 constexpr Vec3 kKidneyCenter{-62, 58, -48};
 constexpr Vec3 kVertebraCenter{0, 55, -10};
 
+// The bodies undulate at wavelengths that the cases' contours can resolve: of finer relief even the exact surface normals
+// at the contours would not tell a fit what lies between them.
 double liver_value(const Vec3& point) {
     const Vec3 p = point - kLiverCenter;
-    const double right_lobe = depth::ellipsoid(p - Vec3{-38, 0, 0}, {60, 76, 86});
-    const double left_lobe = depth::ellipsoid(p - Vec3{38, -16, 26}, {64, 40, 43});
-    const double gallbladder_fossa = depth::ellipsoid(p - Vec3{18, -62, -30}, {30, 34, 40});
-    const double visceral_surface = depth::ellipsoid(p - Vec3{56, 12, -70}, {70, 80, 66});
-    const double renal_impression = depth::ellipsoid(p - Vec3{2, 78, -32}, {34, 34, 66});
-    double value = depth::join(right_lobe, left_lobe, 25);
-    value = depth::subtract(value, visceral_surface, 20);
-    value = depth::subtract(value, gallbladder_fossa, 14);
-    value = depth::subtract(value, renal_impression, 12);
-    return value - 2.5 * std::sin(0.09 * p.x + 0.7) * std::sin(0.3 - 0.075 * p.y) * std::cos(0.085 * p.z) +
-           std::sin(0.21 * p.x + 0.13 * p.z) * std::sin(0.19 * p.y + 0.5);
+    const double right_lobe = depth::ellipsoid(p - Vec3{-38, 0, 0}, {60, 78, 86});
+    const double left_lobe = depth::ellipsoid(p - Vec3{38, -16, 22}, {64, 42, 45});
+    const double visceral_surface = depth::ellipsoid(p - Vec3{66, 22, -80}, {80, 90, 76});
+    const double gallbladder_fossa = depth::ellipsoid(p - Vec3{18, -66, -34}, {30, 34, 40});
+    const double renal_impression = depth::ellipsoid(p - Vec3{2, 82, -32}, {36, 34, 66});
+    double value = depth::join(right_lobe, left_lobe, 30);
+    value = depth::subtract(value, visceral_surface, 30);
+    value = depth::subtract(value, gallbladder_fossa, 24);
+    value = depth::subtract(value, renal_impression, 24);
+    return value - 1.5 * std::sin(0.045 * p.x + 0.7) * std::sin(0.3 - 0.04 * p.y) * std::cos(0.043 * p.z);
 }
 
 double metastasis_value(const Vec3& point) {
@@ -31,8 +32,7 @@ double metastasis_value(const Vec3& point) {
     const double core = depth::ellipsoid(p, {21.5, 17.7, 19.8});
     const double lobule = depth::ellipsoid(p - Vec3{10.7, 8.6, 6.4}, {11.8, 11.2, 11.2});
     return depth::join(core, lobule, 5) -
-           1.2 * std::sin(0.25 * p.x + 0.7) * std::sin(0.3 * p.y + 0.3) * std::cos(0.27 * p.z) -
-           0.4 * std::sin(0.6 * p.x + 0.5 * p.z) * std::sin(0.55 * p.y);
+           0.8 * std::sin(0.16 * p.x + 0.7) * std::sin(0.19 * p.y + 0.3) * std::cos(0.17 * p.z);
 }
 
 double kidney_value(const Vec3& point) {

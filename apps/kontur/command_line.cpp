@@ -95,6 +95,75 @@ void add_series_options(CLI::App& sub, DicomSeriesOptions& series) {
     sub.add_option("--volume", series.volume, "Which volume of the series (time, echo), from 1")->type_name("N");
 }
 
+void add_segment_method(CLI::App& sub, SegmentOptions& o) {
+    add_choice<Kernel>(sub, "--kernel", o.kernel, {{"triharmonic", Kernel::triharmonic}, {"biharmonic", Kernel::biharmonic}},
+                       "Radial function: r^3 or r");
+    add_choice<Normals>(sub, "--normals", o.normals, {{"surface", Normals::surface}, {"in-plane", Normals::in_plane}},
+                        "Direction of the surface at a contour: from all contours together, or the contour's alone");
+    sub.add_option("--normal-offset-mm", o.normal_offset_mm,
+                   "Length of the normal constraints [0.3 % of the contours' box diagonal]")
+        ->type_name("MM");
+    sub.add_option("--quality", o.quality, "Fraction of each contour's points to fit, above 0 up to 1")
+        ->type_name("Q")
+        ->capture_default_str();
+    sub.add_option("--smoothing", o.smoothing,
+                   "0 passes through every point; without unit [1e-5 with surface normals, else 0]")
+        ->type_name("S");
+    add_choice<Solver>(sub, "--solver", o.solver,
+                       {{"automatic", Solver::automatic},
+                        {"iterative", Solver::iterative},
+                        {"cholesky", Solver::cholesky},
+                        {"dense", Solver::dense}},
+                       "Linear solver; dense is LAPACK's dsysv");
+    sub.add_option("--tolerance-mm", o.tolerance_mm, "Largest error of the iterative solver at its constraints")
+        ->type_name("MM")
+        ->capture_default_str();
+    add_choice<Voxelizer>(sub, "--voxelizer", o.voxelizer,
+                          {{"tracked", Voxelizer::tracked}, {"exhaustive", Voxelizer::exhaustive}},
+                          "Follow the surface from the contours, or evaluate every voxel");
+    sub.add_option("--threads", o.threads, "Threads; 0: as many as the machine has")->type_name("N")->capture_default_str();
+}
+
+void add_segment(CLI::App& app, Invocation& invocation) {
+    Binder<SegmentCommand> bind(app, invocation, "segment", "Contours in; mask, surface, picture and report out",
+                                "kontur segment contours.json --image ct.nii.gz --output liver.nii.gz --mesh liver.stl \\\n"
+                                "      --picture liver.png --report liver.json");
+    SegmentCommand& c = *bind.command;
+    bind.word("CONTOURS", c.contours, "Contours of one object: .json, .mrk.json or RTSTRUCT; several files are merged");
+    CLI::Option* image = bind.option("--image", c.image.path, "FILE",
+                                     "Image or DICOM folder: gives the mask's grid and the picture's slices");
+    CLI::Option* spacing =
+        bind.option("--spacing-mm", c.spacing_mm, "MM", "Without --image: the mask's voxels, 1 number or 3");
+    spacing->expected(1, 3)->excludes(image);
+    bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
+    bind.option("--output", c.output, "FILE", "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd or .mha")->required();
+    bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply or .obj, LPS mm");
+    bind.option("--picture", c.picture, "FILE", "Picture to write: .png");
+    bind.option("--report", c.report, "FILE", "Report to write: .json");
+    bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
+    add_segment_method(*bind.sub, c.options);
+    add_read_options(*bind.sub, c.image.file);
+    add_series_options(*bind.sub, c.image.series);
+    bind.quiet();
+}
+
+void add_trace(CLI::App& app, Invocation& invocation) {
+    Binder<TraceCommand> bind(app, invocation, "trace", "Cut a mask by planes into contours",
+                              "kontur trace liver.nii.gz --planes planes.json --output contours.json");
+    TraceCommand& c = *bind.command;
+    bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage)");
+    bind.option("--planes", c.planes, "FILE", "Contour file whose planes cut, whatever contours it holds")->required();
+    bind.option("--output", c.output, "FILE", "Contours to write: .json or .mrk.json")->required();
+    bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
+    bind.defaulted("--step-mm", c.options.step_mm, "MM", "Sampling distance on a plane; 0: half the smallest spacing");
+    bind.defaulted("--tolerance-mm", c.options.tolerance_mm, "MM", "How far dropped points may lie off the contour");
+    bind.defaulted("--min-area-mm2", c.options.min_area_mm2, "MM2", "Smaller contours are dropped");
+    bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");
+    add_read_options(*bind.sub, c.read);
+    bind.quiet();
+}
+
 void add_compare(CLI::App& app, Invocation& invocation) {
     Binder<CompareCommand> bind(app, invocation, "compare",
                                 "Overlap, surface distances in mm and volumes in ml of two masks",
@@ -124,7 +193,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     ConvertCommand& c = *bind.command;
     bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
     bind.word("OUT", c.output, "File to write; its name decides the format");
-    bind.option("--roi", c.roi, "NAME", "Which structure of a structure set, by name or number");
+    bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
     add_read_options(*bind.sub, c.input.file);
     add_series_options(*bind.sub, c.input.series);
     bind.quiet();
@@ -139,6 +208,8 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     app.footer(footer());
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
+    add_segment(app, invocation);
+    add_trace(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);
     add_convert(app, invocation);

@@ -9,12 +9,41 @@
 
 #include "console.h"
 #include "files.h"
+#include "kontur/extract/trace.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/image.h"
 #include "kontur/measure/compare.h"
+#include "kontur/segment.h"
 
 // One struct for each command, with its words and options and their defaults, and the function that runs it: it reads, calls
 // the library and writes. What it writes appears whole or not at all. All of them throw kontur::Error.
 
 namespace kontur::app {
+
+/// The main job: contours in, mask, surface, picture and report out.
+struct SegmentCommand {
+    std::vector<std::filesystem::path> contours;
+    ReadContoursOptions read;
+    ImageInput image;                ///< its path is empty when `spacing_mm` gives the grid
+    std::vector<double> spacing_mm;  ///< one number or three
+    double margin_mm = 10;           ///< around the contours' box, with `spacing_mm`
+    std::filesystem::path output;
+    std::filesystem::path mesh, picture, report;  ///< empty: not asked for
+    WriteMaskOptions mask;
+    SegmentOptions options;
+};
+void run(const SegmentCommand& command, Console& console);
+
+/// Cuts a mask by planes into contours.
+struct TraceCommand {
+    std::filesystem::path mask;
+    std::optional<std::int64_t> label;
+    ReadImageOptions read;
+    std::filesystem::path planes;
+    std::filesystem::path output;
+    TraceOptions options;
+};
+void run(const TraceCommand& command, Console& console);
 
 /// How alike two masks on one grid are.
 struct CompareCommand {
@@ -37,7 +66,7 @@ void run(const InspectCommand& command, Console& console);
 /// The same content in another format.
 struct ConvertCommand {
     ImageInput input;
-    std::optional<std::string> roi;
+    ReadContoursOptions contours;
     std::filesystem::path output;
 };
 void run(const ConvertCommand& command, Console& console);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
 #include "facts.h"
-#include "kontur/io/image.h"
 
 namespace kontur::app {
 namespace {

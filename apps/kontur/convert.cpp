@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "kontur/base/error.h"
-#include "kontur/io/image.h"
+#include "kontur/io/mesh.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -47,12 +47,12 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
             return write_image(output, loaded.image);
         }
         case FileKind::contours: {
-            const LoadedContours loaded = load_contours({&command.input.path, 1}, command.roi);
+            const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
-            return save_contours(output, loaded.contours);
+            return write_contours(output, loaded.contours);
         }
         case FileKind::mesh:
-            break;
+            return write_mesh(output, read_mesh(command.input.path));
     }
 }
 

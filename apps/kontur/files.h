@@ -2,21 +2,22 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kontur/base/progress.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/read_image_options.h"
-#include "kontur/shape/contour.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/volume.h"
 
 // The one place that knows which of the library's readers and writers a file needs.
 
 namespace kontur::app {
+
+/// Compares without case: ".png" for picture.PNG, ".nii.gz" for mask.nii.gz.
+bool has_extension(const std::filesystem::path& path, std::string_view extension);
 
 enum class FileKind { image, contours, mesh };
 
@@ -44,14 +45,11 @@ struct LoadedImage {
 };
 LoadedImage load_image(const ImageInput& input, const Progress& progress);
 
-/// One object from contour files of any format, merged. `roi` names or numbers the structure of an RTSTRUCT.
-struct LoadedContours {
-    ContourSet contours;
+/// The same without voxels.
+struct LoadedGrid {
+    Grid grid;
     std::vector<std::string> notes;
 };
-LoadedContours load_contours(std::span<const std::filesystem::path> paths, const std::optional<std::string>& roi);
-
-/// Writes a contour file in the format that its name says: .json or .mrk.json.
-void save_contours(const std::filesystem::path& path, const ContourSet& set);
+LoadedGrid load_grid(const ImageInput& input, const Progress& progress);
 
 }  // namespace kontur::app

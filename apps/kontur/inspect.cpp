@@ -4,6 +4,8 @@
 #include "commands.h"
 #include "describe.h"
 #include "kontur/base/error.h"
+#include "kontur/io/mesh.h"
+#include "kontur/io/rtstruct.h"
 
 namespace kontur::app {
 namespace {
@@ -18,9 +20,28 @@ Facts inspect_image(const InspectCommand& command, const fs::path& path, Console
     return facts;
 }
 
+Facts inspect_structure_set(const fs::path& path) {
+    const StructureSet set = read_rtstruct(path);
+    Facts rois = Facts::array();
+    for (const Roi& roi : set.rois) {
+        Facts facts = {{"number", roi.number}, {"type", roi.interpreted_type}};
+        facts.update(describe(roi.contours));
+        facts["notes"] = roi.notes;
+        rois.push_back(std::move(facts));
+    }
+    return {{"kind", "structure set"}, {"label", set.label}, {"rois", rois}};
+}
+
 Facts inspect_contours(const fs::path& path) {
+    if (looks_like_dicom(path)) return inspect_structure_set(path);
     Facts facts = {{"kind", "contours"}};
-    facts.update(describe(load_contours({&path, 1}, std::nullopt).contours));
+    facts.update(describe(read_contours(path).contours));
+    return facts;
+}
+
+Facts inspect_mesh(const fs::path& path) {
+    Facts facts = {{"kind", "mesh"}};
+    facts.update(describe(read_mesh(path)));
     return facts;
 }
 
@@ -33,7 +54,7 @@ Facts inspect(const InspectCommand& command, const fs::path& path, Console& cons
         case FileKind::mesh:
             break;
     }
-    throw Error(ErrorKind::unsupported, "meshes cannot be inspected");
+    return inspect_mesh(path);
 }
 
 }  // namespace

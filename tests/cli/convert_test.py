@@ -46,6 +46,28 @@ def test_contours_survive_the_way_through_markups(tmp_path):
     assert numpy.allclose(before_points, after_points, atol=1e-6)
 
 
+TETRAHEDRON = """# SPACE=LPS
+v 0 0 0
+v 10 0 0
+v 0 10 0
+v 0 0 10
+f 1 3 2
+f 1 2 4
+f 1 4 3
+f 2 3 4
+"""
+
+
+@pytest.mark.parametrize("through", ["stl", "ply", "obj"])
+def test_a_mesh_keeps_its_volume_in_every_format(tmp_path, through):
+    (tmp_path / "in.obj").write_text(TETRAHEDRON)
+    succeed("convert", tmp_path / "in.obj", tmp_path / f"out.{through}")
+    [facts] = json.loads(succeed("inspect", tmp_path / f"out.{through}", "--json"))
+    assert (facts["kind"], facts["points"], facts["triangles"]) == ("mesh", 4, 4)
+    assert (facts["closed"], facts["oriented"], facts["euler"]) == (True, True, 2)
+    assert facts["volume_ml"] == pytest.approx(1 / 6, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     "source, target, advice",
     [

@@ -141,6 +141,14 @@ std::vector<const Roi*> rois_where(const std::vector<Roi>& rois, const Condition
 
 }  // namespace
 
+bool is_rtstruct(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored) || !has_dicom_prefix(path)) return false;
+    DcmFileFormat file;
+    dcmtk::load(file, path, DCM_Manufacturer);  // the element after Modality
+    return dcmtk::text(*file.getDataset(), DCM_Modality) == "RTSTRUCT";
+}
+
 StructureSet read_rtstruct(const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored) && !has_dicom_prefix(path))

@@ -28,6 +28,9 @@ struct StructureSet {
     std::vector<Roi> rois;  ///< in the file's order
 };
 
+/// True for a file that starts as a DICOM file does and says that it is an RT structure set. Reads a few elements only.
+bool is_rtstruct(const std::filesystem::path& path);
+
 /// Reads a DICOM RT structure set. Contour points are the file's, in mm (LPS); the contours of one slice share one plane.
 /// Holes, in each of the three ways that files store them: a keyhole (one path that runs to the hole's rim and back through
 /// a channel, retraced within 0.001 mm) becomes an outer and an inner contour; CLOSEDPLANAR_XOR contours and nested

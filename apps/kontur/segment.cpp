@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/segment.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "commands.h"
+#include "kontur/base/error.h"
+#include "kontur/io/atomic_file.h"
+#include "kontur/io/mesh.h"
+#include "kontur/io/png.h"
+#include "kontur/view/picture.h"
+#include "outputs.h"
+#include "segment_report.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_extension(const fs::path& path, std::string_view extension) {
+    if (!has_extension(path, extension))
+        throw Error(ErrorKind::unsupported, fmt::format("{} does not end with {}", path.string(), extension));
+}
+
+/// Whatever can be refused before any work is done.
+void check(const SegmentCommand& command) {
+    check_image_name(command.output);
+    if (!command.mesh.empty()) check_output_kind(command.mesh, FileKind::mesh);
+    if (!command.picture.empty()) check_extension(command.picture, ".png");
+    if (!command.report.empty()) check_extension(command.report, ".json");
+
+    std::vector<fs::path> inputs = command.contours;
+    inputs.push_back(command.image.path);
+    for (const fs::path& output : {command.output, command.mesh, command.picture, command.report})
+        if (!output.empty()) check_output(output, inputs);
+
+    if (command.image.path.empty() && command.spacing_mm.empty())
+        throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
+    if (command.spacing_mm.size() == 2)
+        throw Error(ErrorKind::invalid_input, "--spacing-mm has 2 numbers; 1 or 3 are needed");
+}
+
+struct Inputs {
+    ContourSet contours;
+    Grid grid;
+    std::optional<Image> image;  ///< only for the picture
+    std::vector<std::string> notes;
+};
+
+Grid grid_around_contours(const SegmentCommand& command, const ContourSet& contours) {
+    check_contours(contours);  // their box makes sense only then
+    const std::vector<double>& s = command.spacing_mm;
+    const Grid grid = grid_around(bounding_box(contours), s.size() == 3 ? Vec3{s[0], s[1], s[2]} : Vec3{s[0], s[0], s[0]},
+                                  command.margin_mm);
+    const std::int64_t limit = command.image.file.max_voxels;
+    if (grid.voxel_count() > limit)
+        throw Error(ErrorKind::too_large, fmt::format("a spacing of {:g} mm gives the mask {} voxels; the limit is {}", s[0],
+                                                      grid.voxel_count(), limit));
+    return grid;
+}
+
+Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
+    ReadContours contours = read_contours(command.contours, command.read);
+    Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
+    if (command.image.path.empty()) {
+        inputs.grid = grid_around_contours(command, inputs.contours);
+    } else if (command.picture.empty()) {
+        LoadedGrid grid = load_grid(command.image, progress);
+        inputs.grid = grid.grid;
+        inputs.notes.insert(inputs.notes.end(), grid.notes.begin(), grid.notes.end());
+    } else {
+        LoadedImage image = load_image(command.image, progress);
+        inputs.grid = image.image.grid;
+        inputs.image = std::move(image.image);
+        inputs.notes.insert(inputs.notes.end(), image.notes.begin(), image.notes.end());
+    }
+    return inputs;
+}
+
+RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segmentation& result) {
+    PictureOptions options;
+    options.title = inputs.contours.name.empty() ? command.contours.front().stem().string() : inputs.contours.name;
+    options.facts = {{"residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
+                     {"residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
+    options.threads = command.options.threads;
+    return make_picture(*result.mesh, inputs.contours, inputs.image ? &*inputs.image : nullptr, options);
+}
+
+/// Measures consecutive stages into a report's `seconds`.
+class Laps {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void print_summary(const SegmentCommand& command, const Segmentation& result, double seconds, Console& console) {
+    const SegmentReport& r = result.report;
+    std::string text = fmt::format("{}: {} voxels, {:.2f} ml, {} component{}\n", command.output.string(), r.mask_voxels,
+                                   r.mask_volume_ml, r.mask_components, r.mask_components == 1 ? "" : "s");
+    if (!command.mesh.empty())
+        text += fmt::format("{}: {} triangles\n", command.mesh.string(), result.mesh->triangles.size());
+    if (!command.picture.empty()) text += command.picture.string() + "\n";
+    if (!command.report.empty()) text += command.report.string() + "\n";
+    text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,
+                        r.points, r.centres, r.residual.max_mm, r.residual.rms_mm);
+    console.print(text + fmt::format("{:.2f} s, {:.0f} MB\n", seconds, peak_memory_mb()));
+}
+
+}  // namespace
+
+void run(const SegmentCommand& command, Console& console) {
+    check(command);
+    const Progress progress = console.progress();
+    Laps laps;
+    const Inputs inputs = read_inputs(command, progress);
+    const double read_seconds = laps.lap();
+
+    SegmentOptions options = command.options;
+    options.mesh = !command.mesh.empty() || !command.picture.empty();
+    Segmentation result = segment(inputs.contours, inputs.grid, options, progress);
+    SegmentReport& report = result.report;
+    report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
+    report.seconds.insert(report.seconds.begin(), {"read", read_seconds});
+    laps.lap();
+
+    Outputs outputs;
+    const auto write = [&](const fs::path& target, const auto& writer) {
+        if (!target.empty()) outputs.write(target, writer);
+        progress.check();
+    };
+    write(command.output, [&](const fs::path& path) { write_mask(path, result.mask, command.mask); });
+    write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh); });
+    write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result)); });
+    report.seconds.emplace_back("write", laps.lap());
+    write(command.report, [&](const fs::path& path) { write_file_atomically(path, report_json(report).dump(2) + "\n"); });
+    outputs.commit();
+
+    for (const std::string& warning : report.warnings) console.warn(warning);
+    print_summary(command, result, total_seconds(report), console);
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "segment_report.h"
+
+#include <sys/resource.h>
+
+namespace kontur::app {
+namespace {
+
+Facts seconds_json(const SegmentReport& report) {
+    Facts seconds = Facts::object();
+    for (const auto& [stage, duration] : report.seconds) seconds[stage] = duration;
+    seconds["total"] = total_seconds(report);
+    return seconds;
+}
+
+}  // namespace
+
+Facts report_json(const SegmentReport& report) {
+    return {
+        {"version", KONTUR_VERSION},
+        {"contours", report.contours},
+        {"points", report.points},
+        {"constraints", report.constraints},
+        {"centres", report.centres},
+        {"kernel", name(report.kernel)},
+        {"normals", name(report.normals)},
+        {"normal_offset_mm", report.normal_offset_mm},
+        {"smoothing", report.smoothing},
+        {"quality", report.quality},
+        {"solver", name(report.solver)},
+        {"solves", report.solves},
+        {"iterations", report.iterations},
+        {"residual_mm", {{"max", report.residual.max_mm}, {"rms", report.residual.rms_mm}}},
+        {"voxelizer", name(report.voxelizer)},
+        {"evaluations", report.evaluations},
+        {"surface_voxels", report.surface_voxels},
+        {"seconds", seconds_json(report)},
+        {"peak_memory_mb", peak_memory_mb()},
+        {"mask",
+         {{"voxels", report.mask_voxels}, {"volume_ml", report.mask_volume_ml}, {"components", report.mask_components}}},
+        {"warnings", report.warnings},
+    };
+}
+
+double total_seconds(const SegmentReport& report) {
+    double total = 0;
+    for (const auto& lap : report.seconds) total += lap.second;
+    return total;
+}
+
+double peak_memory_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;  // Linux counts kibibytes
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur segment end to end: a ball from nine contours."""
+import hashlib
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import time
+
+import nibabel
+import numpy
+import pytest
+from support import KONTUR, ball_array, ball_planes, dice, kontur, lps_affine, names, read_nifti, write_nifti, write_planes
+
+
+@pytest.fixture
+def folder(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    write_nifti(tmp_path / "image.nii.gz", (ball_array() * 150 - 100).astype(numpy.int16))
+    return tmp_path
+
+
+def segment(folder, *words):
+    """Runs the command in `folder`; stderr may hold warnings only."""
+    result = kontur("segment", *words, cwd=folder)
+    assert result.returncode == 0, result
+    assert all(line.startswith("kontur: warning: ") for line in result.stderr.splitlines()), result
+    return result.stdout
+
+
+FROM_IMAGE = ["ball.json", "--image", "image.nii.gz", "--output", "out.nii.gz"]
+
+
+def test_mask_lies_on_the_images_grid_and_is_the_ball(folder):
+    segment(folder, *FROM_IMAGE)
+    mask = read_nifti(folder / "out.nii.gz")
+    assert mask.dtype == numpy.uint8
+    assert set(numpy.unique(mask)) == {0, 1}
+    assert numpy.allclose(nibabel.load(folder / "out.nii.gz").affine, nibabel.load(folder / "image.nii.gz").affine, atol=1e-5)
+    assert dice(mask, ball_array()) > 0.995
+
+
+def test_all_outputs_and_the_report(folder):
+    text = segment(folder, *FROM_IMAGE, "--mesh", "out.stl", "--picture", "out.png", "--report", "out.json")
+    assert names(folder) == ["ball.json", "image.nii.gz", "out.json", "out.nii.gz", "out.png", "out.stl"]
+    for name in ["out.nii.gz", "out.stl", "out.png", "out.json", "residual", "ml"]:
+        assert name in text
+    assert (folder / "out.png").read_bytes().startswith(b"\x89PNG")
+    assert b"SPACE=LPS" in (folder / "out.stl").read_bytes()[:80]
+
+    report = json.loads((folder / "out.json").read_text())
+    mask = read_nifti(folder / "out.nii.gz")
+    assert (report["contours"], report["points"]) == (9, 360)
+    assert report["constraints"] >= report["centres"] > 360
+    assert report["normals"] == "surface"
+    assert report["solver"] in ("iterative", "cholesky", "dense")
+    assert report["iterations"] > 0
+    assert 0 <= report["residual_mm"]["rms"] <= report["residual_mm"]["max"] < 0.1
+    assert report["evaluations"] > report["surface_voxels"] > 0
+    assert report["seconds"]["total"] == pytest.approx(sum(t for s, t in report["seconds"].items() if s != "total"))
+    assert report["peak_memory_mb"] > 1
+    assert report["mask"] == {
+        "voxels": numpy.count_nonzero(mask),
+        "volume_ml": pytest.approx(numpy.count_nonzero(mask) / 1000),
+        "components": 1,
+    }
+    assert isinstance(report["warnings"], list)
+    assert re.fullmatch(r"\d+\.\d+\.\d+", report["version"])
+
+
+def test_spacing_and_margin_give_a_grid_around_the_contours(folder):
+    segment(folder, "ball.json", "--spacing-mm", 1, 1, 2, "--margin-mm", 4, "--output", "out.nii.gz")
+    image = nibabel.load(folder / "out.nii.gz")
+    assert image.header.get_zooms() == (1, 1, 2)
+    affine = numpy.diag([-1.0, -1.0, 1.0, 1.0]) @ image.affine
+    low = affine[:3, 3] - 0.5 * numpy.array(image.header.get_zooms())
+    assert low == pytest.approx([2 - 4, -17 - 4, -5 - 4], abs=1)
+    assert dice(numpy.asarray(image.dataobj), ball_array(image.shape, affine)) > 0.99
+
+
+def test_one_spacing_serves_all_axes(folder):
+    segment(folder, "ball.json", "--spacing-mm", 2, "--output", "out.nii.gz")
+    assert nibabel.load(folder / "out.nii.gz").header.get_zooms() == (2, 2, 2)
+
+
+def test_contour_files_are_merged(folder):
+    planes = ball_planes()
+    write_planes(folder / "a.json", planes[:4])
+    write_planes(folder / "b.json", planes[4:])
+    segment(folder, *FROM_IMAGE)
+    segment(folder, "a.json", "b.json", "--image", "image.nii.gz", "--output", "merged.nii.gz")
+    assert numpy.array_equal(read_nifti(folder / "out.nii.gz"), read_nifti(folder / "merged.nii.gz"))
+
+
+def test_the_paper_as_printed(folder):
+    report = ["--report", "out.json"]
+    segment(folder, *FROM_IMAGE, "--normals", "in-plane", "--normal-offset-mm", 1, "--solver", "dense", *report)
+    found = json.loads((folder / "out.json").read_text())
+    assert (found["solver"], found["normal_offset_mm"], found["iterations"]) == ("dense", 1, 0)
+    assert dice(read_nifti(folder / "out.nii.gz"), ball_array()) > 0.95
+
+
+@pytest.mark.parametrize("words", [["--voxelizer", "exhaustive"], ["--threads", 1], ["--threads", 3]])
+def test_ways_to_the_same_mask(folder, words):
+    segment(folder, *FROM_IMAGE)
+    segment(folder, "ball.json", "--image", "image.nii.gz", "--output", "other.nii.gz", *words)
+    assert numpy.array_equal(read_nifti(folder / "out.nii.gz"), read_nifti(folder / "other.nii.gz"))
+
+
+def test_direct_and_iterative_solvers_agree_up_to_voxels_on_the_surface(folder):
+    segment(folder, *FROM_IMAGE)
+    for solver in ["cholesky", "dense"]:
+        segment(folder, "ball.json", "--image", "image.nii.gz", "--output", f"{solver}.nii.gz", "--solver", solver)
+        assert dice(read_nifti(folder / "out.nii.gz"), read_nifti(folder / f"{solver}.nii.gz")) > 0.998
+
+
+def test_the_same_input_gives_the_same_bytes(folder):
+    def digests(prefix, threads):
+        files = [f"{prefix}.nii.gz", f"{prefix}.stl", f"{prefix}.png"]
+        segment(folder, "ball.json", "--image", "image.nii.gz", "--output", files[0], "--mesh", files[1], "--picture", files[2],
+                "--threads", threads)
+        return [hashlib.sha256((folder / file).read_bytes()).hexdigest() for file in files]
+
+    assert digests("a", 1) == digests("b", 1) == digests("c", 4)
+
+
+def test_kernel_quality_smoothing_and_label_value_arrive(folder):
+    segment(folder, *FROM_IMAGE, "--kernel", "biharmonic", "--quality", 0.5, "--smoothing", 0.001, "--label-value", 300,
+            "--report", "out.json")
+    report = json.loads((folder / "out.json").read_text())
+    assert (report["kernel"], report["quality"], report["smoothing"]) == ("biharmonic", 0.5, 0.001)
+    assert report["centres"] < 400
+    assert set(numpy.unique(read_nifti(folder / "out.nii.gz"))) == {0, 300}
+
+
+def test_contours_partly_outside_the_image_are_a_warning(folder):
+    write_nifti(folder / "small.nii.gz", ball_array((40, 40, 20)))  # ends 1 mm above the ball's lower pole
+    result = kontur("segment", "ball.json", "--image", "small.nii.gz", "--output", "out.nii.gz", "--report", "out.json", cwd=folder)
+    assert result.returncode == 0
+    [warning] = [w for w in json.loads((folder / "out.json").read_text())["warnings"] if "360 contour points" in w]
+    assert f"kontur: warning: {warning}\n" in result.stderr
+
+
+def test_quiet_prints_nothing_but_warnings(folder):
+    assert segment(folder, *FROM_IMAGE, "--quiet") == ""
+
+
+def test_a_terminal_shows_progress_and_a_pipe_does_not(folder):
+    read_end, write_end = os.openpty()
+    process = subprocess.Popen([KONTUR, "segment", *FROM_IMAGE], cwd=folder, stdout=subprocess.DEVNULL, stderr=write_end)
+    process.wait(60)
+    os.close(write_end)
+    drawn = b""
+    try:
+        while chunk := os.read(read_end, 65536):
+            drawn += chunk
+    except OSError:
+        pass  # the other end is closed
+    os.close(read_end)
+    assert re.search(rb"\r\[#*\.*\] +\d+ %  \w+", drawn)
+    assert b"\r" not in kontur("segment", *FROM_IMAGE, cwd=folder).stderr.encode()
+
+
+@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_leaves_everything_as_it_was(folder, stop):
+    (folder / "out.nii.gz").write_text("old")
+    before = names(folder)
+    # About 64 million voxels, each evaluated: minutes.
+    words = ["segment", "ball.json", "--spacing-mm", "0.1", "--voxelizer", "exhaustive", "--output", "out.nii.gz"]
+    process = subprocess.Popen([KONTUR, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    time.sleep(1)
+    process.send_signal(stop)
+    stdout, stderr = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert stdout == ""
+    assert stderr.splitlines()[-1] == "kontur: error: interrupted; nothing was written"
+    assert names(folder) == before
+    assert (folder / "out.nii.gz").read_text() == "old"
+
+
+def real_data(name):
+    default = os.environ.get("KONTUR_TEST_DATA_DEFAULT", "")
+    path = pathlib.Path(os.environ.get("KONTUR_TEST_DATA") or default) / name
+    if not path.exists():
+        pytest.skip(f"real data not found: {path} (set KONTUR_TEST_DATA)")
+    return path
+
+
+@pytest.mark.parametrize("structure", ["vertebral_body_L5label", "kidney_right_5mm"])
+def test_a_real_structure_from_radial_planes(tmp_path, structure):
+    data = real_data("derived_nonparallel") / structure
+    truth = data / "truth.nii.gz"
+    segment(tmp_path, data / "radial6.json", "--image", truth, "--output", "out.nii.gz")
+    result = json.loads(kontur("compare", tmp_path / "out.nii.gz", truth, "--json").stdout)
+    assert result["dice"] > 0.85
+
+
+def test_a_real_structure_set(tmp_path):
+    data = real_data("03_sarcoma_STS_002/CT")
+    segment(tmp_path, data / "RTSTRUCT_RS.dcm", "--image", data / "image", "--output", "out.nii.gz")
+    result = json.loads(kontur("compare", tmp_path / "out.nii.gz", data / "CT_mask.nii.gz", "--json").stdout)
+    assert result["dice"] > 0.9

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <limits>
 
 #include "kontur/base/error.h"
 #include "kontur/io/input_file.h"

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <unordered_map>
 
 #include "kontur/base/error.h"

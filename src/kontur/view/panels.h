@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "kontur/view/canvas.h"
 #include "kontur/view/slices.h"
 #include "kontur/view/window.h"

@@ -2,6 +2,7 @@
 #include "kontur/view/picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kontur/base/error.h"

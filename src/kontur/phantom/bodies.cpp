@@ -16,7 +16,7 @@ constexpr Vec3 kVertebraCenter{0, 55, -10};
 double liver_value(const Vec3& point) {
     const Vec3 p = point - kLiverCenter;
     const double right_lobe = depth::ellipsoid(p - Vec3{-38, 0, 0}, {60, 78, 86});
-    const double left_lobe = depth::ellipsoid(p - Vec3{38, -16, 22}, {64, 42, 45});
+    const double left_lobe = depth::ellipsoid(p - Vec3{38, -16, 22}, {64, 40.5, 42});
     const double visceral_surface = depth::ellipsoid(p - Vec3{66, 22, -80}, {80, 90, 76});
     const double gallbladder_fossa = depth::ellipsoid(p - Vec3{18, -66, -34}, {30, 34, 40});
     const double renal_impression = depth::ellipsoid(p - Vec3{2, 82, -32}, {36, 34, 66});

@@ -199,6 +199,18 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+void add_phantom(CLI::App& app, Invocation& invocation) {
+    Binder<PhantomCommand> bind(app, invocation, "phantom", "Make a synthetic CT with exact truth masks and contours",
+                                "kontur phantom demo/");
+    PhantomCommand& c = *bind.command;
+    bind.word("DIR", c.folder, "Folder to write to; it is made if it is not there");
+    bind.option("--scan", c.scans, "NAME", "Write only this scan, such as liver; several names for more [all]");
+    bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
+    bind.defaulted("--seed", c.options.seed, "N", "Of the noise");
+    bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");
+    bind.quiet();
+}
+
 }  // namespace
 
 Invocation parse_command_line(int argc, const char* const* argv) {
@@ -213,6 +225,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_compare(app, invocation);
     add_inspect(app, invocation);
     add_convert(app, invocation);
+    add_phantom(app, invocation);
 
     try {
         app.parse(argc, argv);

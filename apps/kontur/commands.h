@@ -13,6 +13,7 @@
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/measure/compare.h"
+#include "kontur/phantom/phantom.h"
 #include "kontur/segment.h"
 
 // One struct for each command, with its words and options and their defaults, and the function that runs it: it reads, calls
@@ -44,6 +45,14 @@ struct TraceCommand {
     TraceOptions options;
 };
 void run(const TraceCommand& command, Console& console);
+
+/// A synthetic CT with exact truth masks and contours drawn on them.
+struct PhantomCommand {
+    std::filesystem::path folder;
+    std::vector<std::string> scans;  ///< names; empty: all
+    PhantomOptions options;
+};
+void run(const PhantomCommand& command, Console& console);
 
 /// How alike two masks on one grid are.
 struct CompareCommand {

@@ -50,6 +50,13 @@ void check_output(const fs::path& target, std::span<const fs::path> inputs) {
 Outputs::~Outputs() {
     std::error_code ignored;
     for (const auto& [folder, hidden] : folders_) fs::remove_all(hidden, ignored);
+    if (!created_folder_.empty()) fs::remove(created_folder_, ignored);
+}
+
+void Outputs::create_folder(const fs::path& folder) {
+    std::error_code error;
+    if (fs::create_directory(folder, error)) created_folder_ = folder;
+    else if (error) fail(folder, error.message());
 }
 
 void Outputs::write(const fs::path& target, const std::function<void(const fs::path&)>& writer) {
@@ -77,6 +84,7 @@ void Outputs::commit() {
         fs::rename(temporary, target, error);
         if (error) fail(target, error.message());
     }
+    created_folder_.clear();
 }
 
 }  // namespace kontur::app

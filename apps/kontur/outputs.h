@@ -26,6 +26,9 @@ public:
     /// name the target. Throws Error(io), and Error(invalid_input) for the same target twice.
     void write(const std::filesystem::path& target, const std::function<void(const std::filesystem::path&)>& writer);
 
+    /// Makes the folder if it is not there; without a commit it vanishes again. Throws Error(io).
+    void create_folder(const std::filesystem::path& folder);
+
     /// Moves everything into place. Call once, last. Throws Error(io).
     void commit();
 
@@ -34,6 +37,7 @@ private:
 
     std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< target folder to hidden folder
     std::map<std::filesystem::path, std::filesystem::path> files_;    ///< target to where it waits
+    std::filesystem::path created_folder_;                            ///< to be removed again; empty: none
 };
 
 }  // namespace kontur::app

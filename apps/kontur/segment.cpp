@@ -83,8 +83,8 @@ Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
 RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segmentation& result) {
     PictureOptions options;
     options.title = inputs.contours.name.empty() ? command.contours.front().stem().string() : inputs.contours.name;
-    options.facts = {{"residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
-                     {"residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
+    options.facts = {{"Residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
+                     {"Residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
     options.threads = command.options.threads;
     return make_picture(*result.mesh, inputs.contours, inputs.image ? &*inputs.image : nullptr, options);
 }

@@ -5,7 +5,7 @@ import re
 import pytest
 from support import kontur, succeed
 
-COMMANDS = ["segment", "trace", "compare", "inspect", "convert"]
+COMMANDS = ["segment", "trace", "compare", "inspect", "convert", "phantom"]
 
 
 def test_without_words_prints_the_help_that_lists_every_command():

@@ -14,7 +14,7 @@ def sheared_affine():
     return affine
 
 
-@pytest.mark.parametrize("through", ["nii"])
+@pytest.mark.parametrize("through", ["nrrd", "mha", "nii"])
 def test_an_image_survives_the_way_through_another_format(tmp_path, through):
     rng = numpy.random.default_rng(7)
     array = rng.integers(-1000, 3000, (5, 6, 7), dtype=numpy.int16)

@@ -166,7 +166,8 @@ TEST(Trace, KeepsOnlyCornersOfStraightSides) {
         for (std::int64_t j = 3; j < 9; ++j)
             for (std::int64_t i = 3; i < 9; ++i) block.values[block.grid.offset(i, j, k)] = 1;
     const Plane plane = make_plane({0, 0, 5}, {0, 0, 1});
-    const auto& points = trace(block, std::span(&plane, 1)).contours.at(0).points;
+    const ContourSet set = trace(block, std::span(&plane, 1));
+    const auto& points = set.contours.at(0).points;
     EXPECT_LE(points.size(), 16u);
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_GT(distance(points[i], points[(i + 1) % points.size()]), 1e-6);
 }

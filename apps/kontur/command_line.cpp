@@ -100,14 +100,12 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
                        "Radial function: r^3 or r");
     add_choice<Normals>(sub, "--normals", o.normals, {{"surface", Normals::surface}, {"in-plane", Normals::in_plane}},
                         "Direction of the surface at a contour: from all contours together, or the contour's alone");
-    sub.add_option("--normal-offset-mm", o.normal_offset_mm,
-                   "Length of the normal constraints [0.3 % of the contours' box diagonal]")
+    sub.add_option("--normal-offset-mm", o.normal_offset_mm, "Length of the normal constraints [from the contours' extent]")
         ->type_name("MM");
     sub.add_option("--quality", o.quality, "Fraction of each contour's points to fit, above 0 up to 1")
         ->type_name("Q")
         ->capture_default_str();
-    sub.add_option("--smoothing", o.smoothing,
-                   "0 passes through every point; without unit [1e-5 with surface normals, else 0]")
+    sub.add_option("--smoothing", o.smoothing, "0 passes through every point exactly; without unit [by --normals]")
         ->type_name("S");
     add_choice<Solver>(sub, "--solver", o.solver,
                        {{"automatic", Solver::automatic},
@@ -133,8 +131,8 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     CLI::Option* image = bind.option("--image", c.image.path, "FILE",
                                      "Image or DICOM folder: gives the mask's grid and the picture's slices");
     CLI::Option* spacing =
-        bind.option("--spacing-mm", c.spacing_mm, "MM", "Without --image: the mask's voxels, 1 number or 3");
-    spacing->expected(1, 3)->excludes(image);
+        bind.option("--spacing-mm", c.spacing_mm, "MM[,MM,MM]", "Without --image: size of the mask's voxels");
+    spacing->delimiter(',')->allow_extra_args(false)->excludes(image);
     bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
     bind.option("--output", c.output, "FILE", "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd or .mha")->required();
     bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply or .obj, LPS mm");
@@ -185,6 +183,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
     bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
     bind.flag("--json", c.json, "Print JSON");
     add_read_options(*bind.sub, c.read);
+    add_series_options(*bind.sub, c.series);
 }
 
 void add_convert(CLI::App& app, Invocation& invocation) {
@@ -204,7 +203,8 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
                                 "kontur phantom demo/");
     PhantomCommand& c = *bind.command;
     bind.word("DIR", c.folder, "Folder to write to; it is made if it is not there");
-    bind.option("--scan", c.scans, "NAME", "Write only this scan, such as liver; several names for more [all]");
+    bind.option("--scan", c.scans, "NAME", "Write only this scan, such as liver; again for more [all]")
+        ->allow_extra_args(false);
     bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
     bind.defaulted("--seed", c.options.seed, "N", "Of the noise");
     bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");

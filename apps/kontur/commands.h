@@ -68,6 +68,7 @@ void run(const CompareCommand& command, Console& console);
 struct InspectCommand {
     std::vector<std::filesystem::path> files;
     ReadImageOptions read;
+    DicomSeriesOptions series;
     bool json = false;
 };
 void run(const InspectCommand& command, Console& console);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kNameWidth = 22;
 
+bool is_empty(const Facts& value) { return value.empty() || (value.is_string() && value.get<std::string>().empty()); }
+
 std::string value_text(const Facts& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_null()) return "-";
@@ -20,6 +22,7 @@ std::string value_text(const Facts& value) {
     if (!value.is_structured()) return value.dump();
     std::string text;
     for (const auto& [name, item] : value.items()) {
+        if (is_empty(item)) continue;
         if (!text.empty()) text += value.is_object() ? ", " : " ";
         if (value.is_object()) text += name + " ";
         text += value_text(item);
@@ -37,6 +40,10 @@ bool is_list_of_lines(const Facts& value) {
 std::string to_text(const Facts& facts) {
     std::string text;
     for (const auto& [name, value] : facts.items()) {
+        if (is_empty(value)) {
+            text += fmt::format("  {:<{}} none\n", name, kNameWidth);
+            continue;
+        }
         if (!is_list_of_lines(value)) {
             text += fmt::format("  {:<{}} {}\n", name, kNameWidth, value_text(value));
             continue;

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Facts inspect_image(const InspectCommand& command, const fs::path& path, Console& console) {
-    const LoadedImage loaded = load_image({path, command.read, {}}, console.progress());
+    const LoadedImage loaded = load_image({path, command.read, command.series}, console.progress());
     Facts facts = {{"kind", "image"}};
     facts.update(describe(loaded.image));
     facts["notes"] = loaded.notes;
@@ -24,8 +24,10 @@ Facts inspect_structure_set(const fs::path& path) {
     const StructureSet set = read_rtstruct(path);
     Facts rois = Facts::array();
     for (const Roi& roi : set.rois) {
-        Facts facts = {{"number", roi.number}, {"type", roi.interpreted_type}};
+        Facts facts = {{"number", roi.number}, {"name", roi.contours.name}, {"type", roi.interpreted_type}};
         facts.update(describe(roi.contours));
+        facts.erase("interior_points");  // which RTSTRUCT does not know
+        facts.erase("exterior_points");
         facts["notes"] = roi.notes;
         rois.push_back(std::move(facts));
     }
@@ -63,16 +65,17 @@ void run(const InspectCommand& command, Console& console) {
     Facts all = Facts::array();
     std::optional<Error> first_error;
     for (const fs::path& path : command.files) {
-        Facts facts = {{"file", path.string()}};
+        Facts facts;
         try {
-            facts.update(inspect(command, path, console));
+            facts = inspect(command, path, console);
         } catch (const Error& error) {
             if (error.kind() == ErrorKind::cancelled) throw;
             facts["error"] = error.what();
             if (!first_error) first_error = error;
         }
-        if (!command.json) console.print(facts.value("file", "") + "\n" + to_text(facts));
-        all.push_back(std::move(facts));
+        if (!command.json) console.print(path.string() + "\n" + to_text(facts));
+        all.push_back({{"file", path.string()}});
+        all.back().update(facts);
     }
     if (command.json) console.print(all.dump(2) + "\n");
     if (first_error) throw *first_error;

@@ -39,8 +39,8 @@ void check(const SegmentCommand& command) {
 
     if (command.image.path.empty() && command.spacing_mm.empty())
         throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
-    if (command.spacing_mm.size() == 2)
-        throw Error(ErrorKind::invalid_input, "--spacing-mm has 2 numbers; 1 or 3 are needed");
+    if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
+        throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
 }
 
 struct Inputs {

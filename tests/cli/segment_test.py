@@ -71,7 +71,7 @@ def test_all_outputs_and_the_report(folder):
 
 
 def test_spacing_and_margin_give_a_grid_around_the_contours(folder):
-    segment(folder, "ball.json", "--spacing-mm", 1, 1, 2, "--margin-mm", 4, "--output", "out.nii.gz")
+    segment(folder, "ball.json", "--spacing-mm", "1,1,2", "--margin-mm", 4, "--output", "out.nii.gz")
     image = nibabel.load(folder / "out.nii.gz")
     assert image.header.get_zooms() == (1, 1, 2)
     affine = numpy.diag([-1.0, -1.0, 1.0, 1.0]) @ image.affine

@@ -9,9 +9,9 @@ namespace kontur {
 
 /// A contour's outward side (paper section 5.1).
 struct ContourOrientation {
-    /// Unit in-plane normals, one per point, pointing out of the object (for a hole: into the cavity). At a point where
-    /// Eq. 7 has no answer (a spike that folds back on itself, a repeated point) the bisector of the two edges'
-    /// directions away from the spike's tip is taken.
+    /// Unit in-plane normals, one per point, pointing out of the object (for a hole: into the cavity). At the tip of a
+    /// spike that folds back on itself Eq. 7 has no answer; there the normal points along the spike, out of its tip or,
+    /// where the spike is a cut into the object, out of the cut.
     std::vector<Vec3> normals;
     /// Points in mm where the contour crosses itself.
     std::vector<Vec3> crossings;
@@ -19,7 +19,9 @@ struct ContourOrientation {
 
 /// Normals by Eq. 7, their sign walked along the contour from its point of smallest in-plane coordinate, which is surely
 /// convex, and flipped wherever a segment crosses others an odd number of times: both lobes of a figure of eight get
-/// outward normals, as under the even-odd rule. Needs at least 3 points.
+/// outward normals, as under the even-odd rule. Also right where a contour runs through its own points or along its own
+/// segments: it counts as crossing or not there as if its points were displaced infinitesimally. Needs at least 3 points.
+/// O(n log n) time for n points of which few lie side by side.
 ContourOrientation orient(const Contour& contour);
 
 }  // namespace kontur

@@ -63,7 +63,8 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
         throw Error(ErrorKind::invalid_input,
                     "the reduction quality is " + std::to_string(options.quality) + "; it must be in (0, 1]");
     const std::size_t n = contour.points.size();
-    const auto wanted = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n)));
+    // 0.55 * 100 is a little more than 55 in binary; that must not cost a point.
+    const auto wanted = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n) * (1 - 1e-12)));
     const std::size_t keep = std::max(wanted, options.min_points);
     if (keep >= n) return contour;
 

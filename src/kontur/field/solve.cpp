@@ -2,6 +2,8 @@
 #include "kontur/field/solve.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <string>
 
 #include "kontur/base/error.h"
@@ -10,6 +12,20 @@
 namespace kontur {
 namespace {
 
+/// The factorisations do not notice repeated rows reliably: rounding makes them garbage instead of zero pivots.
+void check_distinct(const std::vector<Vec3>& centers) {
+    std::vector<std::size_t> order(centers.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::array{centers[i].x, centers[i].y, centers[i].z}; };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (centers[order[i]] == centers[order[i - 1]]) {
+            const auto [first, second] = std::minmax(order[i], order[i - 1]);
+            throw Error(ErrorKind::singular_system, "constraints " + std::to_string(first + 1) + " and " +
+                                                        std::to_string(second + 1) + " are at the same point");
+        }
+}
+
 void check(const ConstraintSet& constraints, const SolveOptions& options) {
     if (constraints.size() < 4)
         throw Error(ErrorKind::invalid_input, "there are " + std::to_string(constraints.size()) +
@@ -17,6 +33,10 @@ void check(const ConstraintSet& constraints, const SolveOptions& options) {
     for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!is_finite(constraints.centers[i]) || !std::isfinite(constraints.values[i]))
             throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
+    check_distinct(constraints.centers);
+    if (!(options.tolerance_mm > 0))
+        throw Error(ErrorKind::invalid_input,
+                    "the solver's tolerance is " + std::to_string(options.tolerance_mm) + " mm; it must be above 0");
     if (!(options.smoothing >= 0))
         throw Error(ErrorKind::invalid_input, "the smoothing is " + std::to_string(options.smoothing) + "; it must be >= 0");
 }
@@ -83,6 +103,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     const UnitFrame frame = unit_frame(constraints.centers);
     const LinearSystem system{options.kernel, options.smoothing, PointArrays(frame.to_unit(constraints.centers)),
                               constraints.values};
+    static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane, which dsysv may not notice
     Coefficients c = run(system, options, progress);
     for (const double w : c.weights)
         if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");

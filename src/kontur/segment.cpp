@@ -61,6 +61,13 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
     return fit;
 }
 
+/// The paper's in-plane normals go with its shifted copy for coplanar contours; surface normals go with caps.
+PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
+    const bool as_printed = options.normals == Normals::in_plane;
+    return {
+        .quality = options.quality, .caps = !as_printed, .copy_shift_mm = as_printed ? fitting.place.normal_offset_mm : 0.0};
+}
+
 /// Where the surface is known to pass: every drawn point, and where contours cross themselves.
 std::vector<Vec3> start_points(const ContourSet& set, const PreparedContours& prepared) {
     std::vector<Vec3> starts = prepared.crossings;
@@ -95,14 +102,16 @@ void describe_fit(const PreparedContours& prepared, const Fit& fit, const FitOpt
     report.solver = fit.report.solver;
     report.solves = fit.solves;
     report.iterations = fit.iterations;
-    if (prepared.added_copies > 0)
-        report.warnings.push_back("all contours lie in one plane; a copy of the first one was added close to it");
+    report.merged = fit.merged;
+    report.capped = fit.capped;
+    if (prepared.coplanar)
+        report.warnings.push_back(
+            options.normals == Normals::surface
+                ? "all contours lie in one plane; the thickness of the object is a guess from their width"
+                : "all contours lie in one plane; a copy of the first one was added close to it");
     if (!prepared.crossings.empty())
         report.warnings.push_back(fmt::format(
             "contours cross themselves at {} points; lobes are filled by the even-odd rule", prepared.crossings.size()));
-    if (fit.merged > 0)
-        report.warnings.push_back(fmt::format("{} constraints within {:.3g} mm of others were left out", fit.merged,
-                                              options.place.merge_distance_mm));
 }
 
 void describe_mask(const SurfaceLattice& surface, const Mask& mask, SegmentReport& report) {
@@ -125,7 +134,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
 
     const ContourSet contours = cleaned(drawn, grid, report.warnings);
     const FitOptions fitting = fit_options(options, bounding_box(contours).diagonal());
-    const PreparedContours prepared = prepare(contours, {options.quality}, fitting.place.normal_offset_mm);
+    const PreparedContours prepared = prepare(contours, prepare_options(options, fitting));
     watch.lap("prepare");
     const Fit fitted = fit(prepared, contours, fitting, progress);
     result.function = fitted.function;

@@ -36,6 +36,8 @@ struct SegmentReport {
     std::size_t contours = 0;
     std::size_t points = 0;       ///< drawn points
     std::size_t constraints = 0;  ///< placed and kept
+    std::size_t merged = 0;       ///< constraints left out because others lie within 0.04 % of the box diagonal
+    std::size_t capped = 0;       ///< constraints that end the object beyond its last contours
     std::size_t centres = 0;      ///< weights of the implicit function
     Kernel kernel = Kernel::triharmonic;
     Normals normals = Normals::surface;

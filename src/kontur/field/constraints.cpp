@@ -49,8 +49,7 @@ private:
 }  // namespace
 
 PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
-                                    std::span<const Vec3> interior, std::span<const Vec3> exterior,
-                                    const PlaceOptions& options) {
+                                    std::span<const PointConstraint> single_points, const PlaceOptions& options) {
     PlacedConstraints result;
     SpacingFilter filter(options.merge_distance_mm);
     const auto place = [&](const Vec3& at, double value, ConstraintKind kind) {
@@ -70,8 +69,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
     for (std::size_t i = 0; i < points.size(); ++i)
         if (kept[i])
             place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal);
-    for (const Vec3& p : interior) place(p, offset, ConstraintKind::interior);
-    for (const Vec3& p : exterior) place(p, -offset, ConstraintKind::exterior);
+    for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind);
     return result;
 }
 

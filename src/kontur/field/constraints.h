@@ -22,6 +22,14 @@ enum class ConstraintKind : std::uint8_t {
     normal,    ///< f = -offset at a contour point moved outward by the offset
     interior,  ///< f > 0 at a single point
     exterior,  ///< f < 0 at a single point
+    cap,       ///< f bounded beyond the last contour
+};
+
+/// A constraint at a single point.
+struct PointConstraint {
+    Vec3 position;
+    double value;
+    ConstraintKind kind;
 };
 
 /// Where the implicit function is prescribed, and its value there. Values are in mm, so that |f| near the surface is about
@@ -45,14 +53,13 @@ struct PlacedConstraints {
 };
 
 /// Boundary constraints f = 0 at all points, and for each one normal constraint f = -d s at the distance d outside along
-/// its in-plane normal; then interior and exterior points with values of +d and -d. `slopes` holds s in (0, 1], one per
+/// its in-plane normal; then the single points. `slopes` holds s in (0, 1], one per
 /// point: how fast f falls along the in-plane normal, which for a distance-like f is the cosine of the surface's tilt
 /// against the contour's plane. All ones is the paper's choice.
 ///
 /// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
 /// distance of an earlier one is dropped; boundary constraints come first and win.
 PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
-                                    std::span<const Vec3> interior, std::span<const Vec3> exterior,
-                                    const PlaceOptions& options = {});
+                                    std::span<const PointConstraint> single_points, const PlaceOptions& options = {});
 
 }  // namespace kontur

@@ -29,6 +29,38 @@ double update_slopes(const ImplicitFunction& function, const std::vector<Boundar
     return change / static_cast<double>(points.size()) * 180 / M_PI;
 }
 
+std::vector<PointConstraint> interior_and_exterior(const ContourSet& set, double offset_mm) {
+    std::vector<PointConstraint> points;
+    for (const Vec3& p : set.interior) points.push_back({p, offset_mm, ConstraintKind::interior});
+    for (const Vec3& p : set.exterior) points.push_back({p, -offset_mm, ConstraintKind::exterior});
+    return points;
+}
+
+/// Which caps have become constraints.
+class ActiveCaps {
+public:
+    ActiveCaps(const std::vector<Cap>& caps, bool all) : caps_(caps), active_(caps.size(), all) {}
+
+    /// Activates the caps that the function violates.
+    void update(const ImplicitFunction& function, int threads) {
+        std::vector<Vec3> positions(caps_.size());
+        std::transform(caps_.begin(), caps_.end(), positions.begin(), [](const Cap& cap) { return cap.position; });
+        std::vector<double> values(caps_.size());
+        function.values(positions, values, threads);
+        for (std::size_t i = 0; i < caps_.size(); ++i) active_[i] = active_[i] || values[i] > caps_[i].most_mm;
+    }
+
+    void append_to(std::vector<PointConstraint>& points) const {
+        for (std::size_t i = 0; i < caps_.size(); ++i)
+            if (active_[i]) points.push_back({caps_[i].position, caps_[i].most_mm, ConstraintKind::cap});
+    }
+    std::size_t count() const { return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true)); }
+
+private:
+    const std::vector<Cap>& caps_;
+    std::vector<bool> active_;
+};
+
 /// One round's share of the whole progress.
 Progress part_of(const Progress& whole, int round, int rounds) {
     if (!whole.callback) return whole;
@@ -43,11 +75,13 @@ std::string_view name(Normals normals) noexcept { return normals == Normals::sur
 Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress) {
     Fit result;
     result.slopes.assign(contours.points.size(), 1.0);
+    ActiveCaps caps(contours.caps, contours.coplanar);
     const int rounds = options.normals == Normals::surface ? options.rounds : 0;
     double start_smoothing = options.start_smoothing;
     for (int round = 0; round <= rounds; ++round, start_smoothing *= options.smoothing_factor) {
-        const PlacedConstraints placed =
-            place_constraints(contours.points, result.slopes, set.interior, set.exterior, options.place);
+        std::vector<PointConstraint> single_points = interior_and_exterior(set, options.place.normal_offset_mm);
+        caps.append_to(single_points);
+        const PlacedConstraints placed = place_constraints(contours.points, result.slopes, single_points, options.place);
         SolveOptions solve_options = options.solve;
         if (round < rounds) solve_options.smoothing = std::max(start_smoothing, options.solve.smoothing);
         const Solution solution = solve(placed.constraints, solve_options, part_of(progress, round, rounds + 1));
@@ -57,9 +91,11 @@ Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOption
         result.merged = placed.merged;
         result.constraints = placed.constraints.size();
         ++result.solves;
-        if (round < rounds)
-            result.tilt_change_degrees = update_slopes(result.function, contours.points, options, result.slopes);
+        if (round == rounds) break;
+        result.tilt_change_degrees = update_slopes(result.function, contours.points, options, result.slopes);
+        caps.update(result.function, options.solve.threads);
     }
+    result.capped = caps.count();
     return result;
 }
 

@@ -31,6 +31,7 @@ struct Fit {
     int solves = 0;
     int iterations = 0;              ///< over all solves
     std::size_t merged = 0;          ///< near-duplicate constraints left out
+    std::size_t capped = 0;          ///< caps that became constraints
     std::size_t constraints = 0;     ///< kept
     double tilt_change_degrees = 0;  ///< mean change of the tilts in the last round
     std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
@@ -40,9 +41,12 @@ struct Fit {
 /// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
 /// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
 /// gradient at the contour's points and the prescribed values are corrected, f(c + d n_inplane) = -d cos(tilt); the fit
-/// is repeated. To first order that is the normal constraint of the true 3D normal, but only the contour's own direction
-/// is prescribed: the tilt itself stays free, so jagged contours cannot amplify it from round to round
-/// (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start contradicts itself.
+/// is repeated, three rounds by default. To first order that is the normal constraint of the true 3D normal, but only the
+/// contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot amplify it from round to
+/// round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start contradicts itself.
+///
+/// Where f exceeds a cap's limit after a round, the limit becomes a constraint of the later rounds; on coplanar contours all
+/// do from the start. `set` gives the interior and exterior points.
 Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress = {});
 
 }  // namespace kontur

@@ -35,27 +35,17 @@ void append(const Contour& drawn, std::int32_t index, const PrepareOptions& opti
 
 }  // namespace
 
-PreparedContours prepare(const ContourSet& set, const PrepareOptions& options, double copy_shift_mm) {
+PreparedContours prepare(const ContourSet& set, const PrepareOptions& options) {
     PreparedContours prepared;
     for (std::size_t c = 0; c < set.contours.size(); ++c)
         append(set.contours[c], static_cast<std::int32_t>(c), options, prepared);
-    if (!set.contours.empty() && is_coplanar(set)) {
+    prepared.coplanar = !set.contours.empty() && is_coplanar(set);
+    if (prepared.coplanar && options.copy_shift_mm > 0) {
         const Contour& first = set.contours.front();
-        append(shifted(first, copy_shift_mm * first.plane.normal), 0, options, prepared);
-        prepared.added_copies = 1;
+        append(shifted(first, options.copy_shift_mm * first.plane.normal), 0, options, prepared);
     }
+    if (options.caps) prepared.caps = find_caps(set);
     return prepared;
-}
-
-double half_point_spacing_mm(const ContourSet& set) {
-    std::vector<double> spacings;
-    for (const Contour& contour : set.contours)
-        for (std::size_t i = 0; i < contour.points.size(); ++i)
-            spacings.push_back(distance(contour.points[i], contour.points[(i + 1) % contour.points.size()]));
-    if (spacings.empty()) return 0;
-    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    return *middle / 2;
 }
 
 }  // namespace kontur

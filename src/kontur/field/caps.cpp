@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/caps.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace kontur {
+namespace {
+
+using Point2 = std::array<double, 2>;
+using Polygon2 = std::vector<Point2>;
+
+constexpr double kParallel = 0.995;  // cosine between normals: planes tilted by less than 6 degrees count as parallel
+
+/// The contours drawn in one plane, as the region that they enclose by the even-odd rule.
+struct Section {
+    Plane plane;
+    std::vector<Polygon2> outlines;
+
+    bool contains(const Point2& p) const {
+        bool inside = false;
+        for (const Polygon2& outline : outlines)
+            for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+                const Point2 &a = outline[before], &b = outline[i];
+                if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+                if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+            }
+        return inside;
+    }
+
+    /// Distance to the nearest outline.
+    double clearance(const Point2& p) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Polygon2& outline : outlines)
+            for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+                const Point2 &a = outline[before], &b = outline[i];
+                const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
+                const double length2 = ux * ux + uy * uy;
+                const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
+                nearest = std::min(nearest, std::hypot(px - t * ux, py - t * uy));
+            }
+        return nearest;
+    }
+};
+
+std::vector<Section> sections_of(const ContourSet& set, double tolerance) {
+    std::vector<Section> sections;
+    for (const Contour& contour : set.contours) {
+        auto found = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
+            return std::abs(dot(s.plane.normal, contour.plane.normal)) > 1 - 1e-9 &&
+                   std::abs(s.plane.distance_to(contour.plane.origin)) < tolerance;
+        });
+        if (found == sections.end()) found = sections.insert(found, {contour.plane, {}});
+        Polygon2& outline = found->outlines.emplace_back();
+        for (const Vec3& p : contour.points) outline.push_back(found->plane.to_uv(p));
+    }
+    return sections;
+}
+
+/// A point well inside of a section.
+struct Probe {
+    Point2 at;
+    double depth;  ///< distance to the nearest outline
+};
+
+/// A lattice of some hundred points over the section, those inside of it.
+std::vector<Probe> probes(const Section& section) {
+    Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+    for (const Polygon2& outline : section.outlines)
+        for (const Point2& p : outline)
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                low[axis] = std::min(low[axis], p[axis]);
+                high[axis] = std::max(high[axis], p[axis]);
+            }
+    const double width = high[0] - low[0], height = high[1] - low[1];
+    const double step = std::max(std::sqrt(width * height / 150), std::max(width, height) / 100);
+    std::vector<Probe> result;
+    for (double v = low[1] + step / 2; v < high[1]; v += step)
+        for (double u = low[0] + step / 2; u < high[0]; u += step)
+            if (const Point2 at{u, v}; section.contains(at))
+                if (const double depth = section.clearance(at); depth > step / 2) result.push_back({at, depth});
+    return result;
+}
+
+/// One side of a section's plane.
+class Side {
+public:
+    Side(const std::vector<Section>& sections, const Section& section, double sign, double tolerance)
+        : section_(section), sign_(sign), tolerance_(tolerance) {
+        for (const Section& other : sections)
+            if (&other != &section_) consider(other);
+    }
+
+    bool leads_on() const { return leads_on_; }
+
+    void append_caps(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
+        if (next_) return append_towards_next(inside, caps);
+        append_rounded_end(inside, caps);
+    }
+
+private:
+    void consider(const Section& other) {
+        const double ahead = sign_ * section_.plane.distance_to(other.plane.origin);
+        if (std::abs(dot(section_.plane.normal, other.plane.normal)) < kParallel) {
+            leads_on_ = leads_on_ || reaches_beyond(other);
+        } else if (ahead > tolerance_) {
+            if (!next_ || ahead < next_distance_) {
+                next_ = &other;
+                next_distance_ = ahead;
+            }
+        } else if (ahead < -tolerance_) {
+            previous_distance_ = std::min(previous_distance_.value_or(-ahead), -ahead);
+        }
+    }
+
+    bool reaches_beyond(const Section& other) const {
+        for (const Polygon2& outline : other.outlines)
+            for (const Point2& p : outline)
+                if (sign_ * section_.plane.distance_to(other.plane.from_uv(p[0], p[1])) > tolerance_) return true;
+        return false;
+    }
+
+    Vec3 above(const Point2& p, double height) const {
+        return section_.plane.from_uv(p[0], p[1]) + sign_ * height * section_.plane.normal;
+    }
+
+    void append_towards_next(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
+        for (const Probe& probe : inside) {
+            const Vec3 there = above(probe.at, next_distance_);
+            const Point2 at = next_->plane.to_uv(there);
+            if (next_->contains(at)) continue;
+            // Near the next outline the fit knows better; the depth here bounds how far the surface can have moved.
+            const double clear = std::min(next_->clearance(at), probe.depth);
+            if (clear > next_distance_ / 2) caps.push_back({there, -clear / 4});
+        }
+    }
+
+    void append_rounded_end(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
+        double deepest = 0;
+        for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
+        if (deepest == 0) return;
+        const double height = previous_distance_.value_or(deepest);
+        for (const Probe& probe : inside) {
+            const double rim = 1 - probe.depth / deepest;
+            caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0});
+        }
+        // The outline itself must not be carried on, neither straight nor flaring.
+        for (const Polygon2& outline : section_.outlines) {
+            const std::size_t stride = std::max<std::size_t>(1, outline.size() / 40);
+            for (std::size_t i = 0; i < outline.size(); i += stride)
+                caps.push_back({above(outline[i], height), -height / 4});
+        }
+    }
+
+    const Section& section_;
+    double sign_, tolerance_;
+    bool leads_on_ = false;
+    const Section* next_ = nullptr;
+    double next_distance_ = 0;
+    std::optional<double> previous_distance_;
+};
+
+}  // namespace
+
+std::vector<Cap> find_caps(const ContourSet& set) {
+    std::vector<Cap> caps;
+    const double tolerance = 1e-3 * bounding_box(set).diagonal();
+    const std::vector<Section> sections = sections_of(set, tolerance);
+    for (const Section& section : sections) {
+        const std::vector<Probe> inside = probes(section);
+        for (const double sign : {-1.0, 1.0})
+            if (const Side side(sections, section, sign, tolerance); !side.leads_on()) side.append_caps(inside, caps);
+    }
+    return caps;
+}
+
+}  // namespace kontur

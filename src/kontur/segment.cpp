@@ -61,7 +61,7 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
     return fit;
 }
 
-/// The paper's in-plane normals go with its shifted copy for coplanar contours; surface normals go with caps.
+/// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
 PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
     const bool as_printed = options.normals == Normals::in_plane;
     return {

@@ -25,8 +25,7 @@ Contour shifted(Contour contour, const Vec3& by) {
 }
 
 void append(const Contour& drawn, std::int32_t index, const PrepareOptions& options, PreparedContours& prepared) {
-    Contour contour = reduce(drawn, {options.quality});
-    if (options.refine) contour = refine(contour);
+    const Contour contour = refine(reduce(drawn, {options.quality}), options.least_segments);
     const ContourOrientation orientation = orient(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
         prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});

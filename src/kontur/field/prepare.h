@@ -9,9 +9,9 @@
 namespace kontur {
 
 struct PrepareOptions {
-    double quality = 1.0;      ///< fraction of each contour's points to keep (reduce), in (0, 1]
-    bool refine = true;        ///< subdivide segments longer than twice their contour's average
-    bool caps = true;          ///< limit the extrapolation beyond the last contours (find_caps)
+    double quality = 1.0;     ///< fraction of each contour's points to keep (reduce), in (0, 1]
+    int least_segments = 48;  ///< contours of fewer segments are subdivided to about this many (refine); 0: the paper's rule
+    bool caps = true;         ///< limit the extrapolation beyond the last contours (find_caps)
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
 };
 

@@ -87,17 +87,18 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
     return reduced;
 }
 
-Contour refine(const Contour& contour) {
+Contour refine(const Contour& contour, int least_segments) {
     const std::size_t n = contour.points.size();
     double total = 0;
     for (std::size_t i = 0; i < n; ++i) total += distance(contour.points[i], contour.points[(i + 1) % n]);
     const double average = total / static_cast<double>(n);
+    const double wanted = least_segments > 0 ? std::min(average, total / least_segments) : average;
 
     Contour refined{contour.plane, {}, contour.closed, contour.hole};
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
         const double length = distance(from, to);
-        const auto pieces = length > 2 * average ? static_cast<int>(std::round(length / average)) : 1;
+        const auto pieces = length > 2 * wanted ? static_cast<int>(std::round(length / wanted)) : 1;
         for (int piece = 0; piece < pieces; ++piece) refined.points.push_back(from + (to - from) * (double(piece) / pieces));
     }
     return refined;

@@ -17,7 +17,8 @@ struct ReduceOptions {
 Contour reduce(const Contour& contour, const ReduceOptions& options = {});
 
 /// Subdivides long segments (paper section 5.2): a segment longer than twice the contour's average segment length gets
-/// equally spaced points at about the average length. Drawn points stay as they are.
-Contour refine(const Contour& contour);
+/// equally spaced points at about the average length. Where the average is longer than 1 / `least_segments` of the
+/// perimeter, that length takes its place, so that a square drawn by its four corners stays a square. Drawn points stay.
+Contour refine(const Contour& contour, int least_segments = 0);
 
 }  // namespace kontur

@@ -2,11 +2,14 @@
 """What cannot be used is refused in one sentence, with a documented exit code, and leaves nothing behind."""
 import gzip
 import os
+import pathlib
 import re
 import resource
+import shutil
 import signal
 import struct
 import subprocess
+import tempfile
 
 import numpy
 import pytest
@@ -255,14 +258,27 @@ def test_a_full_disk(folder, full_disk):
     assert names(full_disk) == []
 
 
-def test_a_folder_without_permission(folder):
+def as_nobody():
+    """Root may write everywhere."""
     if os.geteuid() == 0:
-        pytest.skip("root may write everywhere")
-    closed = folder / "closed"
-    closed.mkdir(mode=0o555)
-    code, sentence = segment(folder, output="closed/out.nii.gz")
-    assert code == 74
-    assert "Permission denied" in sentence
+        os.setgroups([])
+        os.setgid(65534)
+        os.setuid(65534)
+
+
+def test_a_folder_without_permission(folder):
+    if subprocess.run(["test", "-x", KONTUR], preexec_fn=as_nobody).returncode != 0:
+        pytest.skip("the user nobody cannot reach the program")
+    with tempfile.TemporaryDirectory() as name:  # pytest's own folder is closed to others
+        open_folder = pathlib.Path(name)
+        open_folder.chmod(0o755)
+        (open_folder / "closed").mkdir(mode=0o555)
+        for file in ("ball.json", IMAGE):
+            shutil.copy(folder / file, open_folder)
+        words = ["segment", "ball.json", "--image", IMAGE, "--output", "closed/out.nii.gz"]
+        result = kontur(*words, cwd=open_folder, preexec_fn=as_nobody)
+        assert result.returncode == 74
+        assert result.stderr == "kontur: error: cannot write closed/out.nii.gz: Permission denied\n"
 
 
 def test_a_standard_output_that_is_full(folder):

@@ -4,8 +4,9 @@ import json
 
 import nibabel
 import numpy
+import pydicom
 import pytest
-from support import ball_array, ball_planes, kontur, lps_affine, names, succeed, write_nifti, write_planes
+from support import ball_array, ball_planes, kontur, lps_affine, names, real_data, succeed, write_nifti, write_planes
 
 
 def sheared_affine():
@@ -66,6 +67,26 @@ def test_a_mesh_keeps_its_volume_in_every_format(tmp_path, through):
     assert (facts["kind"], facts["points"], facts["triangles"]) == ("mesh", 4, 4)
     assert (facts["closed"], facts["oriented"], facts["euler"]) == (True, True, 2)
     assert facts["volume_ml"] == pytest.approx(1 / 6, rel=1e-6)
+
+
+def test_a_dicom_series_keeps_values_and_place(tmp_path):
+    folder = real_data("03_sarcoma_STS_002/CT/image")
+    assert kontur("convert", folder, tmp_path / "ct.nii.gz").returncode == 0
+    slices = [pydicom.dcmread(file) for file in folder.glob("*.dcm")]
+    slices.sort(key=lambda s: float(s.ImagePositionPatient[2]))
+    hu = numpy.stack([s.pixel_array * float(s.RescaleSlope) + float(s.RescaleIntercept) for s in slices])
+    image = nibabel.load(tmp_path / "ct.nii.gz")
+    assert numpy.array_equal(numpy.asarray(image.dataobj), hu.transpose(2, 1, 0))
+    x, y, z = map(float, slices[0].ImagePositionPatient)
+    assert numpy.allclose(image.affine[:3, 3], [-x, -y, z], atol=1e-3)
+
+
+def test_a_structure_set_becomes_contours(tmp_path):
+    path = real_data("03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm")
+    assert kontur("convert", path, tmp_path / "out.json").returncode == 0
+    found = json.loads((tmp_path / "out.json").read_text())
+    assert found["structure"] == "GTV_Mass_CT"
+    assert sum(len(p["contours"]) for p in found["planes"]) == 16
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,12 @@
 import json
 import math
 import os
+import pathlib
 import subprocess
 
 import nibabel
 import numpy
+import pytest
 
 KONTUR = os.environ["KONTUR_CLI"]
 CENTER = (12.0, -7.0, 5.0)
@@ -78,6 +80,15 @@ def write_nifti(path, array, affine=None):
 
 def read_nifti(path):
     return numpy.asarray(nibabel.load(path).dataobj)
+
+
+def real_data(name):
+    """A file or folder of the real data sets; without it the test is skipped."""
+    folder = os.environ.get("KONTUR_TEST_DATA") or os.environ.get("KONTUR_TEST_DATA_DEFAULT", "")
+    path = pathlib.Path(folder) / name
+    if not path.exists():
+        pytest.skip(f"real data not found: {path} (set KONTUR_TEST_DATA)")
+    return path
 
 
 def dice(a, b):

@@ -28,8 +28,9 @@ const char* words(FileKind kind) {
 /// The command that does what was asked of convert.
 const char* advice(FileKind from, FileKind to) {
     if (from == FileKind::contours) return "kontur segment makes masks and meshes from contours";
-    if (from == FileKind::image && to == FileKind::contours) return "kontur trace cuts a mask into contours";
-    return "kontur makes meshes from contours only";
+    if (from == FileKind::mesh) return "kontur only changes the format of meshes";
+    if (to == FileKind::contours) return "kontur trace cuts a mask into contours";
+    return "kontur trace cuts a mask into contours, of which kontur segment makes a mesh";
 }
 
 void check_kinds(const ConvertCommand& command, FileKind from, FileKind to) {

@@ -95,11 +95,14 @@ def test_a_structure_set_becomes_contours(tmp_path):
         ("contours.json", "mask.nii.gz", "kontur segment"),
         ("contours.json", "mesh.stl", "kontur segment"),
         ("mask.nii.gz", "contours.json", "kontur trace"),
+        ("mask.nii.gz", "mesh.stl", "kontur trace cuts a mask into contours, of which kontur segment makes a mesh"),
+        ("mesh.obj", "mask.nii.gz", "format of meshes"),
     ],
 )
 def test_what_is_no_conversion_names_the_command_that_does_it(tmp_path, source, target, advice):
     write_planes(tmp_path / "contours.json", ball_planes())
     write_nifti(tmp_path / "mask.nii.gz", ball_array())
+    (tmp_path / "mesh.obj").write_text(TETRAHEDRON)
     before = names(tmp_path)
     result = kontur("convert", tmp_path / source, tmp_path / target)
     assert result.returncode == 69

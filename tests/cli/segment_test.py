@@ -11,7 +11,7 @@ import time
 import nibabel
 import numpy
 import pytest
-from support import KONTUR, ball_array, ball_planes, dice, kontur, lps_affine, names, read_nifti, real_data, write_nifti, write_planes
+from support import KONTUR, ball_array, ball_planes, circle, dice, kontur, lps_affine, names, read_nifti, real_data, write_nifti, write_planes
 
 
 @pytest.fixture
@@ -126,11 +126,12 @@ def test_the_same_input_gives_the_same_bytes(folder):
 
 
 def test_kernel_quality_smoothing_and_label_value_arrive(folder):
+    write_planes(folder / "ball.json", [circle(axis, 0, points=200) for axis in "xyz"])
     segment(folder, *FROM_IMAGE, "--kernel", "biharmonic", "--quality", 0.5, "--smoothing", 0.001, "--label-value", 300,
             "--report", "out.json")
     report = json.loads((folder / "out.json").read_text())
     assert (report["kernel"], report["quality"], report["smoothing"]) == ("biharmonic", 0.5, 0.001)
-    assert report["centres"] < 400
+    assert 500 < report["centres"] <= 600  # a boundary and a normal constraint at every second of the 600 points
     assert set(numpy.unique(read_nifti(folder / "out.nii.gz"))) == {0, 300}
 
 
@@ -140,6 +141,18 @@ def test_contours_partly_outside_the_image_are_a_warning(folder):
     assert result.returncode == 0
     [warning] = [w for w in json.loads((folder / "out.json").read_text())["warnings"] if "360 contour points" in w]
     assert f"kontur: warning: {warning}\n" in result.stderr
+
+
+def test_repeated_points_are_left_out_with_a_warning(folder):
+    planes = ball_planes()
+    points = planes[0]["contours"][0]["points"]
+    points[3:3] = [points[3]] * 2
+    write_planes(folder / "repeated.json", planes)
+    result = kontur("segment", "repeated.json", "--image", "image.nii.gz", "--output", "repeated.nii.gz", cwd=folder)
+    assert result.returncode == 0
+    assert "kontur: warning: 2 repeated points were left out\n" in result.stderr
+    segment(folder, *FROM_IMAGE)
+    assert numpy.array_equal(read_nifti(folder / "repeated.nii.gz"), read_nifti(folder / "out.nii.gz"))
 
 
 def test_quiet_prints_nothing_but_warnings(folder):

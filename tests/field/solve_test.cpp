@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "kontur/field/prepare.h"
+#include "support/contour_sets.h"
+#include "support/expect_error.h"
+#include "support/random.h"
+
+namespace kontur {
+namespace {
+
+constexpr Solver kSolvers[] = {Solver::dense, Solver::cholesky, Solver::iterative};
+constexpr Kernel kKernels[] = {Kernel::triharmonic, Kernel::biharmonic};
+
+std::vector<Vec3> random_points(std::size_t count, std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate(-30, 30);
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back({coordinate(random), coordinate(random), coordinate(random)});
+    return points;
+}
+
+ConstraintSet random_constraints(std::size_t count, std::mt19937& random) {
+    ConstraintSet set;
+    set.centers = random_points(count, random);
+    for (const Vec3& p : set.centers) set.values.push_back(25 - norm(p) + std::sin(p.x));
+    set.kinds.assign(count, ConstraintKind::boundary);
+    return set;
+}
+
+/// What the pipeline solves: circles of a ball in planes of three directions, which cross and contradict each other.
+ConstraintSet crossing_contours(int points_per_circle) {
+    ContourSet set;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double at : {-12.0, -3.0, 8.0}) {
+            Vec3 normal{}, origin{};
+            normal[axis] = 1;
+            origin[axis] = at;
+            set.contours.push_back(test::circle(make_plane(origin, normal), std::sqrt(400 - at * at), points_per_circle));
+        }
+    const PreparedContours prepared = prepare(set, {}, 1);
+    return place_constraints(prepared.points, std::vector<double>(prepared.points.size(), 1.0), {}, {},
+                             {.normal_offset_mm = 0.3, .merge_distance_mm = 0.05})
+        .constraints;
+}
+
+double largest_error(const ImplicitFunction& function, const ConstraintSet& set) {
+    double largest = 0;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        largest = std::max(largest, std::abs(function.value(set.centers[i]) - set.values[i]));
+    return largest;
+}
+
+double largest_weight(const ImplicitFunction& function) {
+    double largest = 0;
+    for (const double w : function.weights()) largest = std::max(largest, std::abs(w));
+    return largest;
+}
+
+TEST(Solve, EverySolverInterpolatesWithBothKernels) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const ConstraintSet& set : {random_constraints(4, random), random_constraints(5, random),
+                                     random_constraints(300, random), crossing_contours(60)})
+        for (const Kernel kernel : kKernels)
+            for (const Solver solver : kSolvers) {
+                const Solution solution = solve(set, {.kernel = kernel, .solver = solver});
+                const double limit = solver == Solver::iterative ? 1.1e-3 : 1e-6,
+                             error = largest_error(solution.function, set);
+                EXPECT_LT(error, limit) << name(solver) << " " << name(kernel) << " " << set.size();
+                EXPECT_NEAR(solution.report.residual, error, 1e-6);
+                EXPECT_EQ(solution.report.solver, solver);
+                EXPECT_EQ(solution.report.centres, set.size());
+            }
+}
+
+TEST(Solve, WeightsMeetTheSideConditions) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const ConstraintSet& set : {random_constraints(300, random), crossing_contours(60)})
+        for (const Solver solver : kSolvers) {
+            const ImplicitFunction function = solve(set, {.solver = solver}).function;
+            double sum = 0;
+            Vec3 moment;
+            for (std::size_t i = 0; i < set.size(); ++i) {
+                sum += function.weights()[i];
+                moment += function.weights()[i] * function.centers()[i];
+            }
+            EXPECT_LT(std::abs(sum), 1e-8 * largest_weight(function)) << name(solver);
+            EXPECT_LT(norm(moment), 1e-8 * largest_weight(function)) << name(solver);
+        }
+}
+
+TEST(Solve, SolversAgreeWithAndWithoutSmoothing) {
+    std::mt19937 random = test::random_of_this_test();
+    const std::vector<Vec3> probes = random_points(200, random);
+    for (const ConstraintSet& set : {random_constraints(300, random), crossing_contours(60)})
+        for (const Kernel kernel : kKernels)
+            for (const double smoothing : {0.0, 1e-3}) {
+                const auto run = [&](Solver solver) {
+                    return solve(set, {.kernel = kernel, .solver = solver, .smoothing = smoothing, .tolerance_mm = 1e-6})
+                        .function;
+                };
+                const ImplicitFunction dense = run(Solver::dense), cholesky = run(Solver::cholesky),
+                                       iterative = run(Solver::iterative);
+                const double scale = largest_weight(dense);
+                for (std::size_t i = 0; i < set.size(); ++i)
+                    ASSERT_NEAR(cholesky.weights()[i], dense.weights()[i], 1e-7 * scale);
+                for (const Vec3& p : probes) {
+                    ASSERT_NEAR(cholesky.value(p), dense.value(p), 1e-6) << name(kernel) << " " << smoothing;
+                    ASSERT_NEAR(iterative.value(p), dense.value(p), 1e-3) << name(kernel) << " " << smoothing;
+                }
+            }
+}
+
+TEST(Solve, SmoothingTradesTheResidualForSmallerWeights) {
+    const ConstraintSet set = crossing_contours(40);
+    for (const Kernel kernel : kKernels)
+        for (const Solver solver : kSolvers) {
+            const ImplicitFunction exact = solve(set, {.kernel = kernel, .solver = solver}).function;
+            const ImplicitFunction smooth = solve(set, {.kernel = kernel, .solver = solver, .smoothing = 1e-3}).function;
+            for (std::size_t i = 0; i < set.size(); ++i)
+                ASSERT_NEAR(smooth.value(set.centers[i]) + kernel_sign(kernel) * 1e-3 * smooth.weights()[i], set.values[i],
+                            1.1e-3);
+            EXPECT_LT(largest_weight(smooth), largest_weight(exact)) << name(solver) << " " << name(kernel);
+        }
+}
+
+TEST(Solve, ReproducesLinearPolynomials) {
+    std::mt19937 random = test::random_of_this_test();
+    ConstraintSet set = random_constraints(200, random);
+    const auto linear = [](const Vec3& p) { return 3 - 0.5 * p.x + 2 * p.y + p.z; };
+    for (std::size_t i = 0; i < set.size(); ++i) set.values[i] = linear(set.centers[i]);
+    for (const Kernel kernel : kKernels)
+        for (const Solver solver : kSolvers) {
+            const ImplicitFunction function = solve(set, {.kernel = kernel, .solver = solver}).function;
+            for (const Vec3& p : random_points(50, random)) EXPECT_NEAR(function.value(2 * p), linear(2 * p), 1e-6);
+            EXPECT_LT(distance(function.gradient({1, 2, 3}), {-0.5, 2, 1}), 1e-7) << name(solver);
+        }
+}
+
+TEST(Solve, OffsetAndScaleOfThePatientFrameDoNotMatter) {
+    std::mt19937 random = test::random_of_this_test();
+    const ConstraintSet set = crossing_contours(40);
+    const std::vector<Vec3> probes = random_points(100, random);
+    for (const Solver solver : kSolvers) {
+        const ImplicitFunction here = solve(set, {.solver = solver, .tolerance_mm = 1e-6}).function;
+        for (const double scale : {1e-3, 1.0, 1e3}) {
+            const Vec3 offset = scale * Vec3{1000, -700, 300};
+            ConstraintSet there = set;
+            for (Vec3& c : there.centers) c = scale * c + offset;
+            const ImplicitFunction function = solve(there, {.solver = solver, .tolerance_mm = 1e-6}).function;
+            for (const Vec3& p : probes)
+                ASSERT_NEAR(function.value(scale * p + offset), here.value(p), 1e-3) << name(solver) << " " << scale;
+        }
+    }
+}
+
+TEST(Solve, SameBytesForAnyNumberOfThreads) {
+    const ConstraintSet set = crossing_contours(70);  // several tiles and supernodes
+    ASSERT_GT(set.size(), 1000u);
+    for (const Solver solver : kSolvers) {
+        const ImplicitFunction one = solve(set, {.solver = solver, .threads = 1}).function;
+        for (const int threads : {2, 3, 8}) {
+            const ImplicitFunction many = solve(set, {.solver = solver, .threads = threads}).function;
+            EXPECT_TRUE(std::ranges::equal(many.weights(), one.weights())) << name(solver) << " " << threads;
+            EXPECT_EQ(many.polynomial(), one.polynomial()) << name(solver) << " " << threads;
+        }
+    }
+}
+
+TEST(Solve, RefusesCentresInOnePlane) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const Plane& plane : {Plane{}, make_plane({100, 200, 300}, {0.3, -0.5, 0.8})}) {
+        ConstraintSet set = random_constraints(100, random);
+        for (Vec3& c : set.centers) c = plane.from_uv(c.x, c.y);
+        for (const Solver solver : kSolvers)
+            EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}), ErrorKind::singular_system, "one plane");
+    }
+}
+
+TEST(Solve, RefusesCentresAtTheSamePoint) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const double more : {0.0, 1.0}) {
+        ConstraintSet set = random_constraints(100, random);
+        set.centers[70] = set.centers[3];
+        set.values[70] = set.values[3] + more;
+        for (const Solver solver : kSolvers)
+            EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}), ErrorKind::singular_system, "constraints 4 and 71");
+    }
+}
+
+TEST(Solve, RefusesADenseMatrixBeyondTheMemoryLimit) {
+    ConstraintSet set;
+    for (int i = 0; i < 1000000; ++i)
+        set.centers.push_back({static_cast<double>(i), static_cast<double>(i % 100), static_cast<double>(i % 1000)});
+    set.values.assign(set.centers.size(), 0);
+    EXPECT_KONTUR_ERROR(solve(set, {.solver = Solver::dense}), ErrorKind::too_large, "needs 7629394 MB for 1000000 centres");
+    EXPECT_KONTUR_ERROR(solve(set, {.solver = Solver::cholesky}), ErrorKind::too_large, "the limit is 16384 MB");
+}
+
+TEST(Solve, RefusesUnusableInput) {
+    std::mt19937 random = test::random_of_this_test();
+    const ConstraintSet good = random_constraints(10, random);
+    EXPECT_KONTUR_ERROR(solve({}), ErrorKind::invalid_input, "0 constraints");
+    EXPECT_KONTUR_ERROR(solve(random_constraints(3, random)), ErrorKind::invalid_input, "3 constraints");
+    EXPECT_KONTUR_ERROR(solve(good, {.smoothing = -1}), ErrorKind::invalid_input, "smoothing");
+    EXPECT_KONTUR_ERROR(solve(good, {.smoothing = std::nan("")}), ErrorKind::invalid_input, "smoothing");
+    EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = 0}), ErrorKind::invalid_input, "tolerance");
+    EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = std::nan("")}), ErrorKind::invalid_input, "tolerance");
+    ConstraintSet bad = good;
+    bad.centers[6].y = std::nan("");
+    EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "constraint 7 is not finite");
+    bad = good;
+    bad.values[2] = std::numeric_limits<double>::infinity();
+    EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "constraint 3 is not finite");
+}
+
+TEST(Solve, StopsWhenAskedTo) {
+    const ConstraintSet set = crossing_contours(60);
+    for (const Solver solver : kSolvers) {
+        std::stop_source source;
+        source.request_stop();
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {{}, source.get_token()}), ErrorKind::cancelled, "cancelled");
+    }
+    for (const Solver solver : {Solver::cholesky, Solver::iterative}) {  // half-way; dsysv cannot be interrupted
+        std::stop_source source;
+        int reports = 0;
+        const auto stop_at_the_third = [&](std::string_view, double) {
+            if (++reports == 3) source.request_stop();
+        };
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {stop_at_the_third, source.get_token()}), ErrorKind::cancelled,
+                            "cancelled");
+        EXPECT_EQ(reports, 3) << name(solver);
+    }
+}
+
+}  // namespace
+}  // namespace kontur

@@ -63,9 +63,13 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
 
 /// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
 PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
-    const bool as_printed = options.normals == Normals::in_plane;
-    return {
-        .quality = options.quality, .caps = !as_printed, .copy_shift_mm = as_printed ? fitting.place.normal_offset_mm : 0.0};
+    PrepareOptions prepare{.quality = options.quality};
+    if (options.normals == Normals::in_plane) {
+        prepare.least_segments = 0;
+        prepare.caps = false;
+        prepare.copy_shift_mm = fitting.place.normal_offset_mm;
+    }
+    return prepare;
 }
 
 /// Where the surface is known to pass: every drawn point, and where contours cross themselves.

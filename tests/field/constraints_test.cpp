@@ -23,14 +23,15 @@ std::vector<BoundaryPoint> random_boundary(std::size_t count, double extent, std
 TEST(PlaceConstraints, ValuesAreThoseOfADistance) {
     const std::vector<BoundaryPoint> points{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0}, {{0, 5, 0}, {0, 1, 0}, {0, 0, 1}, 0}};
     const std::vector<double> slopes{1, 0.5};
-    const std::vector<Vec3> inside{{-3, 0, 0}}, outside{{9, 0, 0}};
-    const PlacedConstraints placed = place_constraints(points, slopes, inside, outside, {.normal_offset_mm = 2});
     using enum ConstraintKind;
+    const std::vector<PointConstraint> single_points{
+        {{-3, 0, 0}, 2, interior}, {{9, 0, 0}, -2, exterior}, {{0, 0, 8}, 0, cap}};
+    const PlacedConstraints placed = place_constraints(points, slopes, single_points, {.normal_offset_mm = 2});
     EXPECT_EQ(placed.constraints.centers,
-              (std::vector<Vec3>{{0, 0, 0}, {0, 5, 0}, {2, 0, 0}, {0, 7, 0}, {-3, 0, 0}, {9, 0, 0}}));
-    EXPECT_EQ(placed.constraints.values, (std::vector<double>{0, 0, -2, -1, 2, -2}));
+              (std::vector<Vec3>{{0, 0, 0}, {0, 5, 0}, {2, 0, 0}, {0, 7, 0}, {-3, 0, 0}, {9, 0, 0}, {0, 0, 8}}));
+    EXPECT_EQ(placed.constraints.values, (std::vector<double>{0, 0, -2, -1, 2, -2, 0}));
     EXPECT_EQ(placed.constraints.kinds,
-              (std::vector<ConstraintKind>{boundary, boundary, normal, normal, interior, exterior}));
+              (std::vector<ConstraintKind>{boundary, boundary, normal, normal, interior, exterior, cap}));
     EXPECT_EQ(placed.merged, 0u);
 }
 
@@ -40,7 +41,7 @@ TEST(PlaceConstraints, KeepsTheMergeDistanceAndDropsNothingElse) {
         const std::vector<BoundaryPoint> points = random_boundary(150, 4, random);
         const std::vector<double> slopes(points.size(), 1.0);
         const PlacedConstraints placed =
-            place_constraints(points, slopes, {}, {}, {.normal_offset_mm = 1, .merge_distance_mm = merge});
+            place_constraints(points, slopes, {}, {.normal_offset_mm = 1, .merge_distance_mm = merge});
 
         // One after the other, each compared with all that were kept; offset points only of boundary points that were.
         std::vector<Vec3> kept;
@@ -66,7 +67,7 @@ TEST(PlaceConstraints, KeepsTheMergeDistanceAndDropsNothingElse) {
 TEST(PlaceConstraints, ExactCopiesGoEvenWithoutAMergeDistance) {
     const BoundaryPoint point{{1, 2, 3}, {1, 0, 0}, {0, 0, 1}, 0};
     const std::vector<BoundaryPoint> points{point, point, {{1, 2, 3.0000001}, {1, 0, 0}, {0, 0, 1}, 0}};
-    const PlacedConstraints placed = place_constraints(points, std::vector<double>(3, 1.0), {}, {}, {.normal_offset_mm = 1});
+    const PlacedConstraints placed = place_constraints(points, std::vector<double>(3, 1.0), {}, {.normal_offset_mm = 1});
     EXPECT_EQ(placed.constraints.size(), 4u);
     EXPECT_EQ(placed.merged, 1u);
 }

@@ -10,9 +10,9 @@ namespace {
 
 TEST(Prepare, EveryPointCarriesItsContoursNormalsAndNumber) {
     const ContourSet set = test::three_circles();
-    const PreparedContours prepared = prepare(set, {}, 1);
+    const PreparedContours prepared = prepare(set, {.least_segments = 0});
     ASSERT_EQ(prepared.points.size(), 60u);
-    EXPECT_EQ(prepared.added_copies, 0u);
+    EXPECT_FALSE(prepared.coplanar);
     for (std::size_t i = 0; i < 60; ++i) {
         const Contour& contour = set.contours[i / 20];
         EXPECT_EQ(prepared.points[i].contour, static_cast<int>(i / 20));
@@ -22,26 +22,32 @@ TEST(Prepare, EveryPointCarriesItsContoursNormalsAndNumber) {
     }
 }
 
-TEST(Prepare, CoplanarContoursGetAShiftedCopyOfTheFirst) {
+TEST(Prepare, CoplanarContoursGetAShiftedCopyOfTheFirstOnDemand) {
     const Plane plane = test::three_circles().contours[0].plane;
     ContourSet set;
     set.contours = {test::circle(plane, 10, 20), test::circle(plane, 4, 12)};
     set.contours[1].plane.normal = -plane.normal;  // the same plane, seen from its other side
-    const PreparedContours prepared = prepare(set, {}, 0.5);
+    EXPECT_TRUE(prepare(set).coplanar);
+    EXPECT_EQ(prepare(set, {.least_segments = 0}).points.size(), 32u);
+    const PreparedContours prepared = prepare(set, {.least_segments = 0, .copy_shift_mm = 0.5});
     ASSERT_EQ(prepared.points.size(), 20u + 12u + 20u);
-    EXPECT_EQ(prepared.added_copies, 1u);
     for (std::size_t i = 0; i < 20; ++i)
         EXPECT_LT(distance(prepared.points[32 + i].position, set.contours[0].points[i] + 0.5 * plane.normal), 1e-12);
+    EXPECT_EQ(prepare(test::three_circles(), {.least_segments = 0, .copy_shift_mm = 0.5}).points.size(), 60u);
 }
 
 TEST(Prepare, ReducesAndRefinesBeforeItOrients) {
-    EXPECT_EQ(prepare(test::three_circles(), {.quality = 0.5}, 1).points.size(), 30u);
+    EXPECT_EQ(prepare(test::three_circles(), {.quality = 0.5, .least_segments = 0}).points.size(), 30u);
 
     ContourSet set = test::three_circles();
     for (Contour& contour : set.contours) contour.points.resize(12);  // the other 8 of 20 leave a gap
-    const PreparedContours prepared = prepare(set, {}, 1), unrefined = prepare(set, {.refine = false}, 1);
-    EXPECT_EQ(unrefined.points.size(), 36u);
-    EXPECT_GT(prepared.points.size(), 36u + 6u);
+    EXPECT_GT(prepare(set, {.least_segments = 0}).points.size(), 36u + 6u);
+    EXPECT_GE(prepare(set).points.size(), 3u * 40u);
+}
+
+TEST(Prepare, FindsCapsUnlessToldNotTo) {
+    EXPECT_FALSE(prepare(test::three_circles()).caps.empty());
+    EXPECT_TRUE(prepare(test::three_circles(), {.caps = false}).caps.empty());
 }
 
 }  // namespace

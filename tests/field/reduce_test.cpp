@@ -130,10 +130,16 @@ TEST(Refine, DividesALongSideIntoEqualPieces) {
     for (std::size_t i = 0; i < 5; ++i) EXPECT_LT(distance(refined.points[i], {1.8 * static_cast<double>(i), 0, 0}), 1e-12);
 }
 
-TEST(Refine, SquareOfFourCornersStaysAsItIs) {
-    // All its sides are average: the rule of section 5.2 leaves it to the caller to draw more points.
+TEST(Refine, SquareOfFourCornersIsSubdividedOnlyWhereThatIsAskedFor) {
     const Contour square = test::contour_in(kTilted, std::vector<Point2>{{0, 0}, {10, 0}, {10, 10}, {0, 10}});
-    EXPECT_EQ(refine(square).points, square.points);
+    EXPECT_EQ(refine(square).points, square.points) << "all its sides are average";
+    const Contour refined = refine(square, 48);
+    ASSERT_EQ(refined.points.size(), 48u);
+    EXPECT_TRUE(is_subsequence(square.points, refined.points));
+    for (std::size_t i = 0; i < 48; ++i)
+        EXPECT_NEAR(distance(refined.points[i], refined.points[(i + 1) % 48]), 10.0 / 12, 1e-12);
+    const Contour circle = test::circle(kTilted, 10, 60);
+    EXPECT_EQ(refine(circle, 48).points, circle.points) << "it has more segments already";
 }
 
 }  // namespace

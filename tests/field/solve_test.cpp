@@ -41,8 +41,8 @@ ConstraintSet crossing_contours(int points_per_circle) {
             origin[axis] = at;
             set.contours.push_back(test::circle(make_plane(origin, normal), std::sqrt(400 - at * at), points_per_circle));
         }
-    const PreparedContours prepared = prepare(set, {}, 1);
-    return place_constraints(prepared.points, std::vector<double>(prepared.points.size(), 1.0), {}, {},
+    const PreparedContours prepared = prepare(set);
+    return place_constraints(prepared.points, std::vector<double>(prepared.points.size(), 1.0), {},
                              {.normal_offset_mm = 0.3, .merge_distance_mm = 0.05})
         .constraints;
 }

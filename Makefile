@@ -36,8 +36,9 @@ tsan: setup ## run every test under ThreadSanitizer
 	@cmake --build --preset tsan -j $(JOBS)
 	@ctest --preset tsan -j $(JOBS)
 
-bench: build ## run the benchmarks
-	@tools/bench build/release
+bench: build ## time the paper's cases and show the tables (some minutes)
+	@build/release/bin/kontur_bench --json build/bench.json
+	@bench/tables.py build/bench.json
 
 format: ## format the C++ sources (needs clang-format)
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

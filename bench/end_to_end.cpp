@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "experiments.h"
+#include "kontur/measure/compare.h"
+#include "kontur/phantom/phantom.h"
+#include "machine.h"
+#include "published.h"
+#include "runs.h"
+
+namespace kontur::bench {
+namespace {
+
+struct Pipeline {
+    const char* name;
+    std::function<Segmentation()> run;
+};
+
+std::vector<Pipeline> pipelines(const PhantomCase& phantom) {
+    return {{"default", [&] { return segment(phantom.contours, phantom.grid); }},
+            {"default, cholesky",
+             [&] {
+                 SegmentOptions options;
+                 options.solver = Solver::cholesky;
+                 return segment(phantom.contours, phantom.grid, options);
+             }},
+            {"paper, cholesky", [&] { return segment_as_published(phantom, Solver::cholesky); }},
+            {"paper, dense", [&] { return segment_as_published(phantom, Solver::dense); }}};
+}
+
+Json stages(const SegmentReport& report) {
+    Json object = Json::object();
+    for (const auto& [stage, seconds] : report.seconds) object[stage] = seconds;
+    return object;
+}
+
+}  // namespace
+
+Json end_to_end(const PhantomCase& phantom, int repeat) {
+    const Mask truth = make_truth_mask(*phantom.body, phantom.grid);
+    Json rows = Json::array();
+    for (const Pipeline& pipeline : pipelines(phantom)) {
+        const PeakMemory memory;
+        const TimedSegmentation timed = segment_repeatedly(repeat, pipeline.run);
+        const double peak_mb = memory.added_mb();
+        const SegmentReport& report = timed.segmentation.report;
+        rows.push_back({{"case", phantom.name},
+                        {"pipeline", pipeline.name},
+                        {"centres", report.centres},
+                        {"solves", report.solves},
+                        {"iterations", report.iterations},
+                        {"stages_s", stages(report)},
+                        {"total_s", timed.seconds},
+                        {"runs", timed.runs},
+                        {"peak_mb", peak_mb},
+                        {"residual_max_mm", report.residual.max_mm},
+                        {"dice_truth", compare(timed.segmentation.mask, truth).dice}});
+    }
+    return rows;
+}
+
+}  // namespace kontur::bench

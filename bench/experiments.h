@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "kontur/phantom/cases.h"
+
+/// The measurements of Heckel, Konrad & Peitgen 2010 on a case of the phantom. Each returns a list with one object per row
+/// of its table; times are medians of up to `repeat` runs.
+namespace kontur::bench {
+
+using Json = nlohmann::ordered_json;
+
+/// Table 1: the time to solve the paper's linear system, by solver and number of threads.
+Json solving(const PhantomCase& phantom, int repeat);
+
+/// Table 2: the time to voxelize the implicit functions of the paper's and of kontur's normals.
+Json voxelizing(const PhantomCase& phantom, int repeat);
+
+/// Table 3: what reducing the contours' points to a fraction q saves and costs, overlap against q = 1 of the same
+/// configuration and against the truth.
+Json reduction(const PhantomCase& phantom, int repeat);
+
+/// From contours to mask by stage, and peak memory, for kontur's pipeline and the paper's.
+Json end_to_end(const PhantomCase& phantom, int repeat);
+
+}  // namespace kontur::bench

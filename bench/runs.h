@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "kontur/segment.h"
+
+namespace kontur::bench {
+
+struct Timing {
+    double seconds = 0;  ///< median wall time
+    int runs = 0;
+};
+
+/// Calls `work` up to `repeat` times, but not again once 20 s are spent on it.
+Timing measure(int repeat, const std::function<void()>& work);
+
+struct TimedSegmentation {
+    Segmentation segmentation;  ///< its report has the stages' times of the run whose total is the median
+    double seconds = 0;         ///< that total
+    int runs = 0;
+};
+
+/// Segments as often as `measure` would.
+TimedSegmentation segment_repeatedly(int repeat, const std::function<Segmentation()>& segment_once);
+
+/// 1 and the machine's number of threads.
+std::vector<int> thread_counts();
+
+}  // namespace kontur::bench

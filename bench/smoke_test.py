@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The benchmark runs, its solvers and searches agree, and its tables can be made."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+TABLES = pathlib.Path(__file__).parent / "tables.py"
+
+
+@pytest.fixture(scope="module")
+def json_file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("bench") / "quick.json"
+    subprocess.run([os.environ["KONTUR_BENCH"], "--quick", "--json", path], check=True, timeout=100)
+    return path
+
+
+@pytest.fixture(scope="module")
+def results(json_file):
+    return json.loads(json_file.read_text())
+
+
+def test_every_solver_meets_the_constraints(results):
+    assert {row["solver"] for row in results["solving"]} == {"dense", "cholesky", "iterative"}
+    assert max(row["residual_mm"] for row in results["solving"]) <= 1e-3
+
+
+def test_tracking_finds_what_evaluating_every_voxel_finds(results):
+    for normals in ("in-plane", "surface"):
+        rows = [row for row in results["voxelizing"] if row["normals"] == normals]
+        assert {row["voxelizer"] for row in rows} == {"tracked", "exhaustive"}
+        assert len({row["surface_cells"] for row in rows}) == 1
+
+
+def test_pipelines_come_close_to_the_truth(results):
+    assert min(row["dice_truth"] for row in results["end_to_end"]) > 0.99
+
+
+def test_full_quality_is_what_the_others_are_compared_with(results):
+    assert all((row["jaccard"] == 1) == (row["quality"] == 1) for row in results["reduction"])
+
+
+def test_the_tables_show_every_measurement(json_file, results):
+    tables = subprocess.run([sys.executable, TABLES, json_file], check=True, capture_output=True, text=True).stdout
+    for experiment in ("solving", "voxelizing", "reduction", "end_to_end"):
+        assert len(tables.splitlines()) > len(results[experiment]) > 0
+
+
+def test_a_document_is_filled_between_its_markers_and_stays_as_it_is_elsewhere(json_file, tmp_path):
+    names = ("machine", "solving", "voxelizing", "reduction", "end_to_end", "stages")
+    document = tmp_path / "performance.md"
+    document.write_text("".join(f"before {n}\n<!-- begin {n} -->\nold\n<!-- end {n} -->\nafter\n" for n in names))
+    for _ in range(2):
+        subprocess.run([sys.executable, TABLES, json_file, document], check=True)
+        text = document.read_text()
+        assert "old" not in text and text.count("after\n") == len(names) and all(f"before {n}\n" in text for n in names)

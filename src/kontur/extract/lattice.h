@@ -37,12 +37,6 @@ public:
         const Block* block = blocks_[block_of(p)].get();
         return block ? block->values[within(p)] : kUnknown;
     }
-    /// The values along i that share a block with in-grid point `p`, starting at p.i rounded down to a multiple of 8; null
-    /// where none of that block is known.
-    const double* row_of_block(const Index3& p) const {
-        const Block* block = blocks_[block_of(p)].get();
-        return block ? &block->values[within({p.i & ~std::int64_t{7}, p.j, p.k})] : nullptr;
-    }
     void set_value(const Index3& p, double value) { block(p).values[within(p)] = value; }
 
     /// Marks a cell; true if it was not marked before.

@@ -19,9 +19,11 @@ double cut(double from, double to) {
 
 class MeshBuilder {
 public:
-    explicit MeshBuilder(const SurfaceLattice& surface) : lattice_(surface.lattice) {
+    explicit MeshBuilder(const SurfaceLattice& surface)
+        : lattice_(surface.lattice),
+          mm_to_index_(lattice_.grid().index_to_mm.inverse()),
+          mirrored_(lattice_.grid().index_to_mm.determinant() < 0) {
         points_.reserve(2 * surface.cells.size());
-        mirrored_ = lattice_.grid().index_to_mm.determinant() < 0;
     }
 
     void add_cell(const Index3& cell) {
@@ -34,7 +36,14 @@ public:
         }
     }
 
-    TriangleMesh finish() { return std::move(mesh_); }
+    /// Normals are those of `function`, which knows nothing of the cut at the grid's border: there, the border's.
+    TriangleMesh finish(const ImplicitFunction& function, int threads) {
+        mesh_.normals.resize(mesh_.points.size());
+        function.gradients(mesh_.points, mesh_.normals, threads);
+        for (Vec3& n : mesh_.normals) n = -normalized(n);
+        for (const auto& [point, normal] : border_normals_) mesh_.normals[point] = normal;
+        return std::move(mesh_);
+    }
 
 private:
     std::uint32_t point_on(const Index3& cell, int edge_number, const std::array<double, 8>& corners) {
@@ -51,14 +60,25 @@ private:
             Vec3 at{static_cast<double>(from.i), static_cast<double>(from.j), static_cast<double>(from.k)};
             at[edge.axis] += cut(corners[static_cast<std::size_t>(edge.from)], corners[static_cast<std::size_t>(edge.to)]);
             mesh_.points.push_back(lattice_.grid().index_to_mm.apply(at));
+            if (!lattice_.in_grid(from)) border_normals_.emplace_back(found->second, -border_normal(edge.axis));
+            if (!lattice_.in_grid(Lattice::corner(cell, edge.to)))
+                border_normals_.emplace_back(found->second, border_normal(edge.axis));
         }
         return found->second;
     }
 
+    /// Normal of the grid's face at its high end along an axis.
+    Vec3 border_normal(int axis) const {
+        const std::array<double, 3>& row = mm_to_index_.linear[static_cast<std::size_t>(axis)];
+        return normalized({row[0], row[1], row[2]});
+    }
+
     const Lattice& lattice_;
+    Affine3 mm_to_index_;
     bool mirrored_;
     std::unordered_map<std::uint64_t, std::uint32_t> points_;  ///< lattice edge -> point
     TriangleMesh mesh_;
+    std::vector<std::pair<std::uint32_t, Vec3>> border_normals_;
 };
 
 }  // namespace
@@ -67,13 +87,8 @@ TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& f
                         const Progress& progress) {
     MeshBuilder builder(surface);
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
-    TriangleMesh mesh = builder.finish();
-
     progress.report("polygonize", 0.5);
-    mesh.normals.resize(mesh.points.size());
-    function.gradients(mesh.points, mesh.normals, threads);
-    for (Vec3& n : mesh.normals) n = -normalized(n);
-    return mesh;
+    return builder.finish(function, threads);
 }
 
 }  // namespace kontur

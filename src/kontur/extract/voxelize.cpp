@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/extract/voxelize.h"
 
-#include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include "kontur/base/parallel.h"
 
 namespace kontur {
 namespace {
 
-void fill_row(const Lattice& lattice, std::int64_t j, std::int64_t k, std::uint8_t* row) {
-    const std::int64_t width = lattice.grid().size.i;
-    std::uint8_t inside = 0;
-    for (std::int64_t begin = 0; begin < width; begin += 8) {
-        const std::int64_t end = std::min(begin + 8, width);
-        const double* values = lattice.row_of_block({begin, j, k});
-        for (std::int64_t i = begin; i < end; ++i) {
-            if (values && !std::isnan(values[i - begin])) inside = values[i - begin] > 0;
-            row[i] = inside;
+/// Marks, for every lattice edge along i that the surface cuts, the point behind the cut. Each such edge belongs to a cell
+/// of the surface; beyond the grid no point needs a mark.
+void mark_cuts(const SurfaceLattice& surface, Mask& mask) {
+    for (const Index3& cell : surface.cells) {
+        const unsigned inside = inside_corners(surface.lattice.corners(cell));
+        for (const int corner : {0, 2, 4, 6}) {
+            const bool is_cut = ((inside >> corner ^ inside >> (corner + 1)) & 1u) != 0;
+            const Index3 behind = Lattice::corner(cell, corner + 1);
+            if (is_cut && behind.i < mask.grid.size.i) mask.values[mask.grid.offset(behind.i, behind.j, behind.k)] = 1;
         }
     }
 }
@@ -28,10 +29,12 @@ std::string_view name(Voxelizer voxelizer) noexcept { return voxelizer == Voxeli
 Mask fill(const SurfaceLattice& surface, int threads) {
     const Grid& grid = surface.lattice.grid();
     Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
-    parallel_for(grid.size.k, 1, threads, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k)
-            for (std::int64_t j = 0; j < grid.size.j; ++j)
-                fill_row(surface.lattice, j, k, &mask.values[grid.offset(0, j, k)]);
+    mark_cuts(surface, mask);
+    parallel_for(grid.size.j * grid.size.k, 64, threads, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            const auto first = mask.values.begin() + row * grid.size.i;
+            std::partial_sum(first, first + grid.size.i, first, std::bit_xor<>());
+        }
     });
     return mask;
 }

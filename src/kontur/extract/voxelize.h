@@ -12,9 +12,10 @@ enum class Voxelizer {
 };
 std::string_view name(Voxelizer voxelizer) noexcept;
 
-/// The voxels inside of the surface: a voxel is inside when the function at its centre is > 0. Rows are filled from the
-/// known values without further evaluation: between two known values the sign cannot change, because every lattice edge
-/// that the surface cuts belongs to a cell whose values are known (paper section 4.2).
+/// The voxels inside of the surface found: those at whose centre the function is > 0, except that a sheet or bubble that no
+/// search met counts as absent. Every row starts outside and changes sides where the surface cuts it, so f is not evaluated
+/// again (paper section 4.2). That is consistent: a lattice square has an even number of cut edges, and if one of them
+/// belongs to the surface found then all do, because the search passes through every face with corners of both signs.
 Mask fill(const SurfaceLattice& surface, int threads = 0);
 
 }  // namespace kontur

@@ -2,6 +2,7 @@
 #include "kontur/field/prepare.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/field/orient.h"
 #include "kontur/field/reduce.h"
@@ -25,7 +26,8 @@ Contour shifted(Contour contour, const Vec3& by) {
 }
 
 void append(const Contour& drawn, std::int32_t index, const PrepareOptions& options, PreparedContours& prepared) {
-    const Contour contour = refine(reduce(drawn, {options.quality}), options.least_segments);
+    const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
+    const Contour contour = refine(reduce(drawn, {options.quality}), least_segments);
     const ContourOrientation orientation = orient(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
         prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});

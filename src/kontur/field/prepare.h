@@ -10,7 +10,7 @@ namespace kontur {
 
 struct PrepareOptions {
     double quality = 1.0;     ///< fraction of each contour's points to keep (reduce), in (0, 1]
-    int least_segments = 48;  ///< contours of fewer segments are subdivided to about this many (refine); 0: the paper's rule
+    int least_segments = 48;  ///< contours of fewer segments, times quality, are subdivided (refine); 0: the paper's rule
     bool caps = true;         ///< limit the extrapolation beyond the last contours (find_caps)
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
 };

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Everything public, in the order of the flow.
+
+// What all stages share.
+#include "kontur/base/error.h"
+#include "kontur/base/geometry.h"
+#include "kontur/base/parallel.h"
+#include "kontur/base/progress.h"
+
+// What goes in and comes out.
+#include "kontur/shape/contour.h"
+#include "kontur/shape/grid.h"
+#include "kontur/shape/mesh.h"
+#include "kontur/shape/rgb_image.h"
+#include "kontur/shape/volume.h"
+
+// Files to shapes.
+#include "kontur/io/contour_json.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/dicom_series.h"
+#include "kontur/io/image.h"
+#include "kontur/io/markups.h"
+#include "kontur/io/rtstruct.h"
+
+// Contours become a function.
+#include "kontur/field/caps.h"
+#include "kontur/field/constraints.h"
+#include "kontur/field/fit.h"
+#include "kontur/field/implicit_function.h"
+#include "kontur/field/kernel.h"
+#include "kontur/field/orient.h"
+#include "kontur/field/prepare.h"
+#include "kontur/field/reduce.h"
+#include "kontur/field/residual.h"
+#include "kontur/field/solve.h"
+
+// The function becomes voxels or triangles; a mask becomes contours.
+#include "kontur/extract/polygonize.h"
+#include "kontur/extract/rasterize.h"
+#include "kontur/extract/trace.h"
+#include "kontur/extract/track.h"
+#include "kontur/extract/voxelize.h"
+
+// All of it at once.
+#include "kontur/segment.h"
+
+// Judging and showing the result.
+#include "kontur/measure/compare.h"
+#include "kontur/measure/components.h"
+#include "kontur/view/outline.h"
+#include "kontur/view/picture.h"
+#include "kontur/view/reslice.h"
+
+// Shapes to files.
+#include "kontur/io/atomic_file.h"
+#include "kontur/io/mesh.h"
+#include "kontur/io/png.h"
+
+// Bodies with exact truth.
+#include "kontur/phantom/bodies.h"
+#include "kontur/phantom/cases.h"
+#include "kontur/phantom/phantom.h"

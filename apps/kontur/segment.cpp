@@ -65,17 +65,20 @@ Grid grid_around_contours(const SegmentCommand& command, const ContourSet& conto
 Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
     ReadContours contours = read_contours(command.contours, command.read);
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
+    const auto note = [&](const std::vector<std::string>& notes) {
+        inputs.notes.insert(inputs.notes.end(), notes.begin(), notes.end());
+    };
     if (command.image.path.empty()) {
         inputs.grid = grid_around_contours(command, inputs.contours);
     } else if (command.picture.empty()) {
-        LoadedGrid grid = load_grid(command.image, progress);
-        inputs.grid = grid.grid;
-        inputs.notes.insert(inputs.notes.end(), grid.notes.begin(), grid.notes.end());
+        const LoadedGrid loaded = load_grid(command.image, progress);
+        inputs.grid = loaded.grid;
+        note(loaded.notes);
     } else {
-        LoadedImage image = load_image(command.image, progress);
-        inputs.grid = image.image.grid;
-        inputs.image = std::move(image.image);
-        inputs.notes.insert(inputs.notes.end(), image.notes.begin(), image.notes.end());
+        LoadedImage loaded = load_image(command.image, progress);
+        inputs.grid = loaded.image.grid;
+        inputs.image = std::move(loaded.image);
+        note(loaded.notes);
     }
     return inputs;
 }

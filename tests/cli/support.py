@@ -19,7 +19,7 @@ AXES = {"x": ((1, 0, 0), (0, 1, 0), (0, 0, 1)), "y": ((0, 1, 0), (0, 0, 1), (1, 
 def kontur(*words, **options):
     """The finished process; the words may be paths or numbers."""
     return subprocess.run(
-        [KONTUR, *map(str, words)], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL, **options
+        [KONTUR, *map(str, words)], capture_output=True, text=True, timeout=400, stdin=subprocess.DEVNULL, **options
     )
 
 

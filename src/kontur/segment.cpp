@@ -50,9 +50,9 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
     fit.normals = options.normals;
     fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diagonal_mm);
     fit.place.merge_distance_mm = kMergeFraction * diagonal_mm;
-    if (!(fit.place.normal_offset_mm > 0))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the normal offset is {} mm; it must be greater than 0", fit.place.normal_offset_mm));
+    if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
+        throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
+                                                          fit.place.normal_offset_mm));
     fit.solve.kernel = options.kernel;
     fit.solve.solver = options.solver;
     fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);

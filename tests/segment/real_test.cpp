@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "kontur/io/contour_json.h"
+#include "kontur/io/image.h"
+#include "kontur/segment.h"
+#include "support/coarse_grid.h"
+#include "support/test_data.h"
+
+namespace kontur {
+namespace {
+
+/// Real structures cut by planes of five kinds, with the least Dice that default options must reach against the mask that
+/// was cut.
+struct RealSet {
+    const char* structure;
+    std::array<double, 5> least_dice;  ///< in the order of kPlanes
+};
+constexpr const char* kPlanes[] = {"ortho3x3", "ortho3x3_handdrawn", "radial6", "oblique10", "tilted_parallel7"};
+constexpr RealSet kSets[] = {
+    {"hippocampus_label5", {0.937, 0.870, 0.970, 0.901, 0.960}},
+    {"kidney_right_5mm", {0.964, 0.950, 0.967, 0.949, 0.953}},
+    {"lateral_ventricles", {0.803, 0.814, 0.757, 0.845, 0.795}},
+    {"liver_5mm", {0.955, 0.937, 0.961, 0.932, 0.933}},
+    {"sarcoma_STS_040_CT", {0.967, 0.962, 0.969, 0.961, 0.956}},
+    {"vertebral_body_L5label", {0.971, 0.943, 0.943, 0.961, 0.951}},
+};
+
+class RealContours : public testing::TestWithParam<RealSet> {};
+
+TEST_P(RealContours, DefaultOptionsReachTheKnownAgreementFromEverySetOfPlanes) {
+    const std::filesystem::path folder = test::data_dir() / "derived_nonparallel" / GetParam().structure;
+    KONTUR_REQUIRE_DATA(std::filesystem::path("derived_nonparallel") / GetParam().structure);
+    const Mask truth = read_mask(folder / "truth.nii.gz");
+    for (std::size_t p = 0; p < std::size(kPlanes); ++p) {
+        const ContourSet contours = read_contour_json(folder / (std::string(kPlanes[p]) + ".json"));
+        const Segmentation result = segment(contours, truth.grid);
+        const double agreement = test::dice(result.mask.values, truth.values);
+        EXPECT_GT(agreement, GetParam().least_dice[p]) << kPlanes[p];
+        EXPECT_LE(result.report.mask_components, static_cast<std::int64_t>(contours.contours.size())) << kPlanes[p];
+        EXPECT_LT(result.report.residual.rms_mm, 0.5) << kPlanes[p];
+        EXPECT_LT(result.report.iterations, 25 * result.report.solves) << kPlanes[p];
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, RealContours, testing::ValuesIn(kSets),
+                         [](const auto& set) { return std::string(set.param.structure); });
+
+}  // namespace
+}  // namespace kontur

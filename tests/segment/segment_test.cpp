@@ -191,6 +191,10 @@ TEST(Segment, WarnsOfWhatTheUserShouldKnow) {
     ContourSet repeated = ball_contours();
     repeated.contours[2].points.insert(repeated.contours[2].points.begin() + 5, repeated.contours[2].points[5]);
     EXPECT_TRUE(warns(segment(repeated, ball_grid()).report, "1 repeated points"));
+    ContourSet tiny;
+    for (int i = 0; i < 3; ++i)
+        tiny.contours.push_back(test::circle(make_plane(kCenter + Vec3{0, 1, 0.03 * i}, {0, 0, 1}), 0.3, 30));
+    EXPECT_TRUE(warns(segment(tiny, ball_grid()).report, "empty"));
 }
 
 TEST(Segment, RefusesInputThatCannotBeSegmented) {

@@ -22,6 +22,8 @@ Facts report_json(const SegmentReport& report) {
         {"points", report.points},
         {"constraints", report.constraints},
         {"centres", report.centres},
+        {"merged", report.merged},
+        {"capped", report.capped},
         {"kernel", name(report.kernel)},
         {"normals", name(report.normals)},
         {"normal_offset_mm", report.normal_offset_mm},

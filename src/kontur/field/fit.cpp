@@ -83,7 +83,10 @@ Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOption
         caps.append_to(single_points);
         const PlacedConstraints placed = place_constraints(contours.points, result.slopes, single_points, options.place);
         SolveOptions solve_options = options.solve;
-        if (round < rounds) solve_options.smoothing = std::max(start_smoothing, options.solve.smoothing);
+        if (round < rounds) {
+            solve_options.smoothing = std::max(start_smoothing, options.solve.smoothing);
+            solve_options.tolerance_mm *= options.early_tolerance_factor;
+        }
         const Solution solution = solve(placed.constraints, solve_options, part_of(progress, round, rounds + 1));
         result.function = solution.function;
         result.report = solution.report;

@@ -4,15 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "kontur/base/instruction_sets.h"
 #include "kontur/base/parallel.h"
-
-// One compilation per instruction set, chosen at run time. Sanitizers cannot instrument the resolver.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define KONTUR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define KONTUR_CLONES
-#endif
 
 namespace kontur {
 namespace {
@@ -30,7 +23,7 @@ struct Sources {
     std::size_t count;
 };
 
-KONTUR_CLONES void sum_triharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
+KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
     alignas(64) double sum[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
@@ -43,7 +36,7 @@ KONTUR_CLONES void sum_triharmonic(const Sources& s, const Lanes& t, double* __r
     for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
 }
 
-KONTUR_CLONES void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
+KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
     alignas(64) double sum[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
@@ -56,7 +49,7 @@ KONTUR_CLONES void sum_biharmonic(const Sources& s, const Lanes& t, double* __re
 }
 
 // phi'(r) / r is 3 r for r^3 and 1 / r for r.
-KONTUR_CLONES void sum_triharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
+KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
     alignas(64) double gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = 3 * s.w[j];
@@ -75,7 +68,7 @@ KONTUR_CLONES void sum_triharmonic_gradient(const Sources& s, const Lanes& t, La
     }
 }
 
-KONTUR_CLONES void sum_biharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
+KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
     alignas(64) double gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];

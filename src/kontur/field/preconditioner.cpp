@@ -7,6 +7,7 @@
 #include <nanoflann.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/base/instruction_sets.h"
 #include "kontur/base/parallel.h"
 #include "kontur/field/small_cholesky.h"
 
@@ -107,19 +108,26 @@ double degree_scale(Kernel kernel, double radius) {
     return kernel == Kernel::triharmonic ? radius * radius * radius : radius;
 }
 
+/// column[i] = sign phi(|p_i - p_j|) + weight (1 + p_i . p_j) for i from j on.
+KONTUR_EVERY_INSTRUCTION_SET void fill_column(Kernel kernel, const LocalPoints& p, double weight, int j, int n,
+                                              double* __restrict column) {
+    const double *x = p.x.data(), *y = p.y.data(), *z = p.z.data();
+    const double xj = x[j], yj = y[j], zj = z[j];
+    const bool cubic = kernel == Kernel::triharmonic;
+    for (int i = j; i < n; ++i) {
+        const double dx = x[i] - xj, dy = y[i] - yj, dz = z[i] - zj;
+        const double r2 = dx * dx + dy * dy + dz * dz;
+        const double signed_phi = std::sqrt(r2) * (cubic ? r2 : -1.0);
+        column[i] = signed_phi + weight * (1 + (x[i] * xj + y[i] * yj + z[i] * zj));
+    }
+}
+
 /// Lower triangle of sign phi + weight (1 + x.y) + diagonal I, column major. The polynomial part changes nothing on weights
 /// that satisfy the side conditions and makes the matrix definite on all others.
 void fill_local(Kernel kernel, const LocalPoints& p, double diagonal, double polynomial_weight, double* a, int n) {
-    const double sign = kernel_sign(kernel);
     for (int j = 0; j < n; ++j) {
-        double* __restrict column = a + static_cast<std::ptrdiff_t>(j) * n;
-        const double xj = p.x[j], yj = p.y[j], zj = p.z[j];
-        for (int i = j; i < n; ++i) {
-            const double dx = p.x[i] - xj, dy = p.y[i] - yj, dz = p.z[i] - zj;
-            const double r2 = dx * dx + dy * dy + dz * dz;
-            const double phi = kernel == Kernel::triharmonic ? r2 * std::sqrt(r2) : std::sqrt(r2);
-            column[i] = sign * phi + polynomial_weight * (1 + (p.x[i] * xj + p.y[i] * yj + p.z[i] * zj));
-        }
+        double* column = a + static_cast<std::ptrdiff_t>(j) * n;
+        fill_column(kernel, p, polynomial_weight, j, n, column);
         column[j] += diagonal;
     }
 }

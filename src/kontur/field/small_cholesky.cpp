@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "kontur/base/instruction_sets.h"
+
 namespace kontur {
 namespace {
 
@@ -15,14 +17,14 @@ double* column(double* a, int lead, int j) { return a + static_cast<std::ptrdiff
 const double* column(const double* a, int lead, int j) { return a + static_cast<std::ptrdiff_t>(j) * lead; }
 
 /// Factorises columns [begin, end), whose earlier updates are done.
-bool factorise_panel(double* a, int n, int lead, int begin, int end) {
+KONTUR_EVERY_INSTRUCTION_SET bool factorise_panel(double* a, int n, int lead, int begin, int end) {
     for (int j = begin; j < end; ++j) {
         double* cj = column(a, lead, j);
         if (!(cj[j] > 0)) return false;
         const double inverse = 1 / std::sqrt(cj[j]);
         for (int i = j; i < n; ++i) cj[i] *= inverse;
         for (int k = j + 1; k < end; ++k) {
-            double* ck = column(a, lead, k);
+            double* __restrict ck = column(a, lead, k);
             const double f = cj[k];
             for (int i = k; i < n; ++i) ck[i] -= f * cj[i];
         }
@@ -31,7 +33,8 @@ bool factorise_panel(double* a, int n, int lead, int begin, int end) {
 }
 
 /// target[i] -= sum_p f[p] * panel_p[i] for a full panel of 8 columns.
-void subtract_panel(double* __restrict target, const double* const* panel, const double* f, int begin, int end) {
+KONTUR_EVERY_INSTRUCTION_SET void subtract_panel(double* __restrict target, const double* const* panel, const double* f,
+                                                 int begin, int end) {
     const double *p0 = panel[0], *p1 = panel[1], *p2 = panel[2], *p3 = panel[3], *p4 = panel[4], *p5 = panel[5],
                  *p6 = panel[6], *p7 = panel[7];
     for (int i = begin; i < end; ++i)
@@ -57,16 +60,16 @@ bool small_cholesky(double* a, int n, int lead) {
     return true;
 }
 
-void last_rows_of_inverse(const double* l, int n, int lead, int m, double* rows) {
+KONTUR_EVERY_INSTRUCTION_SET void last_rows_of_inverse(const double* l, int n, int lead, int m, double* rows) {
     // G L = [0 I] from the last column back: g_j = (e_j - sum_{k > j} g_k l_kj) / l_jj, for all m rows at once.
     std::vector<double> g(static_cast<std::size_t>(n) * m, 0.0);  // column major: column j holds the m entries of g_j
     for (int j = n - 1; j >= 0; --j) {
-        double* gj = g.data() + static_cast<std::ptrdiff_t>(j) * m;
+        double* __restrict gj = g.data() + static_cast<std::ptrdiff_t>(j) * m;
         if (j >= n - m) gj[j - (n - m)] = 1;
         const double* lj = column(l, lead, j);
-        for (int k = std::max(j + 1, 0); k < n; ++k) {
+        for (int k = j + 1; k < n; ++k) {
             const double f = lj[k];
-            const double* gk = g.data() + static_cast<std::ptrdiff_t>(k) * m;
+            const double* __restrict gk = g.data() + static_cast<std::ptrdiff_t>(k) * m;
             for (int r = 0; r < m; ++r) gj[r] -= f * gk[r];
         }
         const double inverse = 1 / lj[j];
@@ -76,7 +79,7 @@ void last_rows_of_inverse(const double* l, int n, int lead, int m, double* rows)
         for (int j = 0; j < n; ++j) rows[static_cast<std::ptrdiff_t>(r) * n + j] = g[static_cast<std::size_t>(j) * m + r];
 }
 
-void small_cholesky_solve(const double* l, int n, int lead, double* x) {
+KONTUR_EVERY_INSTRUCTION_SET void small_cholesky_solve(const double* l, int n, int lead, double* x) {
     for (int j = 0; j < n; ++j) {
         const double* lj = column(l, lead, j);
         x[j] /= lj[j];

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well masks made from a few contours agree with the truth: kontur's defaults, the paper's method as printed and, where
+// the true surface is known, a fit that is told its tilts. docs/accuracy.md is made of the output.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kontur/base/error.h"
+#include "kontur/field/prepare.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/image.h"
+#include "kontur/measure/compare.h"
+#include "kontur/phantom/cases.h"
+#include "kontur/phantom/phantom.h"
+#include "kontur/segment.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One drawing of one object, segmented in each way.
+struct Row {
+    std::string object;
+    std::string drawing;
+    std::size_t contours = 0;
+    std::size_t points = 0;
+    Comparison kontur;
+    Comparison paper;
+    std::optional<Comparison> told;  ///< given the true tilts
+};
+
+/// The paper's method: in-plane normals of 1 mm, exact interpolation.
+SegmentOptions as_printed() {
+    SegmentOptions options;
+    options.normals = Normals::in_plane;
+    options.normal_offset_mm = 1;
+    options.solver = Solver::cholesky;
+    return options;
+}
+
+Row segment_both_ways(const ContourSet& contours, const Mask& truth) {
+    Row row;
+    row.contours = contours.contours.size();
+    row.points = point_count(contours);
+    row.kontur = compare(segment(contours, truth.grid).mask, truth);
+    row.paper = compare(segment(contours, truth.grid, as_printed()).mask, truth);
+    return row;
+}
+
+/// Cosines of the true surface's tilt, bounded as the fit bounds its own.
+std::vector<double> true_slopes(const Body& body, const std::vector<BoundaryPoint>& points) {
+    std::vector<double> slopes;
+    for (const BoundaryPoint& point : points)
+        slopes.push_back(
+            std::clamp(dot(body.outward_normal(point.position), point.inplane_normal), FitOptions{}.least_slope, 1.0));
+    return slopes;
+}
+
+std::vector<PointConstraint> violated(const std::vector<Cap>& caps, const ImplicitFunction& function) {
+    std::vector<PointConstraint> points;
+    for (const Cap& cap : caps)
+        if (function.value(cap.position) > cap.most_mm) points.push_back({cap.position, cap.most_mm, ConstraintKind::cap});
+    return points;
+}
+
+std::vector<Vec3> drawn_points(const ContourSet& set) {
+    std::vector<Vec3> points;
+    for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
+    return points;
+}
+
+/// What estimating the tilts costs: the default's offset, smoothing and caps, with the true tilts instead.
+Mask segment_told_the_tilts(const PhantomCase& drawn, const Grid& grid) {
+    const SegmentReport by_default = segment(drawn.contours, grid).report;
+    const PreparedContours prepared = prepare(drawn.contours);
+    const std::vector<double> slopes = true_slopes(*drawn.body, prepared.points);
+    const PlaceOptions place{.normal_offset_mm = by_default.normal_offset_mm};
+    const SolveOptions solving{.smoothing = by_default.smoothing};
+    const Solution open = solve(place_constraints(prepared.points, slopes, {}, place).constraints, solving);
+    const auto caps = violated(prepared.caps, open.function);
+    const Solution capped = solve(place_constraints(prepared.points, slopes, caps, place).constraints, solving);
+    const auto starts = drawn_points(drawn.contours);
+    return fill(track_surface(capped.function, grid, starts, 0));
+}
+
+/// The same field of view with voxels of twice the size.
+Grid coarsened(const Grid& grid) {
+    Grid coarse = grid;
+    for (int axis = 0; axis < 3; ++axis) {
+        coarse.size[axis] = (grid.size[axis] + 1) / 2;
+        coarse.index_to_mm.set_column(axis, 2.0 * grid.index_to_mm.column(axis));
+    }
+    coarse.index_to_mm.translation += 0.5 * grid.index_to_mm.apply_linear({1, 1, 1});
+    return coarse;
+}
+
+/// The phantom's cases whose true body is known. Half the liver's resolution tells the same at an eighth of the time.
+std::vector<Row> phantom_rows() {
+    std::vector<Row> rows;
+    for (const std::string& name : phantom_case_names()) {
+        const PhantomCase drawn = phantom_case(name);
+        if (!drawn.body) continue;
+        fmt::print(stderr, "phantom {}\n", name);
+        const Grid grid = drawn.body->name() == "liver" ? coarsened(drawn.grid) : drawn.grid;
+        const Mask truth = make_truth_mask(*drawn.body, grid);
+        Row row = segment_both_ways(drawn.contours, truth);
+        row.told = compare(segment_told_the_tilts(drawn, grid), truth);
+        row.object = "phantom";
+        row.drawing = name;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+/// A folder of objects, each a folder with `truth.nii.gz` and contour files.
+std::vector<Row> measured_rows(const fs::path& root) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(root))
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::ranges::sort(files);
+    std::vector<Row> rows;
+    for (const fs::path& file : files) {
+        const std::string object = file.parent_path().filename().string(), drawing = file.stem().string();
+        fmt::print(stderr, "{} {}\n", object, drawing);
+        const Mask truth = read_mask(file.parent_path() / "truth.nii.gz");
+        Row row = segment_both_ways(read_contours(file).contours, truth);
+        row.object = object;
+        row.drawing = drawing;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+nlohmann::ordered_json to_json(const Comparison& c) {
+    nlohmann::ordered_json json{{"dice", c.dice}};
+    if (c.surface) {
+        json["hausdorff95_mm"] = c.surface->hausdorff95_mm;
+        json["mean_surface_distance_mm"] = c.surface->mean_surface_distance_mm;
+    }
+    return json;
+}
+
+void print_json(const std::vector<Row>& rows) {
+    auto list = nlohmann::ordered_json::array();
+    for (const Row& row : rows) {
+        nlohmann::ordered_json json{{"object", row.object}, {"drawing", row.drawing},        {"contours", row.contours},
+                                    {"points", row.points}, {"kontur", to_json(row.kontur)}, {"paper", to_json(row.paper)}};
+        if (row.told) json["told_tilts"] = to_json(*row.told);
+        list.push_back(json);
+    }
+    fmt::print("{}\n", list.dump(2));
+}
+
+std::string cells(const Comparison& c) {
+    if (!c.surface) return fmt::format("{:.3f} | - | -", c.dice);
+    return fmt::format("{:.3f} | {:.1f} | {:.2f}", c.dice, c.surface->hausdorff95_mm, c.surface->mean_surface_distance_mm);
+}
+
+/// One table for each kind of row, since only the phantom's have the last three columns.
+void print_markdown(const std::vector<Row>& rows) {
+    const Row* last = nullptr;
+    for (const Row& row : rows) {
+        if (!last || last->told.has_value() != row.told.has_value()) {
+            fmt::print(
+                "\n| object | drawing | contours | kontur: Dice | HD95 mm | mean mm | paper: Dice | HD95 mm | mean mm |{}\n",
+                row.told ? " true tilts: Dice | HD95 mm | mean mm |" : "");
+            fmt::print("|---|---|---|---|---|---|---|---|---|{}\n", row.told ? "---|---|---|" : "");
+        }
+        fmt::print("| {} | {} | {} | {} | {} |{}\n", row.object, row.drawing, row.contours, cells(row.kontur),
+                   cells(row.paper), row.told ? " " + cells(*row.told) + " |" : "");
+        last = &row;
+    }
+}
+
+int run(const std::vector<std::string>& arguments) {
+    bool markdown = false;
+    std::vector<Row> rows;
+    for (const std::string& argument : arguments) {
+        if (argument == "--markdown") {
+            markdown = true;
+        } else {
+            const std::vector<Row> measured = measured_rows(argument);
+            rows.insert(rows.end(), measured.begin(), measured.end());
+        }
+    }
+    const std::vector<Row> phantom = phantom_rows();
+    rows.insert(rows.end(), phantom.begin(), phantom.end());
+    markdown ? print_markdown(rows) : print_json(rows);
+    return 0;
+}
+
+}  // namespace
+}  // namespace kontur
+
+/// accuracy [--markdown] [FOLDER]...: folders as `measured_rows` takes them, then the phantom.
+int main(int count, char** arguments) {
+    try {
+        return kontur::run({arguments + 1, arguments + count});
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "accuracy: error: {}\n", error.what());
+        return 1;
+    }
+}

@@ -113,6 +113,9 @@ void describe_fit(const PreparedContours& prepared, const Fit& fit, const FitOpt
             options.normals == Normals::surface
                 ? "all contours lie in one plane; the thickness of the object is a guess from their width"
                 : "all contours lie in one plane; a copy of the first one was added close to it");
+    if (fit.report.solver == Solver::iterative && fit.report.residual > options.solve.tolerance_mm)
+        report.warnings.push_back(fmt::format("the solver stopped at an error of {:.3g} mm; {:.3g} mm were asked for",
+                                              fit.report.residual, options.solve.tolerance_mm));
     if (!prepared.crossings.empty())
         report.warnings.push_back(fmt::format(
             "contours cross themselves at {} points; lobes are filled by the even-odd rule", prepared.crossings.size()));

@@ -5,58 +5,12 @@
 #include <array>
 #include <optional>
 
+#include "kontur/field/section.h"
+
 namespace kontur {
 namespace {
 
-using Point2 = std::array<double, 2>;
-using Polygon2 = std::vector<Point2>;
-
 constexpr double kParallel = 0.995;  // cosine between normals: planes tilted by less than 6 degrees count as parallel
-
-/// The contours drawn in one plane, as the region that they enclose by the even-odd rule.
-struct Section {
-    Plane plane;
-    std::vector<Polygon2> outlines;
-
-    bool contains(const Point2& p) const {
-        bool inside = false;
-        for (const Polygon2& outline : outlines)
-            for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-                const Point2 &a = outline[before], &b = outline[i];
-                if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-                if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
-            }
-        return inside;
-    }
-
-    /// Distance to the nearest outline.
-    double clearance(const Point2& p) const {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const Polygon2& outline : outlines)
-            for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-                const Point2 &a = outline[before], &b = outline[i];
-                const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
-                const double length2 = ux * ux + uy * uy;
-                const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
-                nearest = std::min(nearest, std::hypot(px - t * ux, py - t * uy));
-            }
-        return nearest;
-    }
-};
-
-std::vector<Section> sections_of(const ContourSet& set, double tolerance) {
-    std::vector<Section> sections;
-    for (const Contour& contour : set.contours) {
-        auto found = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
-            return std::abs(dot(s.plane.normal, contour.plane.normal)) > 1 - 1e-9 &&
-                   std::abs(s.plane.distance_to(contour.plane.origin)) < tolerance;
-        });
-        if (found == sections.end()) found = sections.insert(found, {contour.plane, {}});
-        Polygon2& outline = found->outlines.emplace_back();
-        for (const Vec3& p : contour.points) outline.push_back(found->plane.to_uv(p));
-    }
-    return sections;
-}
 
 /// A point well inside of a section.
 struct Probe {
@@ -132,7 +86,7 @@ private:
             if (next_->contains(at)) continue;
             // Near the next outline the fit knows better; the depth here bounds how far the surface can have moved.
             const double clear = std::min(next_->clearance(at), probe.depth);
-            if (clear > next_distance_ / 2) caps.push_back({there, -clear / 4});
+            if (clear > next_distance_ / 2) caps.push_back({there, -clear / 4, -clear / 4});
         }
     }
 
@@ -143,13 +97,13 @@ private:
         const double height = previous_distance_.value_or(deepest);
         for (const Probe& probe : inside) {
             const double rim = 1 - probe.depth / deepest;
-            caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0});
+            caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});
         }
         // The outline itself must not be carried on, neither straight nor flaring.
         for (const Polygon2& outline : section_.outlines) {
             const std::size_t stride = std::max<std::size_t>(1, outline.size() / 40);
             for (std::size_t i = 0; i < outline.size(); i += stride)
-                caps.push_back({above(outline[i], height), -height / 4});
+                caps.push_back({above(outline[i], height), -height / 4, -height / 4});
         }
     }
 
@@ -160,6 +114,36 @@ private:
     double next_distance_ = 0;
     std::optional<double> previous_distance_;
 };
+
+/// Whether contours of other planes cross this one farther than `tolerance` outside of its own contours.
+bool is_incomplete(const Section& section, const std::vector<Section>& sections, double tolerance) {
+    for (const Section& other : sections) {
+        if (&other == &section) continue;
+        for (const Polygon2& outline : other.outlines)
+            for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+                const Vec3 a = other.plane.from_uv(outline[before][0], outline[before][1]);
+                const Vec3 b = other.plane.from_uv(outline[i][0], outline[i][1]);
+                const double da = section.plane.distance_to(a), db = section.plane.distance_to(b);
+                if ((da > 0) == (db > 0)) continue;
+                const Point2 crossing = section.plane.to_uv(a + (da / (da - db)) * (b - a));
+                if (!section.contains(crossing) && section.clearance(crossing) > tolerance) return true;
+            }
+    }
+    return false;
+}
+
+void append_leak_probes(const Section& section, const Box3& box, double step, std::vector<Cap>& probes) {
+    const Point2 center = section.plane.to_uv(box.center());
+    const int reach = static_cast<int>(std::ceil(box.diagonal() / 2 / step));
+    for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+            const Point2 at{center[0] + i * step, center[1] + j * step};
+            const Vec3 position = section.plane.from_uv(at[0], at[1]);
+            if (!box.contains(position) || section.contains(at)) continue;
+            const double clear = section.clearance(at);
+            if (clear > step) probes.push_back({position, 0, -clear / 2});
+        }
+}
 
 }  // namespace
 
@@ -173,6 +157,16 @@ std::vector<Cap> find_caps(const ContourSet& set) {
             if (const Side side(sections, section, sign, tolerance); !side.leads_on()) side.append_caps(inside, caps);
     }
     return caps;
+}
+
+std::vector<Cap> find_leak_probes(const ContourSet& set) {
+    std::vector<Cap> probes;
+    const double diagonal = bounding_box(set).diagonal();
+    const Box3 box = bounding_box(set).padded(diagonal / 3);
+    const std::vector<Section> sections = sections_of(set, 1e-3 * diagonal);
+    for (const Section& section : sections)
+        if (!is_incomplete(section, sections, 0.05 * diagonal)) append_leak_probes(section, box, diagonal / 24, probes);
+    return probes;
 }
 
 }  // namespace kontur

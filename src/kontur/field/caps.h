@@ -7,10 +7,11 @@
 
 namespace kontur {
 
-/// A point up to which the object may extend beyond a drawn plane: f must not exceed `most_mm` there.
+/// A point that the object should not reach: f must not exceed `most_mm` there.
 struct Cap {
     Vec3 position;
     double most_mm;
+    double value_mm;  ///< what is prescribed if it does
 };
 
 /// Limits to extrapolation. Contours say nothing about the space beyond the last of them, where a smooth interpolant runs
@@ -23,5 +24,11 @@ struct Cap {
 ///
 /// At most a few hundred points per plane; spacings follow the contours' size, so the caps move and scale with them.
 std::vector<Cap> find_caps(const ContourSet& set);
+
+/// Where a leak would show. In a drawn plane, what lies outside of all its contours is outside of the object, but far from
+/// the contours the interpolant may turn positive again, and such a sheet can join the object. The points lie on a lattice
+/// over each drawn plane, as far as a third of the set's diagonal beyond its box. A plane counts as drawn incompletely, and
+/// gets none, when contours of other planes cross it well outside of its own.
+std::vector<Cap> find_leak_probes(const ContourSet& set);
 
 }  // namespace kontur

@@ -36,28 +36,34 @@ std::vector<PointConstraint> interior_and_exterior(const ContourSet& set, double
     return points;
 }
 
-/// Which caps have become constraints.
+/// The caps and leak probes, and which of them have become constraints.
 class ActiveCaps {
 public:
-    ActiveCaps(const std::vector<Cap>& caps, bool all) : caps_(caps), active_(caps.size(), all) {}
+    explicit ActiveCaps(const PreparedContours& contours) : caps_(contours.caps) {
+        active_.assign(caps_.size(), contours.coplanar);
+        caps_.insert(caps_.end(), contours.leak_probes.begin(), contours.leak_probes.end());
+        active_.resize(caps_.size(), false);
+        for (const Cap& cap : caps_) positions_.push_back(cap.position);
+    }
 
-    /// Activates the caps that the function violates.
-    void update(const ImplicitFunction& function, int threads) {
-        std::vector<Vec3> positions(caps_.size());
-        std::transform(caps_.begin(), caps_.end(), positions.begin(), [](const Cap& cap) { return cap.position; });
+    /// Activates the caps that the function violates; true if there are new ones.
+    bool update(const ImplicitFunction& function, int threads) {
         std::vector<double> values(caps_.size());
-        function.values(positions, values, threads);
+        function.values(positions_, values, threads);
+        const std::size_t before = count();
         for (std::size_t i = 0; i < caps_.size(); ++i) active_[i] = active_[i] || values[i] > caps_[i].most_mm;
+        return count() > before;
     }
 
     void append_to(std::vector<PointConstraint>& points) const {
         for (std::size_t i = 0; i < caps_.size(); ++i)
-            if (active_[i]) points.push_back({caps_[i].position, caps_[i].most_mm, ConstraintKind::cap});
+            if (active_[i]) points.push_back({caps_[i].position, caps_[i].value_mm, ConstraintKind::cap});
     }
     std::size_t count() const { return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true)); }
 
 private:
-    const std::vector<Cap>& caps_;
+    std::vector<Cap> caps_;
+    std::vector<Vec3> positions_;
     std::vector<bool> active_;
 };
 
@@ -75,28 +81,31 @@ std::string_view name(Normals normals) noexcept { return normals == Normals::sur
 Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress) {
     Fit result;
     result.slopes.assign(contours.points.size(), 1.0);
-    ActiveCaps caps(contours.caps, contours.coplanar);
+    ActiveCaps caps(contours);
     const int rounds = options.normals == Normals::surface ? options.rounds : 0;
     double start_smoothing = options.start_smoothing;
-    for (int round = 0; round <= rounds; ++round, start_smoothing *= options.smoothing_factor) {
+    for (int round = 0;; ++round, start_smoothing *= options.smoothing_factor) {
+        const bool tilts_known = round >= rounds;
         std::vector<PointConstraint> single_points = interior_and_exterior(set, options.place.normal_offset_mm);
         caps.append_to(single_points);
         const PlacedConstraints placed = place_constraints(contours.points, result.slopes, single_points, options.place);
         SolveOptions solve_options = options.solve;
-        if (round < rounds) {
+        if (!tilts_known) {
             solve_options.smoothing = std::max(start_smoothing, options.solve.smoothing);
             solve_options.tolerance_mm *= options.early_tolerance_factor;
         }
-        const Solution solution = solve(placed.constraints, solve_options, part_of(progress, round, rounds + 1));
+        const Solution solution =
+            solve(placed.constraints, solve_options, part_of(progress, std::min(round, rounds), rounds + 1));
         result.function = solution.function;
         result.report = solution.report;
         result.iterations += solution.report.iterations;
         result.merged = placed.merged;
         result.constraints = placed.constraints.size();
         ++result.solves;
-        if (round == rounds) break;
-        result.tilt_change_degrees = update_slopes(result.function, contours.points, options, result.slopes);
-        caps.update(result.function, options.solve.threads);
+        const bool more_caps = caps.update(result.function, options.solve.threads);
+        if (tilts_known && (!more_caps || round == rounds + options.cap_rounds)) break;
+        if (!tilts_known)
+            result.tilt_change_degrees = update_slopes(result.function, contours.points, options, result.slopes);
     }
     result.capped = caps.count();
     return result;

@@ -22,6 +22,7 @@ struct FitOptions {
     double smoothing_factor = 0.3;       ///< ... and its factor from round to round; the last fit has `solve.smoothing`
     double least_slope = 0.2;            ///< surface normals: lower bound of the cosine of the tilt
     double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt
+    int cap_rounds = 2;                  ///< most further fits while caps or leak probes are exceeded that were not before
     PlaceOptions place;
     SolveOptions solve;
 };
@@ -46,8 +47,8 @@ struct Fit {
 /// contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot amplify it from round to
 /// round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start contradicts itself.
 ///
-/// Where f exceeds a cap's limit after a round, the limit becomes a constraint of the later rounds; on coplanar contours all
-/// do from the start. `set` gives the interior and exterior points.
+/// Where f exceeds the limit of a cap or leak probe after a round, the limit becomes a constraint of the later rounds; on
+/// coplanar contours all do from the start. `set` gives the interior and exterior points.
 Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress = {});
 
 }  // namespace kontur

@@ -45,7 +45,10 @@ PreparedContours prepare(const ContourSet& set, const PrepareOptions& options) {
         const Contour& first = set.contours.front();
         append(shifted(first, options.copy_shift_mm * first.plane.normal), 0, options, prepared);
     }
-    if (options.caps) prepared.caps = find_caps(set);
+    if (options.caps) {
+        prepared.caps = find_caps(set);
+        prepared.leak_probes = find_leak_probes(set);
+    }
     return prepared;
 }
 

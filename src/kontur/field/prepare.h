@@ -9,9 +9,9 @@
 namespace kontur {
 
 struct PrepareOptions {
-    double quality = 1.0;     ///< fraction of each contour's points to keep (reduce), in (0, 1]
-    int least_segments = 48;  ///< contours of fewer segments, times quality, are subdivided (refine); 0: the paper's rule
-    bool caps = true;         ///< limit the extrapolation beyond the last contours (find_caps)
+    double quality = 1.0;      ///< fraction of each contour's points to keep (reduce), in (0, 1]
+    int least_segments = 48;   ///< contours of fewer segments, times quality, are subdivided (refine); 0: the paper's rule
+    bool caps = true;          ///< limit the extrapolation beyond the last contours, and watch for leaks
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
 };
 
@@ -20,6 +20,7 @@ struct PreparedContours {
     std::vector<BoundaryPoint> points;
     std::vector<Vec3> crossings;  ///< mm, where contours cross themselves
     std::vector<Cap> caps;
+    std::vector<Cap> leak_probes;
     bool coplanar = false;  ///< all contours lie in one plane, so they alone do not determine a surface
 };
 

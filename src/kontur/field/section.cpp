@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kontur {
+
+bool Section::contains(const Point2& p) const {
+    bool inside = false;
+    for (const Polygon2& outline : outlines)
+        for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+            const Point2 &a = outline[before], &b = outline[i];
+            if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+            if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+        }
+    return inside;
+}
+
+double Section::clearance(const Point2& p) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Polygon2& outline : outlines)
+        for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+            const Point2 &a = outline[before], &b = outline[i];
+            const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
+            const double length2 = ux * ux + uy * uy;
+            const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
+            nearest = std::min(nearest, std::hypot(px - t * ux, py - t * uy));
+        }
+    return nearest;
+}
+
+std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {
+    std::vector<Section> sections;
+    for (const Contour& contour : set.contours) {
+        auto found = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
+            return std::abs(dot(s.plane.normal, contour.plane.normal)) > 1 - 1e-9 &&
+                   std::abs(s.plane.distance_to(contour.plane.origin)) < tolerance_mm;
+        });
+        if (found == sections.end()) found = sections.insert(found, {contour.plane, {}});
+        Polygon2& outline = found->outlines.emplace_back();
+        for (const Vec3& p : contour.points) outline.push_back(found->plane.to_uv(p));
+    }
+    return sections;
+}
+
+}  // namespace kontur

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+using Point2 = std::array<double, 2>;
+using Polygon2 = std::vector<Point2>;
+
+/// The contours drawn in one plane, as the region that they enclose by the even-odd rule; in the plane's (u, v), mm.
+struct Section {
+    Plane plane;
+    std::vector<Polygon2> outlines;
+
+    bool contains(const Point2& p) const;
+    /// Distance to the nearest outline; infinity without outlines.
+    double clearance(const Point2& p) const;
+};
+
+/// The set's contours by plane, in the order of the first contour of each. Planes with the same normal up to sign that are
+/// less than `tolerance_mm` apart are one.
+std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);
+
+}  // namespace kontur

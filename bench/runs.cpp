@@ -10,7 +10,7 @@
 namespace kontur::bench {
 namespace {
 
-constexpr double kEnoughSeconds = 20;
+constexpr double kEnoughSeconds = 10;
 
 using Stages = std::vector<std::pair<std::string, double>>;
 

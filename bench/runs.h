@@ -13,7 +13,7 @@ struct Timing {
     int runs = 0;
 };
 
-/// Calls `work` up to `repeat` times, but not again once 20 s are spent on it.
+/// Calls `work` up to `repeat` times, but not again once 10 s are spent on it.
 Timing measure(int repeat, const std::function<void()>& work);
 
 struct TimedSegmentation {

@@ -9,6 +9,7 @@ import sys
 import pytest
 
 TABLES = pathlib.Path(__file__).parent / "tables.py"
+DOCS = pathlib.Path(__file__).parent.parent / "docs"
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +58,11 @@ def test_a_document_is_filled_between_its_markers_and_stays_as_it_is_elsewhere(j
         subprocess.run([sys.executable, TABLES, json_file, document], check=True)
         text = document.read_text()
         assert "old" not in text and text.count("after\n") == len(names) and all(f"before {n}\n" in text for n in names)
+
+
+def test_the_published_tables_are_made_from_the_published_results(tmp_path):
+    published = (DOCS / "performance.md").read_text()
+    copy = tmp_path / "performance.md"
+    copy.write_text(published)
+    subprocess.run([sys.executable, TABLES, DOCS / "performance.json", copy], check=True)
+    assert copy.read_text() == published

@@ -97,13 +97,15 @@ def voxelizing(results):
     for case in unique(results["voxelizing"], "case"):
         cells, paper = PAPER_VOXELIZE[organ(case)]
         for threads, time in paper.items():
-            rows.append([case_name(case), "paper", "tracked", threads, seconds(time), "", count(cells)])
+            rows.append([case_name(case), "paper", "tracked", threads, seconds(time), "", count(cells), ""])
         for row in (row for row in results["voxelizing"] if row["case"] == case):
             rows.append([
                 case_name(case), NORMALS[row["normals"]], row["voxelizer"], row["threads"], seconds(row["seconds"]),
                 count(row["evaluations"]), count(row["surface_cells"]),
+                f"{row['evaluations'] * row['centres'] / row['seconds'] / 1e9:.2f}",
             ])
-    return table(["case", "normals", "search", "threads", "seconds", "evaluations", "surface cells"], rows)
+    header = ["case", "normals", "search", "threads", "seconds", "evaluations of f", "surface cells", "10^9 kernel values / s"]
+    return table(header, rows)
 
 
 def reduction(results):

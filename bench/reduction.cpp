@@ -22,6 +22,7 @@ Json row(const PhantomCase& phantom, const char* configuration, const TimedSegme
             {"configuration", configuration},
             {"quality", report.quality},
             {"centres", report.centres},
+            {"iterations", report.iterations},
             {"fit_s", stage(report, "fit")},
             {"voxelize_s", stage(report, "voxelize")},
             {"total_s", timed.seconds},

@@ -48,8 +48,9 @@ Json end_to_end(const PhantomCase& phantom, int repeat) {
                         {"solves", report.solves},
                         {"iterations", report.iterations},
                         {"stages_s", stages(report)},
-                        {"total_s", timed.seconds},
-                        {"runs", timed.runs},
+                        {"total_s", timed.timing.seconds},
+                        {"cpu_s", timed.timing.cpu_seconds},
+                        {"runs", timed.timing.runs},
                         {"peak_mb", peak_mb},
                         {"residual_max_mm", report.residual.max_mm},
                         {"dice_truth", compare(timed.segmentation.mask, truth).dice}});

@@ -6,7 +6,7 @@
 #include "kontur/phantom/cases.h"
 
 /// The measurements of Heckel, Konrad & Peitgen 2010 on a case of the phantom. Each returns a list with one object per row
-/// of its table; times are medians of up to `repeat` runs.
+/// of its table; times are medians of up to `repeat` runs, see `measure`.
 namespace kontur::bench {
 
 using Json = nlohmann::ordered_json;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <numeric>
 
 #include "kontur/base/parallel.h"
@@ -19,37 +20,39 @@ double total(const Stages& stages) {
                            [](double sum, const Stages::value_type& stage) { return sum + stage.second; });
 }
 
-double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double wall_now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+template <typename Value, typename Less = std::less<>>
+Value median(std::vector<Value> values, Less less = {}) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+    std::nth_element(values.begin(), middle, values.end(), less);
+    return *middle;
 }
 
 }  // namespace
 
 Timing measure(int repeat, const std::function<void()>& work) {
-    std::vector<double> seconds;
-    do seconds.push_back(seconds_of(work));
-    while (static_cast<int>(seconds.size()) < repeat &&
-           std::accumulate(seconds.begin(), seconds.end(), 0.0) < kEnoughSeconds);
-    const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>((seconds.size() - 1) / 2);
-    std::nth_element(seconds.begin(), middle, seconds.end());
-    return {*middle, static_cast<int>(seconds.size())};
+    std::vector<double> wall, cpu;
+    do {
+        const double wall_before = wall_now(), cpu_before = cpu_now();
+        work();
+        wall.push_back(wall_now() - wall_before);
+        cpu.push_back(cpu_now() - cpu_before);
+    } while (static_cast<int>(wall.size()) < repeat && std::accumulate(wall.begin(), wall.end(), 0.0) < kEnoughSeconds);
+    return {median(wall), median(cpu), static_cast<int>(wall.size())};
 }
 
 TimedSegmentation segment_repeatedly(int repeat, const std::function<Segmentation()>& segment_once) {
     TimedSegmentation result;
     std::vector<Stages> runs;
-    const Timing timing = measure(repeat, [&] {
+    result.timing = measure(repeat, [&] {
         result.segmentation = {};  // its memory must not count for the next run
         result.segmentation = segment_once();
         runs.push_back(result.segmentation.report.seconds);
     });
-    const auto middle = runs.begin() + static_cast<std::ptrdiff_t>((runs.size() - 1) / 2);
-    std::nth_element(runs.begin(), middle, runs.end(), [](const Stages& a, const Stages& b) { return total(a) < total(b); });
-    result.segmentation.report.seconds = *middle;
-    result.seconds = total(*middle);
-    result.runs = timing.runs;
+    result.segmentation.report.seconds = median(runs, [](const Stages& a, const Stages& b) { return total(a) < total(b); });
     return result;
 }
 

@@ -10,6 +10,8 @@ namespace kontur::bench {
 
 struct Timing {
     double seconds = 0;  ///< median wall time
+    double cpu_seconds =
+        0;  ///< median over the same runs of the time of all threads; other work on the machine hardly shows
     int runs = 0;
 };
 
@@ -18,8 +20,7 @@ Timing measure(int repeat, const std::function<void()>& work);
 
 struct TimedSegmentation {
     Segmentation segmentation;  ///< its report has the stages' times of the run whose total is the median
-    double seconds = 0;         ///< that total
-    int runs = 0;
+    Timing timing;
 };
 
 /// Segments as often as `measure` would.

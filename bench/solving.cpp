@@ -31,6 +31,7 @@ Json solving(const PhantomCase& phantom, int repeat) {
                             {"solver", name(solver)},
                             {"threads", threads},
                             {"seconds", timing.seconds},
+                            {"cpu_s", timing.cpu_seconds},
                             {"runs", timing.runs},
                             {"iterations", report.iterations},
                             {"residual_mm", report.residual},

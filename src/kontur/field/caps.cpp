@@ -94,7 +94,7 @@ private:
         double deepest = 0;
         for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
         if (deepest == 0) return;
-        const double height = std::min(previous_distance_.value_or(deepest), deepest);
+        const double height = std::min(previous_distance_.value_or(deepest), 1.5 * deepest);
         for (const Probe& probe : inside) {
             const double rim = 1 - probe.depth / deepest;
             caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});

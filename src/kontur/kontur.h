@@ -38,6 +38,7 @@
 
 // The function becomes voxels or triangles; a mask becomes contours.
 #include "kontur/extract/polygonize.h"
+#include "kontur/extract/preview.h"
 #include "kontur/extract/rasterize.h"
 #include "kontur/extract/trace.h"
 #include "kontur/extract/track.h"

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/extract/preview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kontur/base/error.h"
+#include "kontur/extract/polygonize.h"
+
+namespace kontur {
+namespace {
+
+// An object bulges beyond its contours by a fraction of their extent; what goes farther is a leak.
+constexpr double kMarginFraction = 0.5;
+constexpr double kMostPoints = 1LL << 36;  // the lattice's table of blocks then takes 1 GB
+
+/// A lattice of cubes with points at multiples of the spacing, so that it does not move when the box grows.
+Grid lattice_about(const Box3& box, double spacing_mm) {
+    const Box3 covered = box.padded(std::max(kMarginFraction * box.diagonal(), 4 * spacing_mm));
+    Grid grid;
+    double points = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double first = std::floor(covered.min[axis] / spacing_mm), last = std::ceil(covered.max[axis] / spacing_mm);
+        points *= last - first + 1;
+        if (!(points <= kMostPoints))
+            throw Error(ErrorKind::too_large,
+                        fmt::format("a preview with a spacing of {} mm over {:.0f} mm has more than {:.1e} points",
+                                    spacing_mm, covered.size()[axis], kMostPoints));
+        grid.size[axis] = static_cast<std::int64_t>(last - first) + 1;
+        grid.index_to_mm.linear[static_cast<std::size_t>(axis)][static_cast<std::size_t>(axis)] = spacing_mm;
+        grid.index_to_mm.translation[axis] = first * spacing_mm;
+    }
+    return grid;
+}
+
+Box3 box_of_finite(std::span<const Vec3> points) {
+    Box3 box;
+    for (const Vec3& p : points)
+        if (is_finite(p)) box.extend(p);
+    return box;
+}
+
+}  // namespace
+
+TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
+                             const Progress& progress) {
+    if (!(options.spacing_mm > 0 && std::isfinite(options.spacing_mm)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the preview's spacing is {} mm; it must be finite and above 0", options.spacing_mm));
+    const Box3 box = box_of_finite(starts);
+    if (box.is_empty()) return {};
+    const SurfaceLattice surface =
+        track_surface(function, lattice_about(box, options.spacing_mm), starts, options.threads, progress);
+    return polygonize(surface, function, options.threads, progress);
+}
+
+}  // namespace kontur

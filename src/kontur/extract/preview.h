@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "kontur/base/progress.h"
+#include "kontur/field/implicit_function.h"
+#include "kontur/shape/mesh.h"
+
+namespace kontur {
+
+struct PreviewOptions {
+    double spacing_mm = 2;  ///< of the lattice on which the surface is found, > 0; finer ones show more and cost its square
+    int threads = 0;        ///< 0: the machine's
+};
+
+/// The surface through `starts` (mm; points on contours) on a lattice of its own, whatever grid a mask would have: closed,
+/// oriented outward, manifold, with outward unit normals. Details thinner than the spacing may be missing. Surface that runs
+/// farther from the starts' box than half of its diagonal is cut off and closed there. No finite start: no surface. The same
+/// bytes for any number of threads. Throws Error(invalid_input) when the spacing is not > 0 and Error(too_large) when it is
+/// less than about 1 / 1500 of the starts' extent.
+TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts,
+                             const PreviewOptions& options = {}, const Progress& progress = {});
+
+}  // namespace kontur

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/extract/preview.h"
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/functions.h"
+
+namespace kontur {
+namespace {
+
+const Vec3 kCenter{20, -30, 1000};
+constexpr double kRadius = 15;
+
+/// A circle about the ball's centre in a plane of constant z.
+std::vector<Vec3> points_on_ball() {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 40; ++i)
+        points.push_back(kCenter + kRadius * Vec3{std::cos(i * M_PI / 20), std::sin(i * M_PI / 20), 0});
+    return points;
+}
+
+TEST(Preview, IsAClosedSphereWithOutwardNormalsWhateverTheSpacing) {
+    for (const double spacing : {4.0, 2.0, 0.7}) {
+        const TriangleMesh mesh =
+            preview_surface(test::ball_function(kCenter, kRadius), points_on_ball(), {.spacing_mm = spacing});
+        const MeshTopology found = topology(mesh);
+        EXPECT_TRUE(found.closed && found.oriented);
+        EXPECT_EQ(found.euler, 2);
+        const double triangles = static_cast<double>(mesh.triangles.size());
+        EXPECT_NEAR(triangles, 3 * 4 * M_PI * kRadius * kRadius / (spacing * spacing), 0.15 * triangles);
+        ASSERT_EQ(mesh.normals.size(), mesh.points.size());
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            const Vec3 radial = mesh.points[i] - kCenter;
+            EXPECT_NEAR(norm(radial), kRadius, spacing * spacing / (4 * kRadius)) << "of linear interpolation";
+            EXPECT_NEAR(norm(mesh.normals[i]), 1, 1e-12);
+            EXPECT_GT(dot(mesh.normals[i], normalized(radial)), 0.9999);
+        }
+    }
+}
+
+TEST(Preview, ShowsTheBulgeBeyondTheContours) {
+    const std::vector<Vec3> flat = points_on_ball();
+    const TriangleMesh mesh = preview_surface(test::ball_function(kCenter, kRadius), flat, {.spacing_mm = 1});
+    const Box3 box = bounding_box(mesh.points);
+    EXPECT_NEAR(box.min.z, kCenter.z - kRadius, 0.1);
+    EXPECT_NEAR(box.max.z, kCenter.z + kRadius, 0.1);
+}
+
+TEST(Preview, CutsALeakOff) {
+    // A half space: the surface through the starts has no end.
+    const ImplicitFunction half_space(Kernel::triharmonic, {{}, 1}, {}, {}, {0, 0, 0, 1});
+    const std::vector<Vec3> starts{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
+    const TriangleMesh mesh = preview_surface(half_space, starts, {.spacing_mm = 1});
+    EXPECT_TRUE(topology(mesh).closed);
+    const Box3 box = bounding_box(mesh.points);
+    EXPECT_LT(box.diagonal(), 60);
+    EXPECT_GT(box.size().x, 20);
+}
+
+TEST(Preview, WithoutFiniteStartsIsEmpty) {
+    const ImplicitFunction ball = test::ball_function({}, 5);
+    EXPECT_TRUE(preview_surface(ball, {}).triangles.empty());
+    EXPECT_TRUE(preview_surface(ball, std::vector<Vec3>{{std::nan(""), 0, 0}}).triangles.empty());
+}
+
+TEST(Preview, RefusesSpacingsThatMakeNoSense) {
+    const ImplicitFunction ball = test::ball_function({}, 5);
+    const std::vector<Vec3> starts{{5, 0, 0}, {-5, 0, 0}, {0, 5, 0}};
+    for (const double spacing : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+        EXPECT_KONTUR_ERROR(preview_surface(ball, starts, {.spacing_mm = spacing}), ErrorKind::invalid_input, "spacing");
+    EXPECT_KONTUR_ERROR(preview_surface(ball, starts, {.spacing_mm = 1e-3}), ErrorKind::too_large, "points");
+}
+
+TEST(Preview, StopsWhenAskedTo) {
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_KONTUR_ERROR(
+        preview_surface(test::ball_function({}, 5), std::vector<Vec3>{{5, 0, 0}}, {}, {{}, source.get_token()}),
+        ErrorKind::cancelled, "");
+}
+
+TEST(Preview, SameBytesForAnyNumberOfThreads) {
+    const ImplicitFunction ball = test::ball_function(kCenter, kRadius);
+    const TriangleMesh one = preview_surface(ball, points_on_ball(), {.spacing_mm = 1, .threads = 1});
+    for (const int threads : {2, 5}) {
+        const TriangleMesh many = preview_surface(ball, points_on_ball(), {.spacing_mm = 1, .threads = threads});
+        EXPECT_EQ(many.points, one.points);
+        EXPECT_EQ(many.normals, one.normals);
+        EXPECT_EQ(many.triangles, one.triangles);
+    }
+}
+
+}  // namespace
+}  // namespace kontur

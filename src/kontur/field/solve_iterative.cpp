@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kontur/base/error.h"
+#include "kontur/field/kernel_matrix.h"
 #include "kontur/field/linear_system.h"
 #include "kontur/field/preconditioner.h"
 
@@ -58,12 +59,14 @@ private:
 class ProjectedOperator {
 public:
     ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, int threads)
-        : system_(system), polynomials_(polynomials), threads_(threads) {}
+        : system_(system),
+          polynomials_(polynomials),
+          matrix_(make_kernel_matrix(system.kernel, system.centers, threads)) {}
 
     /// sign (Phi + diagonal) w, not projected.
     Vector unprojected(const Vector& w) const {
         Vector out(w.size());
-        sum_kernel(system_.kernel, system_.centers, w, system_.centers, out, threads_);
+        matrix_->multiply(w, out);
         const double sign = kernel_sign(system_.kernel);
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = sign * out[i] + system_.smoothing * w[i];
         return out;
@@ -77,7 +80,7 @@ public:
 private:
     const LinearSystem& system_;
     const LinearPolynomials& polynomials_;
-    int threads_;
+    std::unique_ptr<KernelMatrix> matrix_;
 };
 
 /// The linear polynomial that fits `values` at the centres; they are one up to the residual.

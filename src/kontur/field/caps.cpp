@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "kontur/field/section.h"
+#include "kontur/shape/section.h"
 
 namespace kontur {
 namespace {

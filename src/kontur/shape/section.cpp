@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/field/section.h"
+#include "kontur/shape/section.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,12 +33,14 @@ double Section::clearance(const Point2& p) const {
 
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {
     std::vector<Section> sections;
-    for (const Contour& contour : set.contours) {
+    for (std::size_t c = 0; c < set.contours.size(); ++c) {
+        const Contour& contour = set.contours[c];
         auto found = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
             return std::abs(dot(s.plane.normal, contour.plane.normal)) > 1 - 1e-9 &&
                    std::abs(s.plane.distance_to(contour.plane.origin)) < tolerance_mm;
         });
-        if (found == sections.end()) found = sections.insert(found, {contour.plane, {}});
+        if (found == sections.end()) found = sections.insert(found, {contour.plane, {}, {}});
+        found->contours.push_back(c);
         Polygon2& outline = found->outlines.emplace_back();
         for (const Vec3& p : contour.points) outline.push_back(found->plane.to_uv(p));
     }

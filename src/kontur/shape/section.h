@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "kontur/shape/contour.h"
@@ -15,6 +16,7 @@ using Polygon2 = std::vector<Point2>;
 struct Section {
     Plane plane;
     std::vector<Polygon2> outlines;
+    std::vector<std::size_t> contours;  ///< for each outline, which contour of the set it is
 
     bool contains(const Point2& p) const;
     /// Distance to the nearest outline; infinity without outlines.

@@ -11,6 +11,7 @@
 
 // What goes in and comes out.
 #include "kontur/shape/contour.h"
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/rgb_image.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -69,12 +70,15 @@ void expect_same(const ContourSet& a, const ContourSet& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.interior, b.interior);
     EXPECT_EQ(a.exterior, b.exterior);
+    EXPECT_EQ(a.surface, b.surface);
     ASSERT_EQ(a.contours.size(), b.contours.size());
     for (std::size_t i = 0; i < a.contours.size(); ++i) {
         EXPECT_EQ(a.contours[i].plane, b.contours[i].plane) << "contour " << i;
         EXPECT_EQ(a.contours[i].points, b.contours[i].points) << "contour " << i;
         EXPECT_EQ(a.contours[i].closed, b.contours[i].closed);
         EXPECT_EQ(a.contours[i].hole, b.contours[i].hole);
+        EXPECT_EQ(a.contours[i].end, b.contours[i].end);
+        EXPECT_EQ(a.contours[i].inside, b.contours[i].inside);
     }
 }
 
@@ -118,6 +122,39 @@ TEST_F(ContourJson, RoundedAxesBecomeOrthonormalAndKeepTheirHandedness) {
 TEST_F(ContourJson, DropsALastPointThatRepeatsTheFirst) {
     const ContourSet set = read(replaced("[4, 4, 3]]", "[4, 4, 3], [0, 0, 3]]"));
     EXPECT_EQ(set.contours[0].points.size(), 3u);
+}
+
+TEST_F(ContourJson, OpenContoursKeepTheirEndsAndSayWhereTheObjectLies) {
+    const ContourSet set =
+        read(replaced(R"("closed": true, "hole": false, "points": [[0, 0, 3], [4, 0, 3], [4, 4, 3])",
+                      R"("closed": false, "inside": "right", "points": [[0, 0, 3], [4, 0, 3], [0, 0, 3])"));
+    EXPECT_FALSE(set.contours[0].closed);
+    EXPECT_EQ(set.contours[0].inside, Hand::right);
+    EXPECT_EQ(set.contours[0].points.size(), 3u) << "a stretch may end where it began";
+    EXPECT_FALSE(set.contours[1].inside);
+}
+
+TEST_F(ContourJson, ReadsEndsAndSurfacePoints) {
+    const ContourSet set = read(replaced(R"([7, 0, 9]]}]}]})", R"([7, 0, 9]], "end": "round"}]}],
+                      "surface": [[1, 2, 3], {"point": [4, 5, 6], "outward": [0, 3, 4]}, {"point": [7, 8, 9]}]})"));
+    EXPECT_EQ(set.contours[0].end, ContourEnd::automatic);
+    EXPECT_EQ(set.contours[2].end, ContourEnd::round);
+    ASSERT_EQ(set.surface.size(), 3u);
+    EXPECT_EQ(set.surface[0], (SurfacePoint{{1, 2, 3}, {}}));
+    EXPECT_EQ(set.surface[2], (SurfacePoint{{7, 8, 9}, {}}));
+    EXPECT_EQ(set.surface[1].position, (Vec3{4, 5, 6}));
+    EXPECT_LT(distance(set.surface[1].outward.value(), {0, 0.6, 0.8}), 1e-15);
+}
+
+TEST_F(ContourJson, RefusesMeaningsThatItDoesNotKnow) {
+    EXPECT_NE(refusal(replaced(R"("hole": true)", R"("end": "pointed")"))
+                  .find(R"(contour 2: 'end' is "pointed"; "flat" or "round" is expected)"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced(R"("hole": true)", R"("inside": "up")")).find(R"('inside' is "up"; "left" or "right")"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced(R"("planes": [)", R"("surface": [{"point": [1, 2, 3], "outward": [0, 0, 0]}], "planes": [)"))
+                  .find("surface: point 1: outward: has length 0"),
+              std::string::npos);
 }
 
 TEST_F(ContourJson, RefusalsNameThePlace) {
@@ -187,11 +224,14 @@ TEST_F(ContourJson, WritingAndReadingGivesTheSameDoubles) {
     std::mt19937 random = test::random_of_this_test();
     std::uniform_real_distribution<double> number(-1000, 1000);
     const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
-    ContourSet set{"a \"name\"\n with ü", {}, {vector(), vector()}, {vector()}};
+    ContourSet set{"a \"name\"\n with ü", {}, {vector(), vector()}, {vector()}, {{vector(), {}}}};
+    set.surface.push_back({vector(), normalized(vector())});
     for (int i = 0; i < 40; ++i) {
         const Plane plane = i % 3 ? set.contours.back().plane : make_plane(vector(), vector());
         Contour contour{plane, {}, i % 5 != 0, i % 4 == 0};
         for (int p = 0; p < i; ++p) contour.points.push_back(vector());
+        if (contour.closed) contour.end = std::array{ContourEnd::automatic, ContourEnd::flat, ContourEnd::round}[i % 3];
+        else if (i % 2) contour.inside = i % 3 ? Hand::left : Hand::right;
         set.contours.push_back(contour);
     }
     set.contours[5].points[0] = {1e-300, 0.1 + 0.2, std::numeric_limits<double>::max()};
@@ -236,6 +276,10 @@ TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
     write_contour_json(folder_ / "empty.json", {});
     set.interior = {{1, 2, 3}};
     set.exterior = {{4, 5, 6}, {1e22, 1e-9, 0}};
+    set.surface = {{{4, 5, 6}, {}}, {{1, 2, 3}, Vec3{0, 0, 1}}};
+    set.contours[0].end = ContourEnd::flat;
+    set.contours[2].closed = false;
+    set.contours[2].inside = Hand::left;
     write_contour_json(folder_ / "points.json", set);
     const std::string schema = std::string(KONTUR_TEST_SUPPORT) + "/../../docs/contours.schema.json";
     const auto valid = test::run_python(

@@ -50,6 +50,44 @@ TEST(CheckContours, NamesTheContourWithTooFewPoints) {
     }
 }
 
+TEST(CheckContours, AnOpenStretchNeedsTwoPointsAndNoArea) {
+    ContourSet set = three_circles();
+    set.contours[1].closed = false;
+    set.contours[1].points.resize(2);
+    EXPECT_EQ(refusal(set), "");
+    set.contours[1].points.resize(1);
+    EXPECT_EQ(refusal(set), "contour 2 has 1 point; at least 2 are needed");
+}
+
+TEST(CheckContours, RefusesMeaningsThatContradictEachOther) {
+    const auto refused = [](const auto& change) {
+        ContourSet set = three_circles();
+        change(set.contours[0]);
+        return refusal(set);
+    };
+    EXPECT_EQ(refused([](Contour& c) { c.closed = false, c.hole = true; }),
+              "contour 1 is open and a hole; only closed contours can be holes");
+    EXPECT_EQ(refused([](Contour& c) { c.closed = false, c.end = ContourEnd::flat; }),
+              "contour 1 is open and ends the object; only closed contours can");
+    EXPECT_EQ(refused([](Contour& c) { c.hole = true, c.end = ContourEnd::round; }),
+              "contour 1 is a hole and ends the object; only an outer contour can");
+    EXPECT_EQ(refused([](Contour& c) { c.inside = Hand::left; }),
+              "contour 1 is closed and says on which hand the object lies; only open contours need that");
+    EXPECT_EQ(refused([](Contour& c) { c.closed = false, c.inside = Hand::left; }), "");
+    EXPECT_EQ(refused([](Contour& c) { c.end = ContourEnd::flat; }), "");
+}
+
+TEST(CheckContours, SurfacePointsAreFiniteAndTheirDirectionsUnit) {
+    ContourSet set = three_circles();
+    set.surface = {{{0, 0, 90}, {}}, {{1, 2, 3}, Vec3{0, 0.6, 0.8}}};
+    EXPECT_EQ(refusal(set), "");
+    EXPECT_TRUE(bounding_box(set).contains({0, 0, 90}));
+    set.surface[1].outward = Vec3{0, 3, 4};
+    EXPECT_EQ(refusal(set), "the outward direction of surface point 2 has length 5, not 1");
+    set.surface[0].position.y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(refusal(set), "point 1 of the surface points has a NaN or infinite coordinate");
+}
+
 TEST(CheckContours, NamesThePointThatIsNotFinite) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         for (int axis = 0; axis < 3; ++axis) {

@@ -81,7 +81,8 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
         for (const std::size_t neighbour : {ring.before(i), ring.after(i)}) queue.emplace(ring.weight(neighbour), neighbour);
     }
 
-    Contour reduced{contour.plane, {}, contour.closed, contour.hole};
+    Contour reduced = contour;
+    reduced.points.clear();
     for (std::size_t i = 0; i < n; ++i)
         if (ring.alive(i)) reduced.points.push_back(contour.points[i]);
     return reduced;
@@ -94,7 +95,8 @@ Contour refine(const Contour& contour, int least_segments) {
     const double average = total / static_cast<double>(n);
     const double wanted = least_segments > 0 ? std::min(average, total / least_segments) : average;
 
-    Contour refined{contour.plane, {}, contour.closed, contour.hole};
+    Contour refined = contour;
+    refined.points.clear();
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
         const double length = distance(from, to);

@@ -2,6 +2,7 @@
 #include "kontur/io/contour_json.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "kontur/base/error.h"
@@ -33,9 +34,9 @@ void check_version(const json& document) {
         throw Error(ErrorKind::unsupported, fmt::format("the version is {}; {} is supported", version.dump(), kVersion));
 }
 
-Vec3 read_direction(const json& plane, const char* key, PatientFrame frame) {
+Vec3 read_direction(const json& owner, const char* key, PatientFrame frame) {
     return in_context(key, [&] {
-        const Vec3 direction = to_lps(frame, to_vec3(member(plane, key)));
+        const Vec3 direction = to_lps(frame, to_vec3(member(owner, key)));
         const Vec3 unit = normalized(direction);
         if (!(std::abs(norm(unit) - 1) < 1e-9))
             corrupt(fmt::format("has length {:g}, which gives no direction", norm(direction)));
@@ -77,11 +78,46 @@ std::vector<Vec3> read_points(const json& array, PatientFrame frame) {
     return points;
 }
 
+/// One of the values of an enumeration by its name, nothing where the key is absent.
+template <class Value>
+std::optional<Value> named_member(const json& item, const char* key, std::initializer_list<Value> values) {
+    if (!item.contains(key)) return std::nullopt;
+    const std::string text = text_member(item, key, "");
+    std::string known;
+    for (const Value value : values) {
+        if (text == name(value)) return value;
+        known += fmt::format("{}\"{}\"", known.empty() ? "" : " or ", name(value));
+    }
+    corrupt(fmt::format("'{}' is \"{}\"; {} is expected", key, text, known));
+}
+
 Contour read_contour(const json& item, const Plane& plane, PatientFrame frame) {
     Contour contour{plane, read_points(array_member(item, "points"), frame), flag_member(item, "closed", true),
                     flag_member(item, "hole", false)};
-    if (contour.points.size() > 1 && contour.points.back() == contour.points.front()) contour.points.pop_back();
+    contour.end = named_member(item, "end", {ContourEnd::flat, ContourEnd::round}).value_or(ContourEnd::automatic);
+    contour.inside = named_member(item, "inside", {Hand::left, Hand::right});
+    std::vector<Vec3>& points = contour.points;
+    if (contour.closed && points.size() > 1 && points.back() == points.front()) points.pop_back();
     return contour;
+}
+
+/// Either [x, y, z] or {"point": [x, y, z], "outward": [x, y, z]}.
+SurfacePoint read_surface_point(const json& item, PatientFrame frame) {
+    if (item.is_array()) return {to_lps(frame, to_vec3(item)), {}};
+    SurfacePoint point{in_context("point", [&] { return to_lps(frame, to_vec3(member(item, "point"))); }), {}};
+    if (item.contains("outward")) point.outward = read_direction(item, "outward", frame);
+    return point;
+}
+
+std::vector<SurfacePoint> read_surface(const json& document) {
+    std::vector<SurfacePoint> points;
+    if (!document.contains("surface")) return points;
+    const PatientFrame frame = read_frame(document);
+    in_context("surface", [&] {
+        for_each_item(array_member(document, "surface"), "point",
+                      [&](const json& item) { points.push_back(read_surface_point(item, frame)); });
+    });
+    return points;
 }
 
 /// Calls `body(item, plane, frame)` for every plane of a file.
@@ -108,6 +144,7 @@ ContourSet read_set(const json& document) {
     set.name = text_member(document, "structure", "");
     set.interior = read_constraints(document, "interior");
     set.exterior = read_constraints(document, "exterior");
+    set.surface = read_surface(document);
     return set;
 }
 
@@ -117,9 +154,15 @@ std::string to_text(const Vec3& v) {
     return fmt::format("[{}, {}, {}]", v.x + 0.0, v.y + 0.0, v.z + 0.0);
 }
 
-std::string to_text(const std::vector<Vec3>& points) {
+std::string to_text(const SurfacePoint& p) {
+    if (!p.outward) return to_text(p.position);
+    return fmt::format("{{\"point\": {}, \"outward\": {}}}", to_text(p.position), to_text(*p.outward));
+}
+
+template <class Point>
+std::string to_text(const std::vector<Point>& points) {
     std::string text = "[";
-    for (const Vec3& p : points) {
+    for (const Point& p : points) {
         if (text.size() > 1) text += ", ";
         text += to_text(p);
     }
@@ -127,8 +170,10 @@ std::string to_text(const std::vector<Vec3>& points) {
 }
 
 std::string to_text(const Contour& contour) {
-    return fmt::format("    {{\"closed\": {}, \"hole\": {}, \"points\": {}}}", contour.closed, contour.hole,
-                       to_text(contour.points));
+    std::string text = fmt::format("    {{\"closed\": {}, \"hole\": {}, ", contour.closed, contour.hole);
+    if (contour.end != ContourEnd::automatic) text += fmt::format("\"end\": \"{}\", ", name(contour.end));
+    if (contour.inside) text += fmt::format("\"inside\": \"{}\", ", name(*contour.inside));
+    return text + fmt::format("\"points\": {}}}", to_text(contour.points));
 }
 
 std::string plane_head(const Plane& plane) {
@@ -153,6 +198,7 @@ std::string to_document(const ContourSet& set) {
                                    kVersion, name, planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
+    if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
     return text + "\n}\n";
 }
 

@@ -9,9 +9,9 @@
 namespace kontur {
 
 /// Reads kontur's own contour file (docs/formats.md, docs/contours.schema.json). Frames "LPS mm" and "RAS mm"; the axes of
-/// a plane are made orthonormal, because files round them; a last point that repeats the first is dropped. Whether the
-/// contours can be segmented is for `check_contours`. Throws Error(corrupt_file) naming file, plane, contour and point
-/// (each counted from 1, contours within their plane), Error(unsupported) for another frame or a newer version.
+/// a plane are made orthonormal, because files round them; a closed contour's last point that repeats the first is dropped.
+/// Whether the contours can be segmented is for `check_contours`. Throws Error(corrupt_file) naming file, plane, contour and
+/// point (each counted from 1, contours within their plane), Error(unsupported) for another frame or a newer version.
 ContourSet read_contour_json(const std::filesystem::path& path);
 
 /// The planes of such a file, in its order, with or without contours.

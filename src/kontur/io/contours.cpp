@@ -70,6 +70,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
         append(all.contours.contours, one.contours.contours);
         append(all.contours.interior, one.contours.interior);
         append(all.contours.exterior, one.contours.exterior);
+        append(all.contours.surface, one.contours.surface);
         for (const std::string& note : one.notes) all.notes.push_back(path.string() + ": " + note);
     }
     return all;

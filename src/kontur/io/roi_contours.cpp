@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "kontur/io/contour_nesting.h"
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/io/keyhole.h"
 #include "kontur/io/shared_planes.h"
 

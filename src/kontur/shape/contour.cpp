@@ -21,10 +21,14 @@ void check_all_finite(const std::vector<Vec3>& points, const std::string& owner)
     for (std::size_t i = 0; i < points.size(); ++i) check_finite(points[i], i + 1, owner);
 }
 
-void check_plane(const Plane& plane, const std::string& owner) {
+bool is_unit(const Vec3& direction) {
     // Six decimals are common in files, and readers restore the unit length.
     constexpr double kUnitTolerance = 1e-5;
-    if (!is_finite(plane.origin) || !(std::abs(norm(plane.normal) - 1) <= kUnitTolerance))
+    return std::abs(norm(direction) - 1) <= kUnitTolerance;
+}
+
+void check_plane(const Plane& plane, const std::string& owner) {
+    if (!is_finite(plane.origin) || !is_unit(plane.normal))
         refuse(fmt::format("the plane of {} has an origin that is not finite or a normal that is not of length 1", owner));
 }
 
@@ -49,14 +53,33 @@ void check_area(const Contour& contour, double limit_mm, const std::string& owne
                            contour.points.size(), measured, limit_mm));
 }
 
+void check_meaning(const Contour& contour, const std::string& owner) {
+    if (!contour.closed && contour.hole) refuse(owner + " is open and a hole; only closed contours can be holes");
+    if (!contour.closed && contour.end != ContourEnd::automatic)
+        refuse(owner + " is open and ends the object; only closed contours can");
+    if (contour.hole && contour.end != ContourEnd::automatic)
+        refuse(owner + " is a hole and ends the object; only an outer contour can");
+    if (contour.closed && contour.inside)
+        refuse(owner + " is closed and says on which hand the object lies; only open contours need that");
+}
+
 void check_contour(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
-    if (contour.points.size() < 3)
-        refuse(fmt::format("{} has {} point{}; at least 3 are needed", owner, contour.points.size(),
-                           contour.points.size() == 1 ? "" : "s"));
+    const std::size_t least = contour.closed ? 3 : 2;
+    if (contour.points.size() < least)
+        refuse(fmt::format("{} has {} point{}; at least {} are needed", owner, contour.points.size(),
+                           contour.points.size() == 1 ? "" : "s", least));
     check_all_finite(contour.points, owner);
     check_plane(contour.plane, owner);
     check_on_plane(contour, options.plane_tolerance_mm, owner);
-    check_area(contour, options.line_tolerance_mm, owner);
+    if (contour.closed) check_area(contour, options.line_tolerance_mm, owner);
+    check_meaning(contour, owner);
+}
+
+void check_surface_point(const SurfacePoint& point, std::size_t number) {
+    check_finite(point.position, number, "the surface points");
+    if (point.outward && !is_unit(*point.outward))
+        refuse(
+            fmt::format("the outward direction of surface point {} has length {:g}, not 1", number, norm(*point.outward)));
 }
 
 bool is_inside(const Grid& grid, const Vec3& index) {
@@ -70,6 +93,20 @@ bool is_inside(const Grid& grid, const Vec3& index) {
 
 }  // namespace
 
+std::string_view name(ContourEnd end) noexcept {
+    switch (end) {
+        case ContourEnd::automatic:
+            return "automatic";
+        case ContourEnd::flat:
+            return "flat";
+        case ContourEnd::round:
+            return "round";
+    }
+    return "?";
+}
+
+std::string_view name(Hand hand) noexcept { return hand == Hand::left ? "left" : "right"; }
+
 std::size_t point_count(const ContourSet& set) {
     std::size_t count = 0;
     for (const Contour& contour : set.contours) count += contour.points.size();
@@ -80,6 +117,7 @@ Box3 bounding_box(const ContourSet& set) {
     Box3 box;
     for (const Contour& contour : set.contours)
         for (const Vec3& p : contour.points) box.extend(p);
+    for (const SurfacePoint& p : set.surface) box.extend(p.position);
     return box;
 }
 
@@ -121,6 +159,7 @@ std::vector<std::string> contour_problems(const ContourSet& set, const ContourCh
         collect([&] { check_contour(set.contours[i], options, fmt::format("contour {}", i + 1)); });
     collect([&] { check_all_finite(set.interior, "the interior points"); });
     collect([&] { check_all_finite(set.exterior, "the exterior points"); });
+    for (std::size_t i = 0; i < set.surface.size(); ++i) collect([&] { check_surface_point(set.surface[i], i + 1); });
     return problems;
 }
 

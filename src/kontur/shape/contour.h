@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kontur/base/geometry.h"
@@ -12,12 +13,35 @@ namespace kontur {
 
 struct Grid;
 
-/// One drawn polygon in a plane. The last point is not a repetition of the first; the orientation carries no meaning.
+/// How the object ends at a contour, on the side where no other contour carries it on.
+enum class ContourEnd {
+    automatic,  ///< it may go on; how far follows from the contours before
+    flat,       ///< in the contour's plane
+    round,      ///< rounded off close to the contour
+};
+std::string_view name(ContourEnd end) noexcept;
+
+/// A hand of someone who walks along a contour in drawing order, upright on the side to which the plane's normal points.
+enum class Hand { left, right };
+std::string_view name(Hand hand) noexcept;
+
+/// One drawn line in a plane: a closed polygon, or an open stretch of the object's boundary. The last point of a closed
+/// contour is not a repetition of the first; its orientation carries no meaning.
 struct Contour {
     Plane plane;               ///< where it was drawn; the points lie on it within the tolerance of `check_contours`
     std::vector<Vec3> points;  ///< mm, LPS, in drawing order
     bool closed = true;
-    bool hole = false;  ///< true: the object lies outside of this contour (a cavity's wall)
+    bool hole = false;  ///< true: the object lies outside of this contour (a cavity's wall); closed contours only
+    ContourEnd end = ContourEnd::automatic;  ///< closed contours only
+    std::optional<Hand> inside{};            ///< open contours only: where the object lies; unset: to be found out
+};
+
+/// A single point on the object's surface.
+struct SurfacePoint {
+    Vec3 position;                  ///< mm
+    std::optional<Vec3> outward{};  ///< unit, out of the object; unset: only the position is known
+
+    friend bool operator==(const SurfacePoint&, const SurfacePoint&) = default;
 };
 
 /// Everything the user drew for one object.
@@ -26,12 +50,13 @@ struct ContourSet {
     std::vector<Contour> contours;
     std::vector<Vec3> interior;  ///< mm; points that must lie inside the object (Turk & O'Brien's interior constraints)
     std::vector<Vec3> exterior;  ///< mm; points that must lie outside of the object
+    std::vector<SurfacePoint> surface{};
 };
 
 /// Number of points over all contours.
 std::size_t point_count(const ContourSet& set);
 
-/// Box of all contour points, in mm; empty for an empty set.
+/// Box of all contour points and single surface points, in mm; empty for an empty set.
 Box3 bounding_box(const ContourSet& set);
 
 /// Largest distance in mm of the points from the line through two far ends of them: 0 when all lie on one line.
@@ -48,8 +73,10 @@ struct ContourCheckOptions {
 };
 
 /// Throws Error(invalid_input), naming the contour (counted from 1), the number and the limit, when the set cannot be
-/// segmented: no contour, a contour with fewer than 3 points, a NaN or infinite coordinate, a point off its plane by more
-/// than the tolerance, or a contour whose points lie on one line (zero area). Interior and exterior points must be finite.
+/// segmented: no contour, a closed contour with fewer than 3 points or an open one with fewer than 2, a NaN or infinite
+/// coordinate, a point off its plane by more than the tolerance, a closed contour whose points lie on one line (zero area),
+/// `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole. Interior, exterior and surface points must
+/// be finite, outward directions of length 1.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
 
 /// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.

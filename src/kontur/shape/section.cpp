@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kontur/shape/contour_nesting.h"
+
 namespace kontur {
 
 bool Section::contains(const Point2& p) const {
@@ -35,10 +37,8 @@ std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {
     std::vector<Section> sections;
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         const Contour& contour = set.contours[c];
-        auto found = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
-            return std::abs(dot(s.plane.normal, contour.plane.normal)) > 1 - 1e-9 &&
-                   std::abs(s.plane.distance_to(contour.plane.origin)) < tolerance_mm;
-        });
+        auto found = std::find_if(sections.begin(), sections.end(),
+                                  [&](const Section& s) { return coincide(s.plane, contour.plane, tolerance_mm); });
         if (found == sections.end()) found = sections.insert(found, {contour.plane, {}, {}});
         found->contours.push_back(c);
         Polygon2& outline = found->outlines.emplace_back();

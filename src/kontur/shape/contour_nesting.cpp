@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/contour_nesting.h"
+#include "kontur/shape/contour_nesting.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace kontur {
 namespace {
@@ -15,12 +16,12 @@ struct Polygon {
     Point2 low{}, high{};
 };
 
-Polygon project(const Contour& contour) {
+Polygon project(const Contour& contour, const Plane& plane) {
     Polygon polygon;
     polygon.low.fill(std::numeric_limits<double>::infinity());
     polygon.high.fill(-std::numeric_limits<double>::infinity());
     for (const Vec3& p : contour.points) {
-        polygon.points.push_back(contour.plane.to_uv(p));
+        polygon.points.push_back(plane.to_uv(p));
         for (std::size_t axis = 0; axis < 2; ++axis) {
             polygon.low[axis] = std::min(polygon.low[axis], polygon.points.back()[axis]);
             polygon.high[axis] = std::max(polygon.high[axis], polygon.points.back()[axis]);
@@ -72,16 +73,32 @@ Position position_of(const Polygon& polygon, const Polygon& other, double tolera
     return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
 }
 
+/// For each contour the first one in its plane.
+std::vector<std::size_t> first_in_plane(const std::vector<Contour>& contours, double tolerance_mm) {
+    std::vector<std::size_t> first(contours.size());
+    for (std::size_t i = 0; i < contours.size(); ++i) {
+        std::size_t j = 0;
+        while (j < i && !(first[j] == j && coincide(contours[j].plane, contours[i].plane, tolerance_mm))) ++j;
+        first[i] = j;
+    }
+    return first;
+}
+
 }  // namespace
 
+bool coincide(const Plane& a, const Plane& b, double tolerance_mm) {
+    return std::abs(dot(a.normal, b.normal)) > 1 - 1e-9 && std::abs(a.distance_to(b.origin)) < tolerance_mm;
+}
+
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) {
+    const std::vector<std::size_t> plane = first_in_plane(contours, tolerance_mm);
     std::vector<Polygon> polygons;
-    for (const Contour& contour : contours) polygons.push_back(project(contour));
+    for (std::size_t i = 0; i < contours.size(); ++i) polygons.push_back(project(contours[i], contours[plane[i]].plane));
     Nesting nesting;
     nesting.depth.assign(contours.size(), 0);
     for (std::size_t a = 0; a < contours.size(); ++a)
         for (std::size_t b = 0; b < contours.size(); ++b) {
-            if (a == b || !(contours[a].plane == contours[b].plane)) continue;
+            if (a == b || plane[a] != plane[b] || !contours[a].closed || !contours[b].closed) continue;
             const Position position = position_of(polygons[a], polygons[b], tolerance_mm);
             if (position == Position::inside) ++nesting.depth[a];
             if (position == Position::crossing) nesting.crossings.emplace_back(std::min(a, b), std::max(a, b));

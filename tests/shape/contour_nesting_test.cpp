@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/shape/contour_nesting.h"
+
+#include <gtest/gtest.h>
+
+#include "support/contour_sets.h"
+
+namespace kontur {
+namespace {
+
+const Plane kPlane = make_plane({3, -40, 200}, {0.3, -0.5, 0.8});
+
+Contour circle(double radius, double u, double v, Plane plane = kPlane) {
+    plane.origin = plane.from_uv(u, v);
+    return test::circle(plane, radius, 40);
+}
+
+std::vector<std::size_t> depths(const std::vector<Contour>& contours) { return find_nesting(contours, 0.01).depth; }
+
+TEST(FindNesting, CountsTheContoursAroundEachOne) {
+    const std::vector<Contour> rings{circle(4, 1, 0), circle(20, 0, 0), circle(9, 2, 1), circle(3, -14, 0),
+                                     circle(5, 40, 0)};
+    EXPECT_EQ(depths(rings), (std::vector<std::size_t>{2, 0, 1, 1, 0}));
+    EXPECT_TRUE(find_nesting(rings, 0.01).crossings.empty());
+}
+
+TEST(FindNesting, PlanesSeenFromTheirOtherSideOrAnotherOriginAreOne) {
+    Plane back = make_plane(kPlane.from_uv(30, -70) + 0.004 * kPlane.normal, -kPlane.normal);
+    Contour inner = circle(5, 2, 0);
+    inner.plane = back;
+    EXPECT_EQ(depths({circle(9, 0, 0), inner}), (std::vector<std::size_t>{0, 1}));
+    inner.plane.origin += 0.1 * kPlane.normal;
+    EXPECT_EQ(depths({circle(9, 0, 0), inner}), (std::vector<std::size_t>{0, 0})) << "another plane";
+}
+
+TEST(FindNesting, OpenContoursEncloseNothing) {
+    Contour open = circle(20, 0, 0);
+    open.closed = false;
+    EXPECT_EQ(depths({circle(9, 0, 0), open, circle(4, 0, 0)}), (std::vector<std::size_t>{0, 0, 1}));
+}
+
+TEST(FindNesting, NamesContoursThatOverlapInPart) {
+    const Nesting nesting = find_nesting({circle(9, 0, 0), circle(3, 30, 0), circle(9, 10, 0)}, 0.01);
+    EXPECT_EQ(nesting.crossings, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}}));
+}
+
+}  // namespace
+}  // namespace kontur

@@ -104,6 +104,13 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+std::string crossings_line(const std::vector<Crossing>& crossings) {
+    const Disagreement all = disagreement(crossings);
+    const std::string unmatched = all.unmatched > 0 ? fmt::format(", {} unmatched", all.unmatched) : "";
+    return fmt::format("{} crossings of contours{}; disagreement {:.3g} mm (max), {:.3g} mm (rms)\n", all.matched, unmatched,
+                       all.max_mm, all.rms_mm);
+}
+
 void print_summary(const SegmentCommand& command, const Segmentation& result, double seconds, Console& console) {
     const SegmentReport& r = result.report;
     std::string text = fmt::format("{}: {} voxels, {:.2f} ml, {} component{}\n", command.output.string(), r.mask_voxels,
@@ -114,6 +121,7 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
     if (!command.report.empty()) text += command.report.string() + "\n";
     text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,
                         r.points, r.centres, r.residual.max_mm, r.residual.rms_mm);
+    if (!r.crossings.empty()) text += crossings_line(r.crossings);
     console.print(text + fmt::format("{:.2f} s, {:.0f} MB\n", seconds, peak_memory_mb()));
 }
 

@@ -3,6 +3,9 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <span>
+
 namespace kontur::app {
 namespace {
 
@@ -11,6 +14,27 @@ Facts seconds_json(const SegmentReport& report) {
     for (const auto& [stage, duration] : report.seconds) seconds[stage] = duration;
     seconds["total"] = total_seconds(report);
     return seconds;
+}
+
+Facts triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+/// How many there are, how well they agree, and the five worst; contours are counted from 1.
+Facts crossings_json(const std::vector<Crossing>& crossings) {
+    constexpr std::size_t kShown = 5;
+    const Disagreement all = disagreement(crossings);
+    Facts worst = Facts::array();
+    for (const Crossing& c : std::span(crossings).first(std::min(kShown, crossings.size())))
+        worst.push_back({{"contour", c.contour + 1},
+                         {"other", c.other + 1},
+                         {"matched", c.matched},
+                         {"disagreement_mm", c.disagreement_mm},
+                         {"distance_mm", c.distance_mm},
+                         {"position_mm", triple(c.position)},
+                         {"other_position_mm", triple(c.other_position)}});
+    return {{"matched", all.matched},
+            {"unmatched", all.unmatched},
+            {"disagreement_mm", {{"max", all.max_mm}, {"rms", all.rms_mm}, {"mean", all.mean_mm}}},
+            {"worst", worst}};
 }
 
 }  // namespace
@@ -33,6 +57,7 @@ Facts report_json(const SegmentReport& report) {
         {"solves", report.solves},
         {"iterations", report.iterations},
         {"residual_mm", {{"max", report.residual.max_mm}, {"rms", report.residual.rms_mm}}},
+        {"crossings", crossings_json(report.crossings)},
         {"voxelizer", name(report.voxelizer)},
         {"evaluations", report.evaluations},
         {"surface_voxels", report.surface_voxels},

@@ -12,9 +12,11 @@
 // What goes in and comes out.
 #include "kontur/shape/contour.h"
 #include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/crossings.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/rgb_image.h"
+#include "kontur/shape/section.h"
 #include "kontur/shape/volume.h"
 
 // Files to shapes.

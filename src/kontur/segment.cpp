@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 
 #include "kontur/base/error.h"
@@ -85,6 +87,17 @@ SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, 
     return track_surface(function, grid, starts, options.threads, progress);
 }
 
+/// A sentence on the worst crossing, if it is worse than both a voxel and 1 % of the contours' box.
+void describe_crossings(const ContourSet& contours, const Grid& grid, SegmentReport& report) {
+    report.crossings = find_crossings(contours);
+    std::stable_sort(report.crossings.begin(), report.crossings.end(),
+                     [](const Crossing& a, const Crossing& b) { return a.disagreement_mm > b.disagreement_mm; });
+    if (report.crossings.empty()) return;
+    const Crossing& worst = report.crossings.front();
+    const double limit_mm = std::max(std::cbrt(grid.voxel_volume_mm3()), 0.01 * bounding_box(contours).diagonal());
+    if (worst.disagreement_mm > limit_mm) report.warnings.push_back("contours contradict each other: " + sentence(worst));
+}
+
 bool reaches_border(const Mask& mask) {
     const Index3& n = mask.grid.size;
     for (std::int64_t k = 0; k < n.k; ++k)
@@ -160,6 +173,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.voxelizer = options.voxelizer;
     describe_fit(prepared, fitted, fitting, report);
     report.residual = residual(result.function, contours, options.threads);
+    describe_crossings(contours, grid, report);
     describe_mask(surface, result.mask, report);
     watch.lap("measure");
     return result;

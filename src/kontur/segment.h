@@ -11,6 +11,7 @@
 #include "kontur/field/fit.h"
 #include "kontur/field/residual.h"
 #include "kontur/shape/contour.h"
+#include "kontur/shape/crossings.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/volume.h"
 
@@ -49,6 +50,7 @@ struct SegmentReport {
     int solves = 0;
     int iterations = 0;               ///< over all solves; 0 for direct solvers
     Residual residual;                ///< at all drawn points
+    std::vector<Crossing> crossings;  ///< of contours of different planes, those that disagree most first
     std::int64_t evaluations = 0;     ///< function values computed to voxelize
     std::int64_t surface_voxels = 0;  ///< lattice cells that the surface passes through
     std::int64_t mask_voxels = 0;

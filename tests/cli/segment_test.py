@@ -57,6 +57,8 @@ def test_all_outputs_and_the_report(folder):
     assert report["solver"] in ("iterative", "cholesky", "dense")
     assert report["iterations"] > 0
     assert 0 <= report["residual_mm"]["rms"] <= report["residual_mm"]["max"] < 0.1
+    assert report["crossings"]["matched"] >= 24  # each axial circle meets each of the others twice
+    assert report["crossings"]["disagreement_mm"]["max"] < 0.2
     assert report["evaluations"] > report["surface_voxels"] > 0
     assert report["seconds"]["total"] == pytest.approx(sum(t for s, t in report["seconds"].items() if s != "total"))
     assert report["peak_memory_mb"] > 1

@@ -60,6 +60,19 @@ TEST(Segment, BallFromItsCircles) {
             }
 }
 
+TEST(Segment, SaysWhereContoursContradictEachOther) {
+    ContourSet contours = ball_contours();
+    for (Vec3& p : contours.contours[0].points)
+        p = contours.contours[0].plane.origin + 1.3 * (p - contours.contours[0].plane.origin);
+    const Segmentation result = segment(contours, ball_grid());
+    EXPECT_TRUE(warns(result.report, "contradict")) << "a circle that is 5.6 mm too large";
+    ASSERT_FALSE(result.report.crossings.empty());
+    const Crossing& worst = result.report.crossings.front();
+    EXPECT_TRUE(worst.contour == 0 || worst.other == 0);
+    EXPECT_NEAR(worst.disagreement_mm, 5.6, 0.3);
+    EXPECT_FALSE(warns(segment(ball_contours(), ball_grid()).report, "contradict"));
+}
+
 TEST(Segment, ReportSaysWhatWasDone) {
     const ContourSet contours = ball_contours();
     for (const Normals normals : {Normals::surface, Normals::in_plane}) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kontur/shape/contour_nesting.h"
 
@@ -20,17 +19,24 @@ bool Section::contains(const Point2& p) const {
     return inside;
 }
 
-double Section::clearance(const Point2& p) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Polygon2& outline : outlines)
+Section::Nearest Section::nearest(const Point2& p) const {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    Nearest result;
+    for (std::size_t o = 0; o < outlines.size(); ++o) {
+        const Polygon2& outline = outlines[o];
         for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
             const Point2 &a = outline[before], &b = outline[i];
             const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
             const double length2 = ux * ux + uy * uy;
             const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
-            nearest = std::min(nearest, std::hypot(px - t * ux, py - t * uy));
+            const double dx = px - t * ux, dy = py - t * uy;
+            if (dx * dx + dy * dy >= nearest2) continue;
+            nearest2 = dx * dx + dy * dy;
+            result = {0, {a[0] + t * ux, a[1] + t * uy}, o};
         }
-    return nearest;
+    }
+    result.distance = std::sqrt(nearest2);
+    return result;
 }
 
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "kontur/shape/contour.h"
@@ -18,9 +19,17 @@ struct Section {
     std::vector<Polygon2> outlines;
     std::vector<std::size_t> contours;  ///< for each outline, which contour of the set it is
 
+    /// A point of an outline; without outlines the distance is infinite.
+    struct Nearest {
+        double distance = std::numeric_limits<double>::infinity();
+        Point2 position{};
+        std::size_t outline = 0;
+    };
+
     bool contains(const Point2& p) const;
+    Nearest nearest(const Point2& p) const;
     /// Distance to the nearest outline; infinity without outlines.
-    double clearance(const Point2& p) const;
+    double clearance(const Point2& p) const { return nearest(p).distance; }
 };
 
 /// The set's contours by plane, in the order of the first contour of each. Planes with the same normal up to sign that are

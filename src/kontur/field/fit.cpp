@@ -2,6 +2,7 @@
 #include "kontur/field/fit.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace kontur {
 namespace {
@@ -14,19 +15,46 @@ double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slop
     return inplane > 0 ? inplane / std::hypot(inplane, tilt) : 1.0;
 }
 
-/// Reads all slopes from the function's gradient; returns the mean change of the tilt in degrees.
-double update_slopes(const ImplicitFunction& function, const std::vector<BoundaryPoint>& points, const FitOptions& options,
-                     std::vector<double>& slopes) {
+/// Every few of the points, evenly along the contours, about `most` in all; short contours keep more of theirs.
+std::vector<BoundaryPoint> thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
+    constexpr double kLeastPerContour = 24;
+    if (points.size() <= most) return points;
+    const auto step_to = [&](std::size_t i) {
+        const bool follows = i > 0 && points[i].contour == points[i - 1].contour;
+        return follows ? distance(points[i].position, points[i - 1].position) : 0.0;
+    };
+    std::vector<double> lengths(static_cast<std::size_t>(points.back().contour) + 1);
+    for (std::size_t i = 0; i < points.size(); ++i) lengths[static_cast<std::size_t>(points[i].contour)] += step_to(i);
+    const double step = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(most);
+
+    std::vector<BoundaryPoint> kept;
+    double since = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        since += step_to(i);
+        const double own_step = std::min(step, lengths[static_cast<std::size_t>(points[i].contour)] / kLeastPerContour);
+        if (i > 0 && points[i].contour == points[i - 1].contour && since < own_step) continue;
+        kept.push_back(points[i]);
+        since = 0;
+    }
+    return kept;
+}
+
+/// The slopes that the function's gradient shows at the points.
+std::vector<double> read_slopes(const ImplicitFunction& function, const std::vector<BoundaryPoint>& points,
+                                const FitOptions& options) {
     std::vector<Vec3> positions(points.size()), gradients(points.size());
     std::transform(points.begin(), points.end(), positions.begin(), [](const BoundaryPoint& p) { return p.position; });
     function.gradients(positions, gradients, options.solve.threads);
+    std::vector<double> slopes(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) slopes[i] = slope(points[i], gradients[i], options.least_slope);
+    return slopes;
+}
+
+double mean_change_degrees(const std::vector<double>& before, const std::vector<double>& after) {
     double change = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double next = slope(points[i], gradients[i], options.least_slope);
-        change += std::abs(std::acos(std::min(next, 1.0)) - std::acos(std::min(slopes[i], 1.0)));
-        slopes[i] = next;
-    }
-    return change / static_cast<double>(points.size()) * 180 / M_PI;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        change += std::abs(std::acos(std::min(after[i], 1.0)) - std::acos(std::min(before[i], 1.0)));
+    return change / static_cast<double>(after.size()) * 180 / M_PI;
 }
 
 std::vector<PointConstraint> interior_and_exterior(const ContourSet& set, double offset_mm) {
@@ -67,48 +95,83 @@ private:
     std::vector<bool> active_;
 };
 
-/// One round's share of the whole progress.
-Progress part_of(const Progress& whole, int round, int rounds) {
-    if (!whole.callback) return whole;
-    return {[&whole, round, rounds](std::string_view stage, double done) { whole.callback(stage, (round + done) / rounds); },
-            whole.stop};
-}
+/// The solves of one fit, with what they share and what they leave behind.
+class Fitter {
+public:
+    Fitter(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress)
+        : set_(set), options_(options), progress_(progress), caps_(contours) {}
+
+    /// Solves for points with these slopes; true if the function exceeds caps that it did not exceed before.
+    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes,
+                   const SolveOptions& solving) {
+        std::vector<PointConstraint> single_points = interior_and_exterior(set_, options_.place.normal_offset_mm);
+        caps_.append_to(single_points);
+        const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
+        const Solution solution = solve(placed.constraints, solving, progress_of_next_solve());
+        result_.function = solution.function;
+        result_.report = solution.report;
+        result_.iterations += solution.report.iterations;
+        result_.merged = placed.merged;
+        result_.constraints = placed.constraints.size();
+        ++result_.solves;
+        return caps_.update(result_.function, options_.solve.threads);
+    }
+
+    /// Finds the tilts of the surface from a part of the points.
+    void find_slopes(const std::vector<BoundaryPoint>& all) {
+        const std::vector<BoundaryPoint> points = thin(all, options_.tilt_points);
+        // The weight of the contours against smoothness is to be that of the whole fit.
+        const double share = static_cast<double>(points.size()) / static_cast<double>(all.size());
+        SolveOptions solving = options_.solve;
+        solving.tolerance_mm *= options_.early_tolerance_factor;
+        double smoothing = options_.start_smoothing;
+        std::vector<double> slopes(points.size(), 1.0);
+        for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
+            solving.smoothing = share * std::max(smoothing, options_.solve.smoothing);
+            solve_for(points, slopes, solving);
+            std::vector<double> next = read_slopes(result_.function, points, options_);
+            result_.tilt_change_degrees = mean_change_degrees(slopes, next);
+            slopes = std::move(next);
+        }
+        result_.slopes = read_slopes(result_.function, all, options_);
+    }
+
+    Fit run(const std::vector<BoundaryPoint>& points) {
+        result_.slopes.assign(points.size(), 1.0);
+        if (finds_slopes()) find_slopes(points);
+        for (int more = 0; solve_for(points, result_.slopes, options_.solve) && more < options_.cap_rounds;) ++more;
+        result_.capped = caps_.count();
+        return std::move(result_);
+    }
+
+private:
+    bool finds_slopes() const { return options_.normals == Normals::surface && options_.rounds > 0; }
+
+    /// Of the whole progress, half belongs to the tilts: there are more solves, but smaller ones.
+    Progress progress_of_next_solve() const {
+        if (!progress_.callback) return progress_;
+        const int early = finds_slopes() ? options_.rounds : 0;
+        const bool is_early = result_.solves < early;
+        const double share = is_early ? 0.5 / early : early > 0 ? 0.5 : 1.0;
+        const double before = is_early ? share * result_.solves : 1.0 - share;
+        return {
+            [this, before, share](std::string_view stage, double done) { progress_.callback(stage, before + share * done); },
+            progress_.stop};
+    }
+
+    const ContourSet& set_;
+    const FitOptions& options_;
+    const Progress& progress_;
+    ActiveCaps caps_;
+    Fit result_;
+};
 
 }  // namespace
 
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
 Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress) {
-    Fit result;
-    result.slopes.assign(contours.points.size(), 1.0);
-    ActiveCaps caps(contours);
-    const int rounds = options.normals == Normals::surface ? options.rounds : 0;
-    double start_smoothing = options.start_smoothing;
-    for (int round = 0;; ++round, start_smoothing *= options.smoothing_factor) {
-        const bool tilts_known = round >= rounds;
-        std::vector<PointConstraint> single_points = interior_and_exterior(set, options.place.normal_offset_mm);
-        caps.append_to(single_points);
-        const PlacedConstraints placed = place_constraints(contours.points, result.slopes, single_points, options.place);
-        SolveOptions solve_options = options.solve;
-        if (!tilts_known) {
-            solve_options.smoothing = std::max(start_smoothing, options.solve.smoothing);
-            solve_options.tolerance_mm *= options.early_tolerance_factor;
-        }
-        const Solution solution =
-            solve(placed.constraints, solve_options, part_of(progress, std::min(round, rounds), rounds + 1));
-        result.function = solution.function;
-        result.report = solution.report;
-        result.iterations += solution.report.iterations;
-        result.merged = placed.merged;
-        result.constraints = placed.constraints.size();
-        ++result.solves;
-        const bool more_caps = caps.update(result.function, options.solve.threads);
-        if (tilts_known && (!more_caps || round == rounds + options.cap_rounds)) break;
-        if (!tilts_known)
-            result.tilt_change_degrees = update_slopes(result.function, contours.points, options, result.slopes);
-    }
-    result.capped = caps.count();
-    return result;
+    return Fitter(contours, set, options, progress).run(contours.points);
 }
 
 }  // namespace kontur

@@ -22,6 +22,7 @@ struct FitOptions {
     double smoothing_factor = 0.3;       ///< ... and its factor from round to round; the last fit has `solve.smoothing`
     double least_slope = 0.2;            ///< surface normals: lower bound of the cosine of the tilt
     double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt
+    std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
     int cap_rounds = 2;                  ///< most further fits while caps or leak probes are exceeded that were not before
     PlaceOptions place;
     SolveOptions solve;
@@ -43,9 +44,11 @@ struct Fit {
 /// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
 /// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
 /// gradient at the contour's points and the prescribed values are corrected, f(c + d n_inplane) = -d cos(tilt); the fit
-/// is repeated, three rounds by default. To first order that is the normal constraint of the true 3D normal, but only the
-/// contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot amplify it from round to
-/// round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start contradicts itself.
+/// is repeated, three rounds by default. The tilt varies slowly along a contour, so these rounds need only a part of the
+/// points and cost less than the one fit of all points that follows. To first order that is the normal constraint of the
+/// true 3D normal, but only the contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot
+/// amplify it from round to round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start
+/// contradicts itself.
 ///
 /// Where f exceeds the limit of a cap or leak probe after a round, the limit becomes a constraint of the later rounds; on
 /// coplanar contours all do from the start. `set` gives the interior and exterior points.

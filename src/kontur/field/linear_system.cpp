@@ -52,4 +52,16 @@ std::array<double, 4> linear_through(const PointArrays& centers, const std::arra
     return {values[0] - dot(gradient, origin), gradient.x, gradient.y, gradient.z};
 }
 
+double largest_residual(const LinearSystem& system, const Coefficients& c, int threads) {
+    std::vector<double> sums(system.size());
+    sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, threads);
+    double largest = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const Vec3 p = system.centers[i];
+        const double f = sums[i] + c.polynomial[0] + c.polynomial[1] * p.x + c.polynomial[2] * p.y + c.polynomial[3] * p.z;
+        largest = std::max(largest, std::abs(f + system.diagonal() * c.weights[i] - system.values[i]));
+    }
+    return largest;
+}
+
 }  // namespace kontur

@@ -29,6 +29,7 @@ struct Coefficients {
     std::vector<double> weights;
     std::array<double, 4> polynomial{};
     int iterations = 0;
+    double residual = 0;  ///< largest |f(c_i) + smoothing w_i - h_i|, in mm
     double matrix_mb = 0;
 };
 
@@ -46,6 +47,9 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
 /// Four centres, far apart and not in one plane, chosen greedily: the farthest from the mean, the farthest from it, then the
 /// largest triangle, then the largest tetrahedron. Throws Error(singular_system) when all centres lie in one plane.
 std::array<std::size_t, 4> spread_centers(const PointArrays& centers);
+
+/// The largest error of the coefficients over all constraints, in mm, by summation.
+double largest_residual(const LinearSystem& system, const Coefficients& coefficients, int threads);
 
 /// Values at the four spread centres -> the linear polynomial through them.
 std::array<double, 4> linear_through(const PointArrays& centers, const std::array<std::size_t, 4>& spread,

@@ -52,28 +52,12 @@ void check_memory(std::size_t centers, double bytes_per_entry, const SolveOption
 }
 
 Coefficients run(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
-    switch (options.solver) {
-        case Solver::dense:
-            check_memory(system.size(), 8, options);
-            return solve_dense(system);
-        case Solver::cholesky:
-            check_memory(system.size(), 4, options);
-            return solve_cholesky(system, options.threads, progress);
-        default:
-            return solve_iterative(system, options, progress);
-    }
-}
-
-double largest_residual(const LinearSystem& system, const Coefficients& c, int threads) {
-    std::vector<double> sums(system.size());
-    sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, threads);
-    double largest = 0;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        const Vec3 p = system.centers[i];
-        const double f = sums[i] + c.polynomial[0] + c.polynomial[1] * p.x + c.polynomial[2] * p.y + c.polynomial[3] * p.z;
-        largest = std::max(largest, std::abs(f + system.diagonal() * c.weights[i] - system.values[i]));
-    }
-    return largest;
+    if (options.solver == Solver::iterative) return solve_iterative(system, options, progress);
+    check_memory(system.size(), options.solver == Solver::dense ? 8 : 4, options);
+    Coefficients c =
+        options.solver == Solver::dense ? solve_dense(system) : solve_cholesky(system, options.threads, progress);
+    c.residual = largest_residual(system, c, options.threads);
+    return c;
 }
 
 }  // namespace
@@ -109,8 +93,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
         if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
 
     Solution solution;
-    solution.report = {options.solver, system.size(), c.iterations, largest_residual(system, c, options.threads),
-                       c.matrix_mb};
+    solution.report = {options.solver, system.size(), c.iterations, c.residual, c.matrix_mb};
     solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
     return solution;
 }

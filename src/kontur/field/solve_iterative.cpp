@@ -59,9 +59,7 @@ private:
 class ProjectedOperator {
 public:
     ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, int threads)
-        : system_(system),
-          polynomials_(polynomials),
-          matrix_(make_kernel_matrix(system.kernel, system.centers, threads)) {}
+        : system_(system), polynomials_(polynomials), matrix_(make_kernel_matrix(system.kernel, system.centers, threads)) {}
 
     /// sign (Phi + diagonal) w, not projected.
     Vector unprojected(const Vector& w) const {
@@ -131,6 +129,7 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
     polynomials.project_out(r);
     const double start = std::max(largest(r), options.tolerance_mm);
     double reached = largest(r);
+    Vector image(system.size());  // of the weights
 
     // The recurrence's residual drifts from the true one: at the end it is computed afresh, and the iteration restarted
     // from there as long as that helps.
@@ -140,11 +139,11 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
         Vector z = precondition(r), direction = z;
         double rz = inner(r, z);
         while (largest(r) > 0.5 * options.tolerance_mm && c.iterations < options.max_iterations && rz > 0) {
-            const Vector image = apply(direction);
-            const double curvature = inner(direction, image);
+            const Vector step = apply(direction);
+            const double curvature = inner(direction, step);
             if (!(curvature > 0)) break;  // rounding has taken over
             add_scaled(c.weights, rz / curvature, direction);
-            add_scaled(r, -rz / curvature, image);
+            add_scaled(r, -rz / curvature, step);
             z = precondition(r);
             const double next = inner(r, z);
             for (std::size_t i = 0; i < z.size(); ++i) direction[i] = z[i] + next / rz * direction[i];
@@ -155,8 +154,9 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
             progress.report("solve", std::clamp(done, 0.0, 1.0));
         }
         polynomials.project_out(c.weights);
+        image = apply.unprojected(c.weights);
         r = target;
-        add_scaled(r, -1.0, apply.unprojected(c.weights));
+        add_scaled(r, -1.0, image);
         polynomials.project_out(r);
         reached = largest(r);
     }
@@ -166,8 +166,8 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
                         std::to_string(c.iterations) + " iterations; the limit is " + std::to_string(options.tolerance_mm) +
                         " mm. Constraints coincide or contradict each other; the cholesky solver may help");
 
+    c.residual = reached;
     Vector left = system.values;
-    const Vector image = apply.unprojected(c.weights);
     add_scaled(left, -sign, image);
     c.polynomial = fit_linear(system, left);
     return c;

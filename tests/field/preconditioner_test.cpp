@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
+#include "kontur/base/error.h"
 #include "kontur/field/linear_system.h"
+#include "kontur/field/nearest_points.h"
 #include "kontur/field/solve.h"
 #include "support/random.h"
 
@@ -111,7 +114,8 @@ TEST(Preconditioner, IsTheExactInverseOfASmallSystem) {
             const PointArrays points = random_points(300, random);
             const std::vector<double> w = admissible_weights(points, random);
             std::vector<double> found(w.size());
-            Preconditioner(kernel, points, diagonal, {}, 2).apply(matrix_times(kernel, points, diagonal, w), found, 2);
+            const auto pattern = std::make_shared<PreconditionerPattern>(points);
+            Preconditioner(kernel, pattern, diagonal).apply(matrix_times(kernel, points, diagonal, w), found);
             for (std::size_t i = 0; i < w.size(); ++i) ASSERT_NEAR(found[i], w[i], 1e-5) << name(kernel) << " " << diagonal;
         }
 }
@@ -120,12 +124,16 @@ TEST(Preconditioner, IsSymmetricDefiniteAndTheSameForAnyNumberOfThreads) {
     std::mt19937 random = test::random_of_this_test();
     std::normal_distribution<double> normal;
     const PointArrays points = random_points(1500, random);
-    const Preconditioner one(Kernel::triharmonic, points, 0, {}, 1), many(Kernel::triharmonic, points, 0, {}, 8);
+    const auto made_with = [&](int threads) {
+        return Preconditioner(Kernel::triharmonic,
+                              std::make_shared<PreconditionerPattern>(points, PreconditionerOptions{}, threads), 0, threads);
+    };
+    const Preconditioner one = made_with(1);
     std::vector<double> a(points.size()), b(points.size()), ma(a.size()), mb(a.size()), again(a.size());
     for (double& v : a) v = normal(random);
     for (double& v : b) v = normal(random);
-    one.apply(a, ma, 1);
-    one.apply(b, mb, 1);
+    one.apply(a, ma);
+    one.apply(b, mb);
     double a_mb = 0, b_ma = 0, a_ma = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         a_mb += a[i] * mb[i];
@@ -135,10 +143,64 @@ TEST(Preconditioner, IsSymmetricDefiniteAndTheSameForAnyNumberOfThreads) {
     EXPECT_GT(a_ma, 0);
     EXPECT_NEAR(a_mb, b_ma, 1e-9 * a_ma);
     for (const int threads : {2, 3, 8}) {
-        many.apply(a, again, threads);
+        made_with(threads).apply(a, again);
         EXPECT_EQ(again, ma) << threads;
     }
     EXPECT_GT(one.megabytes(), 0);
+}
+
+TEST(Preconditioner, OnePatternServesAllDiagonalsAndKernels) {
+    std::mt19937 random = test::random_of_this_test();
+    const PointArrays points = random_points(900, random);
+    const auto pattern = std::make_shared<PreconditionerPattern>(points);
+    std::vector<double> r(points.size(), 1.0), shared(r.size()), own(r.size());
+    for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
+        for (const double diagonal : {0.0, 1e-3, 1.0}) {
+            Preconditioner(kernel, pattern, diagonal).apply(r, shared);
+            Preconditioner(kernel, std::make_shared<PreconditionerPattern>(points), diagonal).apply(r, own);
+            EXPECT_EQ(shared, own) << name(kernel) << " " << diagonal;
+        }
+}
+
+TEST(PreconditionerPattern, StopsWhenAsked) {
+    std::mt19937 random = test::random_of_this_test();
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(PreconditionerPattern(random_points(2000, random), {}, 2, {{}, stop.get_token()}), Error);
+}
+
+TEST(EarlierNeighbours, AreTheNearestToAnyMember) {
+    std::mt19937 random = test::random_of_this_test();
+    PointArrays points = random_points(1200, random);
+    for (std::size_t i = 301; i < 330; ++i)
+        for (auto* axis : {&points.x, &points.y, &points.z}) (*axis)[i] = (*axis)[300] + 0.1 * (*axis)[i];
+    const EarlierNeighbours neighbours(points, 2);
+    for (const auto& [begin, end, count] :
+         {std::array{0, 4, 10}, {5, 9, 10}, {300, 330, 40}, {700, 701, 25}, {1100, 1120, 2000}}) {
+        std::vector<std::pair<double, int>> all;
+        for (int p = 0; p < begin; ++p) {
+            double nearest = std::numeric_limits<double>::infinity();
+            for (int m = begin; m < end; ++m)
+                nearest =
+                    std::min(nearest, distance(points[static_cast<std::size_t>(p)], points[static_cast<std::size_t>(m)]));
+            all.emplace_back(nearest, p);
+        }
+        std::sort(all.begin(), all.end());
+        const std::vector<std::int32_t> found = neighbours.of(begin, end, count);
+        ASSERT_EQ(found.size(), std::min<std::size_t>(all.size(), static_cast<std::size_t>(count)));
+        EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+        const auto mean_distance = [&](const auto& of_each) {
+            double sum = 0;
+            for (std::size_t i = 0; i < found.size(); ++i) sum += of_each(i);
+            return sum / static_cast<double>(std::max<std::size_t>(found.size(), 1));
+        };
+        const double best = mean_distance([&](std::size_t i) { return all[i].first; });
+        const double reached = mean_distance([&](std::size_t i) {
+            return std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.second == found[i]; })->first;
+        });
+        // The nearest to the box of the members are looked at only, half as many again as wanted.
+        EXPECT_LE(reached, (end - begin == 1 ? 1 + 1e-12 : 1.3) * best) << begin << " " << end;
+    }
 }
 
 }  // namespace

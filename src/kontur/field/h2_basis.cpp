@@ -9,7 +9,7 @@
 namespace kontur {
 namespace {
 
-constexpr std::int32_t kMostProxies = 768;
+constexpr std::int32_t kMostProxies = 1024;
 
 std::int32_t rounded_up(std::int32_t n, std::int32_t step) { return (n + step - 1) / step * step; }
 
@@ -52,7 +52,8 @@ NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const Cluster
                 progress.check();
                 const Cluster& cluster = tree.clusters[c];
                 const NodeRun run = candidates(cluster);
-                const std::int32_t rows = std::min(kMostProxies, run.size() + run.size() / 2 + 32),
+                const std::int32_t rows = std::min(kMostProxies, run.size() + run.size() / 2 + 32);
+                const std::int32_t lead = rounded_up(rows, kRowsPerStep);
                 const double nearest = std::max(cluster.diameter() / options.eta, 1e-9 * reach);
                 a.resize(static_cast<std::size_t>(lead) * static_cast<std::size_t>(run.size()));
                 fill(kernel, shells.around(cluster, nearest, rows), nodes_, run, lead, a.data());

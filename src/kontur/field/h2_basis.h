@@ -44,7 +44,7 @@ private:
 
     const ClusterTree& tree_;
     PointArrays nodes_;
-    std::vector<NodeRun> skeletons_;              ///< of every cluster, empty if not used
+    std::vector<NodeRun> skeletons_;             ///< of every cluster, empty if not used
     std::vector<Interpolation> interpolations_;  ///< of every cluster
 };
 

@@ -44,8 +44,9 @@ double box_distance(const Cluster& a, const Cluster& b) {
 
 ClusterTree::ClusterTree(const PointArrays& points, std::int32_t leaf_size, int threads) : order(points.size()) {
     std::iota(order.begin(), order.end(), 0);
-    clusters.push_back({0, static_cast<std::int32_t>(points.size())});
-    enclose(points, order, clusters.back());
+    clusters.resize(1);
+    clusters.front().end = static_cast<std::int32_t>(points.size());
+    enclose(points, order, clusters.front());
     level_begin = {0, 1};
     for (std::size_t level = 0; level_begin[level] < level_begin[level + 1]; ++level) {
         for (std::int32_t c = level_begin[level]; c < level_begin[level + 1]; ++c) {

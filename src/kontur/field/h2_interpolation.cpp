@@ -59,7 +59,8 @@ KONTUR_EVERY_INSTRUCTION_SET void remove(const double* q, double* a, std::int32_
 }
 
 /// T = R11^-1 R12 for the triangle whose row k of column j is r[j * columns + k].
-KONTUR_EVERY_INSTRUCTION_SET std::vector<double> transfer_of(const std::vector<double>& r, std::int32_t rank, std::int32_t columns) {
+KONTUR_EVERY_INSTRUCTION_SET std::vector<double> transfer_of(const std::vector<double>& r, std::int32_t rank,
+                                                             std::int32_t columns) {
     std::vector<double> transfer(static_cast<std::size_t>(rank) * static_cast<std::size_t>(columns - rank));
     for (std::int32_t j = rank; j < columns; ++j) {
         double* t = &transfer[static_cast<std::size_t>(j - rank) * static_cast<std::size_t>(rank)];
@@ -75,8 +76,7 @@ KONTUR_EVERY_INSTRUCTION_SET std::vector<double> transfer_of(const std::vector<d
 
 }  // namespace
 
-Interpolation interpolate_columns(double* a, std::int32_t rows, std::int32_t lead, std::int32_t columns,
-                                  double tolerance) {
+Interpolation interpolate_columns(double* a, std::int32_t rows, std::int32_t lead, std::int32_t columns, double tolerance) {
     Interpolation result;
     result.columns.resize(static_cast<std::size_t>(columns));
     std::iota(result.columns.begin(), result.columns.end(), 0);
@@ -100,8 +100,8 @@ Interpolation interpolate_columns(double* a, std::int32_t rows, std::int32_t lea
         scale(column(k), lead, 1 / length);
         r[static_cast<std::size_t>(k) * columns + k] = length;
         if (k + 1 < columns)
-            remove(column(k), column(k + 1), lead, columns - k - 1, &r[static_cast<std::size_t>(k + 1) * columns + k], columns,
-                   &squares[static_cast<std::size_t>(k + 1)]);
+            remove(column(k), column(k + 1), lead, columns - k - 1, &r[static_cast<std::size_t>(k + 1) * columns + k],
+                   columns, &squares[static_cast<std::size_t>(k + 1)]);
         result.rank = k + 1;
     }
     result.transfer = transfer_of(r, result.rank, columns);

@@ -13,10 +13,12 @@ constexpr std::size_t kMostGroups = 16;
 /// Clusters in far pairs and all below them.
 std::vector<bool> clusters_with_basis(const ClusterTree& tree, const Partition& partition) {
     std::vector<bool> used(tree.clusters.size());
-    for (const ClusterPair& pair : partition.far) used[static_cast<std::size_t>(pair.a)] = used[static_cast<std::size_t>(pair.b)] = true;
+    for (const ClusterPair& pair : partition.far)
+        used[static_cast<std::size_t>(pair.a)] = used[static_cast<std::size_t>(pair.b)] = true;
     for (std::size_t c = 0; c < used.size(); ++c)
         if (used[c] && !tree.clusters[c].is_leaf())
-            for (const std::int32_t child : {0, 1}) used[static_cast<std::size_t>(tree.clusters[c].first_child + child)] = true;
+            for (const std::int32_t child : {0, 1})
+                used[static_cast<std::size_t>(tree.clusters[c].first_child + child)] = true;
     return used;
 }
 
@@ -25,10 +27,8 @@ void join(std::vector<NodeRun>& runs, std::int32_t gap) {
     std::sort(runs.begin(), runs.end(), [](NodeRun a, NodeRun b) { return a.begin < b.begin; });
     std::size_t kept = 0;
     for (const NodeRun& run : runs)
-        if (kept > 0 && run.begin <= runs[kept - 1].end + gap)
-            runs[kept - 1].end = std::max(runs[kept - 1].end, run.end);
-        else
-            runs[kept++] = run;
+        if (kept > 0 && run.begin <= runs[kept - 1].end + gap) runs[kept - 1].end = std::max(runs[kept - 1].end, run.end);
+        else runs[kept++] = run;
     runs.resize(kept);
 }
 
@@ -58,10 +58,8 @@ void H2KernelMatrix::add_rows(const std::vector<ClusterPair>& pairs, bool far) {
         runs.clear();
         bool own = false;
         for (end = begin; end < pairs.size() && pairs[end].a == pairs[begin].a; ++end)
-            if (pairs[end].b == pairs[end].a)
-                own = true;
-            else
-                runs.push_back(nodes(pairs[end].b));
+            if (pairs[end].b == pairs[end].a) own = true;
+            else runs.push_back(nodes(pairs[end].b));
         join(runs, 0);
         rows_.push_back({nodes(pairs[begin].a), rights_.size(), rights_.size() + runs.size(), own});
         rights_.insert(rights_.end(), runs.begin(), runs.end());
@@ -95,8 +93,7 @@ void H2KernelMatrix::group_rows() {
 void H2KernelMatrix::multiply(std::span<const double> weights, std::span<double> out) const {
     const auto count = static_cast<std::size_t>(basis_.node_count());
     std::vector<double> node_weights(count + kNodePadding);
-    for (std::size_t i = 0; i < tree_.order.size(); ++i)
-        node_weights[i] = weights[static_cast<std::size_t>(tree_.order[i])];
+    for (std::size_t i = 0; i < tree_.order.size(); ++i) node_weights[i] = weights[static_cast<std::size_t>(tree_.order[i])];
     basis_.collect(node_weights, threads_);
 
     const PointArrays& nodes = basis_.nodes();

@@ -69,14 +69,10 @@ template <Kernel kKernel, bool kMutual>
     constexpr int kMostPacks = 4;
     for (; left.begin < left.end; left.begin += kMostPacks * kLanes) {
         const NodeRun part{left.begin, std::min(left.end, left.begin + kMostPacks * kLanes)};
-        if (part.size() > 3 * kLanes)
-            add_sums<kKernel, kMutual, 4>(nodes, part, right, out);
-        else if (part.size() > 2 * kLanes)
-            add_sums<kKernel, kMutual, 3>(nodes, part, right, out);
-        else if (part.size() > kLanes)
-            add_sums<kKernel, kMutual, 2>(nodes, part, right, out);
-        else
-            add_sums<kKernel, kMutual, 1>(nodes, part, right, out);
+        if (part.size() > 3 * kLanes) add_sums<kKernel, kMutual, 4>(nodes, part, right, out);
+        else if (part.size() > 2 * kLanes) add_sums<kKernel, kMutual, 3>(nodes, part, right, out);
+        else if (part.size() > kLanes) add_sums<kKernel, kMutual, 2>(nodes, part, right, out);
+        else add_sums<kKernel, kMutual, 1>(nodes, part, right, out);
     }
 }
 
@@ -84,17 +80,13 @@ template <Kernel kKernel, bool kMutual>
 
 KONTUR_EVERY_INSTRUCTION_SET void add_mutual_sums(Kernel kernel, const NodeView& nodes, NodeRun left,
                                                   std::span<const NodeRun> right, double* out) {
-    if (kernel == Kernel::triharmonic)
-        add_all_sums<Kernel::triharmonic, true>(nodes, left, right, out);
-    else
-        add_all_sums<Kernel::biharmonic, true>(nodes, left, right, out);
+    if (kernel == Kernel::triharmonic) add_all_sums<Kernel::triharmonic, true>(nodes, left, right, out);
+    else add_all_sums<Kernel::biharmonic, true>(nodes, left, right, out);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void add_own_sums(Kernel kernel, const NodeView& nodes, NodeRun run, double* out) {
-    if (kernel == Kernel::triharmonic)
-        add_all_sums<Kernel::triharmonic, false>(nodes, run, {&run, 1}, out);
-    else
-        add_all_sums<Kernel::biharmonic, false>(nodes, run, {&run, 1}, out);
+    if (kernel == Kernel::triharmonic) add_all_sums<Kernel::triharmonic, false>(nodes, run, {&run, 1}, out);
+    else add_all_sums<Kernel::biharmonic, false>(nodes, run, {&run, 1}, out);
 }
 
 }  // namespace kontur

@@ -112,10 +112,13 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
     const ProjectedOperator apply(system, polynomials, options.threads);
     const double sign = kernel_sign(system.kernel);
     progress.report("solve", 0);
-    const Preconditioner preconditioner(system.kernel, system.centers, system.smoothing, {}, options.threads);
+    const Preconditioner preconditioner(
+        system.kernel,
+        std::make_shared<PreconditionerPattern>(system.centers, PreconditionerOptions{}, options.threads, progress),
+        system.smoothing, options.threads, progress);
     const auto precondition = [&](const Vector& r) {
         Vector z(r.size());
-        preconditioner.apply(r, z, options.threads);
+        preconditioner.apply(r, z);
         polynomials.project_out(z);
         return z;
     };

@@ -95,6 +95,13 @@ void add_series_options(CLI::App& sub, DicomSeriesOptions& series) {
     sub.add_option("--volume", series.volume, "Which volume of the series (time, echo), from 1")->type_name("N");
 }
 
+void add_rtstruct_options(CLI::App& sub, WriteRtstructOptions& write) {
+    add_choice<HoleEncoding>(
+        sub, "--holes", write.holes,
+        {{"keyhole", HoleEncoding::keyhole}, {"xor", HoleEncoding::exclusive}, {"nested", HoleEncoding::nested}},
+        "How an RTSTRUCT stores holes: one path with a channel, XOR contours, contours in contours");
+}
+
 void add_segment_method(CLI::App& sub, SegmentOptions& o) {
     add_choice<Kernel>(sub, "--kernel", o.kernel, {{"triharmonic", Kernel::triharmonic}, {"biharmonic", Kernel::biharmonic}},
                        "Radial function: r^3 or r");
@@ -135,14 +142,17 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     spacing->delimiter(',')->allow_extra_args(false)->excludes(image);
     bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
     bind.option("--output", c.output, "FILE", "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd or .mha")->required();
+    bind.option("--rtstruct", c.rtstruct, "FILE", "Contours on the slices of a DICOM --image to write, as RTSTRUCT: .dcm");
     bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply or .obj, LPS mm");
     bind.option("--picture", c.picture, "FILE", "Picture to write: .png");
     bind.option("--report", c.report, "FILE", "Report to write: .json");
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
+    add_rtstruct_options(*bind.sub, c.write_rtstruct);
     add_segment_method(*bind.sub, c.options);
-    add_read_options(*bind.sub, c.image.file);
-    add_series_options(*bind.sub, c.image.series);
+    add_read_options(*bind.sub, c.image.options);
+    add_series_options(*bind.sub, c.image.options.dicom);
     bind.quiet();
 }
 
@@ -151,8 +161,15 @@ void add_trace(CLI::App& app, Invocation& invocation) {
                               "kontur trace liver.nii.gz --planes planes.json --output contours.json");
     TraceCommand& c = *bind.command;
     bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage)");
-    bind.option("--planes", c.planes, "FILE", "Contour file whose planes cut, whatever contours it holds")->required();
-    bind.option("--output", c.output, "FILE", "Contours to write: .json or .mrk.json")->required();
+    CLI::Option* planes =
+        bind.option("--planes", c.planes, "FILE", "Contour file whose planes cut, whatever contours it holds");
+    bind.option("--image", c.image.path, "FILE", "Instead of --planes: the slices of this image or DICOM folder cut")
+        ->excludes(planes);
+    bind.option("--output", c.output, "FILE",
+                "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
+        ->required();
+    bind.option("--name", c.name, "NAME", "The structure's name");
+    add_rtstruct_options(*bind.sub, c.write_rtstruct);
     bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
     bind.defaulted("--step-mm", c.options.step_mm, "MM", "Sampling distance on a plane; 0: half the smallest spacing");
     bind.defaulted("--tolerance-mm", c.options.tolerance_mm, "MM", "How far dropped points may lie off the contour");
@@ -183,7 +200,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
     bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
     bind.flag("--json", c.json, "Print JSON");
     add_read_options(*bind.sub, c.read);
-    add_series_options(*bind.sub, c.series);
+    add_series_options(*bind.sub, c.read.dicom);
 }
 
 void add_convert(CLI::App& app, Invocation& invocation) {
@@ -192,9 +209,11 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     ConvertCommand& c = *bind.command;
     bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
     bind.word("OUT", c.output, "File to write; its name decides the format");
+    bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT (.dcm) refers to");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
-    add_read_options(*bind.sub, c.input.file);
-    add_series_options(*bind.sub, c.input.series);
+    add_rtstruct_options(*bind.sub, c.write_rtstruct);
+    add_read_options(*bind.sub, c.input.options);
+    add_series_options(*bind.sub, c.input.options.dicom);
     bind.quiet();
 }
 

@@ -12,6 +12,7 @@
 #include "kontur/extract/trace.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
+#include "kontur/io/rtstruct.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/segment.h"
@@ -29,8 +30,10 @@ struct SegmentCommand {
     std::vector<double> spacing_mm;  ///< one number or three
     double margin_mm = 10;           ///< around the contours' box, with `spacing_mm`
     std::filesystem::path output;
-    std::filesystem::path mesh, picture, report;  ///< empty: not asked for
+    std::filesystem::path rtstruct, mesh, picture, report;  ///< empty: not asked for
     WriteMaskOptions mask;
+    std::string name;  ///< of the structure; empty: the contour file's
+    WriteRtstructOptions write_rtstruct;
     SegmentOptions options;
 };
 void run(const SegmentCommand& command, Console& console);
@@ -40,8 +43,11 @@ struct TraceCommand {
     std::filesystem::path mask;
     std::optional<std::int64_t> label;
     ReadImageOptions read;
-    std::filesystem::path planes;
+    std::filesystem::path planes;  ///< empty: the slices of `image` cut
+    ImageInput image;
     std::filesystem::path output;
+    std::string name;  ///< of the structure; empty: the mask file's
+    WriteRtstructOptions write_rtstruct;
     TraceOptions options;
 };
 void run(const TraceCommand& command, Console& console);
@@ -68,7 +74,6 @@ void run(const CompareCommand& command, Console& console);
 struct InspectCommand {
     std::vector<std::filesystem::path> files;
     ReadImageOptions read;
-    DicomSeriesOptions series;
     bool json = false;
 };
 void run(const InspectCommand& command, Console& console);
@@ -77,7 +82,9 @@ void run(const InspectCommand& command, Console& console);
 struct ConvertCommand {
     ImageInput input;
     ReadContoursOptions contours;
+    std::filesystem::path image;  ///< DICOM series that DICOM output refers to
     std::filesystem::path output;
+    WriteRtstructOptions write_rtstruct;
 };
 void run(const ConvertCommand& command, Console& console);
 

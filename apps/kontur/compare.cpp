@@ -26,9 +26,11 @@ Facts describe(const Comparison& comparison) {
 }  // namespace
 
 void run(const CompareCommand& command, Console& console) {
-    const Mask a = read_mask(command.a, command.label, command.read);
-    const Mask b = read_mask(command.b, command.label, command.read);
-    const Facts facts = describe(compare(a, b, command.options, console.progress()));
+    const Progress progress = console.progress();
+    const ReadImageOptions read = console.noting(command.read);
+    const Mask a = read_mask(command.a, command.label, read, progress);
+    const Mask b = read_mask(command.b, command.label, read, progress);
+    const Facts facts = describe(compare(a, b, command.options, progress));
     console.print(command.json ? facts.dump(2) + "\n" : to_text(facts));
 }
 

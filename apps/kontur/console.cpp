@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <utility>
 
@@ -37,6 +38,11 @@ void Console::note(std::span<const std::string> sentences) {
     if (quiet_) return;
     clear_bar();
     for (const std::string& sentence : sentences) fmt::print(stderr, "kontur: note: {}\n", sentence);
+}
+
+ReadImageOptions Console::noting(ReadImageOptions options) {
+    options.on_note = [this](std::string_view sentence) { note(std::array{std::string(sentence)}); };
+    return options;
 }
 
 void Console::draw(std::string_view stage, double fraction) {

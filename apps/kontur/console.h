@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kontur/base/progress.h"
+#include "kontur/io/read_image_options.h"
 
 namespace kontur::app {
 
@@ -28,6 +29,8 @@ public:
     void warn(std::string_view sentence);
     /// What was decided for the user, one line each on stderr, unless quiet.
     void note(std::span<const std::string> sentences);
+    /// The options with what their reader decides told as notes.
+    ReadImageOptions noting(ReadImageOptions options);
 
 private:
     void draw(std::string_view stage, double fraction);

@@ -33,24 +33,28 @@ const char* advice(FileKind from, FileKind to) {
     return "kontur trace cuts a mask into contours, of which kontur segment makes a mesh";
 }
 
-void check_kinds(const ConvertCommand& command, FileKind from, FileKind to) {
-    if (from == to) return;
+/// What is converted; it stays what it is.
+FileKind check_kinds(const ConvertCommand& command) {
+    const std::optional<FileKind> to = output_kind(command.output);
+    const FileKind from = input_kind(command.input.path);
+    if (from == to || (!to && from == FileKind::contours)) return from;
+    if (!to) check_output_kind(command.output, from);
     throw Error(ErrorKind::unsupported,
                 fmt::format("{} holds {} and cannot be converted to {} in {}; {}", command.input.path.string(), words(from),
-                            words(to), command.output.string(), advice(from, to)));
+                            words(*to), command.output.string(), advice(from, *to)));
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
     switch (kind) {
         case FileKind::image: {
-            const LoadedImage loaded = load_image(command.input, console.progress());
-            console.note(loaded.notes);
-            return write_image(output, loaded.image);
+            const ImageInput& input = command.input;
+            return write_image(output, read_image(input.path, console.noting(input.options), console.progress()));
         }
         case FileKind::contours: {
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
-            return write_contours(output, loaded.contours);
+            const ImageInput images{command.image, command.input.options};
+            return console.note(write_contours(output, loaded.contours, images, command.write_rtstruct));
         }
         case FileKind::mesh:
             return write_mesh(output, read_mesh(command.input.path));
@@ -60,9 +64,9 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
 }  // namespace
 
 void run(const ConvertCommand& command, Console& console) {
-    const FileKind kind = output_kind(command.output);
+    const FileKind kind = check_kinds(command);
     check_output(command.output, std::array{command.input.path});
-    check_kinds(command, input_kind(command.input.path), kind);
+    check_dicom_images(command.output, command.image);
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) { convert(command, kind, path, console); });
     outputs.commit();

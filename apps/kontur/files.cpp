@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <utility>
 
 #include "kontur/base/error.h"
+#include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 
@@ -36,7 +36,10 @@ FileKind input_kind(const fs::path& path) {
     return FileKind::image;
 }
 
-FileKind output_kind(const fs::path& path) {
+bool is_dicom_name(const fs::path& path) { return has_extension(path, ".dcm"); }
+
+std::optional<FileKind> output_kind(const fs::path& path) {
+    if (is_dicom_name(path)) return std::nullopt;
     if (has_extension(path, ".json")) return FileKind::contours;
     if (is_mesh_name(path)) return FileKind::mesh;
     check_image_name(path);
@@ -44,24 +47,38 @@ FileKind output_kind(const fs::path& path) {
 }
 
 void check_output_kind(const fs::path& path, FileKind kind) {
+    const auto refuse = [&](const char* what) {
+        throw Error(ErrorKind::unsupported, fmt::format("{} is no name for {}", path.string(), what));
+    };
     if (kind == FileKind::image) check_image_name(path);
-    else if (input_kind(path) != kind)
-        throw Error(ErrorKind::unsupported,
-                    fmt::format("{} is no name for {}", path.string(),
-                                kind == FileKind::mesh ? "a mesh; it ends with .stl, .ply or .obj"
-                                                       : "contours; it ends with .json or .mrk.json"));
+    else if (kind == FileKind::mesh && !is_mesh_name(path)) refuse("a mesh; it ends with .stl, .ply or .obj");
+    else if (kind == FileKind::contours && !has_extension(path, ".json") && !is_dicom_name(path))
+        refuse("contours; it ends with .json, .mrk.json or .dcm");
 }
 
-LoadedImage load_image(const ImageInput& input, const Progress& progress) {
-    if (!looks_like_dicom(input.path)) return {read_image(input.path, input.file), {}};
-    DicomVolume volume = read_dicom_series(input.path, input.series, progress);
-    return {std::move(volume.image), std::move(volume.notes)};
+std::vector<std::string> write_contours(const fs::path& path, const ContourSet& set, const ImageInput& images,
+                                        const WriteRtstructOptions& options) {
+    if (!is_dicom_name(path)) {
+        write_contours(path, set);
+        return {};
+    }
+    Roi roi;
+    roi.name = set.name;
+    roi.color = {230, 180, 80};
+    roi.generation_algorithm = "SEMIAUTOMATIC";
+    roi.contours = set;
+    return write_rtstruct(path, {"kontur", {roi}}, read_dicom_grid(images.path, images.options.dicom).series, options);
 }
 
-LoadedGrid load_grid(const ImageInput& input, const Progress& progress) {
-    if (!looks_like_dicom(input.path)) return {read_grid(input.path, input.file), {}};
-    DicomGrid grid = read_dicom_grid(input.path, input.series, progress);
-    return {grid.grid, std::move(grid.notes)};
+void check_dicom_images(const fs::path& output, const fs::path& images) {
+    if (!is_dicom_name(output)) return;
+    if (images.empty())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} would refer to the DICOM images it was made on; give their folder with --image",
+                                output.string()));
+    if (!looks_like_dicom(images))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} is no DICOM series, to which {} could refer", images.string(), output.string()));
 }
 
 }  // namespace kontur::app

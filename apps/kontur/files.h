@@ -2,19 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kontur/base/progress.h"
-#include "kontur/io/dicom_series.h"
 #include "kontur/io/read_image_options.h"
-#include "kontur/shape/grid.h"
-#include "kontur/shape/volume.h"
+#include "kontur/io/rtstruct.h"
 
 // The one place that knows which of the library's readers and writers a file needs.
 
 namespace kontur::app {
+
+/// An image and how to read it.
+struct ImageInput {
+    std::filesystem::path path;
+    ReadImageOptions options;
+};
 
 /// Compares without case: ".png" for picture.PNG, ".nii.gz" for mask.nii.gz.
 bool has_extension(const std::filesystem::path& path, std::string_view extension);
@@ -25,31 +29,22 @@ enum class FileKind { image, contours, mesh };
 /// reader then says what is wrong with it.
 FileKind input_kind(const std::filesystem::path& path);
 
-/// What a file of this name would hold, by its extension. Throws Error(unsupported), listing the known ones.
-FileKind output_kind(const std::filesystem::path& path);
+/// What a file of this name would hold, by its extension; nullopt for .dcm, which holds contours as a structure set. Throws
+/// Error(unsupported), listing the known ones.
+std::optional<FileKind> output_kind(const std::filesystem::path& path);
 
-/// Throws Error(unsupported) unless a file of this name would hold `kind`.
+/// A name for DICOM output: it ends with .dcm.
+bool is_dicom_name(const std::filesystem::path& path);
+
+/// Throws Error(unsupported) unless a file of this name could hold `kind`.
 void check_output_kind(const std::filesystem::path& path, FileKind kind);
 
-/// An image that is one file (NIfTI, NRRD, MetaImage) or a DICOM series.
-struct ImageInput {
-    std::filesystem::path path;
-    ReadImageOptions file;
-    DicomSeriesOptions series;
-};
+/// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm, which refers to the DICOM images in
+/// `images`. Returns what the user should know.
+std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,
+                                        const WriteRtstructOptions& options);
 
-/// What was read, and what had to be decided on the way (a gantry tilt kept, files left out).
-struct LoadedImage {
-    Image image;
-    std::vector<std::string> notes;
-};
-LoadedImage load_image(const ImageInput& input, const Progress& progress);
-
-/// The same without voxels.
-struct LoadedGrid {
-    Grid grid;
-    std::vector<std::string> notes;
-};
-LoadedGrid load_grid(const ImageInput& input, const Progress& progress);
+/// Throws Error(invalid_input), before any work is done, when DICOM is to be written without DICOM images to refer to.
+void check_dicom_images(const std::filesystem::path& output, const std::filesystem::path& images);
 
 }  // namespace kontur::app

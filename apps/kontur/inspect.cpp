@@ -13,10 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 
 Facts inspect_image(const InspectCommand& command, const fs::path& path, Console& console) {
-    const LoadedImage loaded = load_image({path, command.read, command.series}, console.progress());
+    std::vector<std::string> notes;
+    ReadImageOptions options = command.read;
+    options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
     Facts facts = {{"kind", "image"}};
-    facts.update(describe(loaded.image));
-    facts["notes"] = loaded.notes;
+    facts.update(describe(read_image(path, options, console.progress())));
+    facts["notes"] = notes;
     return facts;
 }
 

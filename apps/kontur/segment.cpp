@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "kontur/base/error.h"
+#include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/png.h"
@@ -28,13 +29,17 @@ void check_extension(const fs::path& path, std::string_view extension) {
 /// Whatever can be refused before any work is done.
 void check(const SegmentCommand& command) {
     check_image_name(command.output);
+    if (!command.rtstruct.empty()) {
+        check_extension(command.rtstruct, ".dcm");
+        check_dicom_images(command.rtstruct, command.image.path);
+    }
     if (!command.mesh.empty()) check_output_kind(command.mesh, FileKind::mesh);
     if (!command.picture.empty()) check_extension(command.picture, ".png");
     if (!command.report.empty()) check_extension(command.report, ".json");
 
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
-    for (const fs::path& output : {command.output, command.mesh, command.picture, command.report})
+    for (const fs::path& output : {command.output, command.rtstruct, command.mesh, command.picture, command.report})
         if (!output.empty()) check_output(output, inputs);
 
     if (command.image.path.empty() && command.spacing_mm.empty())
@@ -55,7 +60,7 @@ Grid grid_around_contours(const SegmentCommand& command, const ContourSet& conto
     const std::vector<double>& s = command.spacing_mm;
     const Grid grid = grid_around(bounding_box(contours), s.size() == 3 ? Vec3{s[0], s[1], s[2]} : Vec3{s[0], s[0], s[0]},
                                   command.margin_mm);
-    const std::int64_t limit = command.image.file.max_voxels;
+    const std::int64_t limit = command.image.options.max_voxels;
     if (grid.voxel_count() > limit)
         throw Error(ErrorKind::too_large, fmt::format("a spacing of {:g} mm gives the mask {} voxels; the limit is {}", s[0],
                                                       grid.voxel_count(), limit));
@@ -65,20 +70,16 @@ Grid grid_around_contours(const SegmentCommand& command, const ContourSet& conto
 Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
     ReadContours contours = read_contours(command.contours, command.read);
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
-    const auto note = [&](const std::vector<std::string>& notes) {
-        inputs.notes.insert(inputs.notes.end(), notes.begin(), notes.end());
-    };
+    ReadImageOptions read = command.image.options;
+    read.on_note = [&](std::string_view note) { inputs.notes.emplace_back(note); };
+    if (!command.name.empty()) inputs.contours.name = command.name;
     if (command.image.path.empty()) {
         inputs.grid = grid_around_contours(command, inputs.contours);
     } else if (command.picture.empty()) {
-        const LoadedGrid loaded = load_grid(command.image, progress);
-        inputs.grid = loaded.grid;
-        note(loaded.notes);
+        inputs.grid = read_grid(command.image.path, read, progress);
     } else {
-        LoadedImage loaded = load_image(command.image, progress);
-        inputs.grid = loaded.image.grid;
-        inputs.image = std::move(loaded.image);
-        note(loaded.notes);
+        inputs.image = read_image(command.image.path, read, progress);
+        inputs.grid = inputs.image->grid;
     }
     return inputs;
 }
@@ -90,6 +91,15 @@ RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segm
                      {"Residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
     options.threads = command.options.threads;
     return make_picture(*result.mesh, inputs.contours, inputs.image ? &*inputs.image : nullptr, options);
+}
+
+/// The surface on the image's slices. What there is to tell becomes a warning in the report.
+void write_structure_set(const fs::path& path, const SegmentCommand& command, const Inputs& inputs, Segmentation& result,
+                         const Progress& progress) {
+    ContourSet set = slice_contours(result.mask, result.function, command.options.threads, progress);
+    set.name = inputs.contours.name;
+    for (std::string& note : write_contours(path, set, command.image, command.write_rtstruct))
+        result.report.warnings.push_back(std::move(note));
 }
 
 /// Measures consecutive stages into a report's `seconds`.
@@ -115,6 +125,7 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
     const SegmentReport& r = result.report;
     std::string text = fmt::format("{}: {} voxels, {:.2f} ml, {} component{}\n", command.output.string(), r.mask_voxels,
                                    r.mask_volume_ml, r.mask_components, r.mask_components == 1 ? "" : "s");
+    if (!command.rtstruct.empty()) text += command.rtstruct.string() + "\n";
     if (!command.mesh.empty())
         text += fmt::format("{}: {} triangles\n", command.mesh.string(), result.mesh->triangles.size());
     if (!command.picture.empty()) text += command.picture.string() + "\n";
@@ -148,6 +159,7 @@ void run(const SegmentCommand& command, Console& console) {
         progress.check();
     };
     write(command.output, [&](const fs::path& path) { write_mask(path, result.mask, command.mask); });
+    write(command.rtstruct, [&](const fs::path& path) { write_structure_set(path, command, inputs, result, progress); });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh); });
     write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result)); });
     report.seconds.emplace_back("write", laps.lap());

@@ -4,21 +4,51 @@
 #include <array>
 
 #include "commands.h"
+#include "kontur/base/error.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"
 
 namespace kontur::app {
+namespace {
+
+/// The planes of the grid's slices, with u and v along i and j as far as they are orthogonal.
+std::vector<Plane> slice_planes(const Grid& grid) {
+    const Vec3 u = normalized(grid.index_to_mm.column(0));
+    const Vec3 normal = normalized(cross(u, grid.index_to_mm.column(1)));
+    std::vector<Plane> planes;
+    for (std::int64_t k = 0; k < grid.size.k; ++k) planes.push_back({grid.center_mm(0, 0, k), normal, u, cross(normal, u)});
+    return planes;
+}
+
+std::vector<Plane> read_planes(const TraceCommand& command, Console& console, const Progress& progress) {
+    if (!command.planes.empty()) return read_planes_json(command.planes);
+    return slice_planes(read_grid(command.image.path, console.noting(command.image.options), progress));
+}
+
+/// Whatever can be refused before any work is done.
+void check(const TraceCommand& command) {
+    check_output(command.output, std::array{command.mask, command.planes, command.image.path});
+    check_output_kind(command.output, FileKind::contours);
+    check_dicom_images(command.output, command.image.path);
+    if (command.planes.empty() && command.image.path.empty())
+        throw Error(ErrorKind::invalid_input, "there are no planes to cut the mask by; give --planes or --image");
+}
+
+}  // namespace
 
 void run(const TraceCommand& command, Console& console) {
-    check_output(command.output, std::array{command.mask, command.planes});
-    check_output_kind(command.output, FileKind::contours);
-    const std::vector<Plane> planes = read_planes_json(command.planes);
-    const Mask mask = read_mask(command.mask, command.label, command.read);
-    const ContourSet set = trace(mask, planes, command.options, console.progress());
+    check(command);
+    const Progress progress = console.progress();
+    const std::vector<Plane> planes = read_planes(command, console, progress);
+    const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), progress);
+    ContourSet set = trace(mask, planes, command.options, progress);
     if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));
+    set.name = command.name;
 
     Outputs outputs;
-    outputs.write(command.output, [&](const std::filesystem::path& path) { write_contours(path, set); });
+    outputs.write(command.output, [&](const std::filesystem::path& path) {
+        console.note(write_contours(path, set, command.image, command.write_rtstruct));
+    });
     outputs.commit();
     console.print(fmt::format("{}: {} contours with {} points in {} planes\n", command.output.string(), set.contours.size(),
                               point_count(set), planes.size()));

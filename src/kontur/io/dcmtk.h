@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to io/: DCMTK set up once, and values taken strictly out of its items. The only header of ours with DCMTK's types.
+// Private to io/: DCMTK set up once, and values taken strictly out of its items. Includes DCMTK, as dicom_document.h does;
+// no other header of ours.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>

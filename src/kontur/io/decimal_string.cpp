@@ -2,9 +2,10 @@
 #include "kontur/io/decimal_string.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
-#include <string>
 
 #include "kontur/base/error.h"
 
@@ -43,6 +44,18 @@ std::vector<double> parse_decimal_string(std::string_view text) {
         if (separator == std::string_view::npos) return values;
         text.remove_prefix(separator + 1);
     }
+}
+
+std::string to_decimal_string(double value) {
+    constexpr std::ptrdiff_t kMaxLength = 16;
+    assert(std::isfinite(value));
+    if (value == 0) return "0";  // without a minus sign
+    std::array<char, 40> text{};
+    char* const begin = text.data();
+    char* end = std::to_chars(begin, begin + text.size(), value).ptr;
+    for (int digits = 15; end - begin > kMaxLength; --digits)
+        end = std::to_chars(begin, begin + text.size(), value, std::chars_format::general, digits).ptr;
+    return {begin, end};
 }
 
 }  // namespace kontur

@@ -95,6 +95,7 @@ bool is_multi_frame(DcmDataset& dataset) {
 DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
     DicomHeader header;
     header.path = path;
+    header.sop_class_uid = dcmtk::text(dataset, DCM_SOPClassUID);
     header.sop_instance_uid = dcmtk::text(dataset, DCM_SOPInstanceUID);
     header.series_uid = dcmtk::text(dataset, DCM_SeriesInstanceUID);
     header.frame_of_reference_uid = dcmtk::text(dataset, DCM_FrameOfReferenceUID);

@@ -32,6 +32,7 @@ struct DicomRescale {
 
 struct DicomHeader {
     std::filesystem::path path;
+    std::string sop_class_uid;
     std::string sop_instance_uid;
     std::string series_uid;
     std::string frame_of_reference_uid;

@@ -146,7 +146,8 @@ void check_image_name(const fs::path& path) {
                     path.string() + " cannot be written; known are .nii, .nii.gz, .nrrd, .seg.nrrd and .mha");
 }
 
-Image read_image(const fs::path& path, const ReadImageOptions& options) {
+Image read_image(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    progress.check();
     switch (readable_format(path)) {
         case Format::nifti:
             return read_nifti(path, options);
@@ -158,12 +159,13 @@ Image read_image(const fs::path& path, const ReadImageOptions& options) {
         default:
             break;
     }
-    DicomVolume volume = read_dicom_series(path, options.dicom);
+    DicomVolume volume = read_dicom_series(path, options.dicom, progress);
     report(volume.notes, options);
     return std::move(volume.image);
 }
 
-Grid read_grid(const fs::path& path, const ReadImageOptions& options) {
+Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    progress.check();
     switch (readable_format(path)) {
         case Format::nifti:
             return read_nifti_grid(path, options);
@@ -175,13 +177,14 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options) {
         default:
             break;
     }
-    const DicomGrid volume = read_dicom_grid(path, options.dicom);
+    const DicomGrid volume = read_dicom_grid(path, options.dicom, progress);
     report(volume.notes, options);
     return volume.grid;
 }
 
-Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options) {
-    const Image image = read_image(path, options);
+Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
+               const Progress& progress) {
+    const Image image = read_image(path, options, progress);
     const auto labels = labels_of(image, path);
     if (!label && labels.size() > 1)
         throw Error(ErrorKind::invalid_input, path.string() + " has " + std::to_string(labels.size()) +

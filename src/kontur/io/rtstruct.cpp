@@ -77,6 +77,7 @@ std::vector<Roi> read_roi_list(DcmItem& dataset) {
         roi.number = required_number(*item, DCM_ROINumber);
         roi.name = roi.contours.name = dcmtk::text(*item, DCM_ROIName);
         roi.frame_of_reference_uid = dcmtk::text(*item, DCM_ReferencedFrameOfReferenceUID);
+        roi.generation_algorithm = dcmtk::text(*item, DCM_ROIGenerationAlgorithm);
         if (std::any_of(rois.begin(), rois.end(), [&](const Roi& other) { return other.number == roi.number; }))
             throw corrupt(fmt::format("two ROIs have the number {}", roi.number));
         rois.push_back(std::move(roi));

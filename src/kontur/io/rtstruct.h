@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kontur/io/dicom_series.h"
 #include "kontur/shape/contour.h"
 
 namespace kontur {
@@ -16,7 +17,8 @@ namespace kontur {
 struct Roi {
     std::int64_t number = 0;
     std::string name;
-    std::string interpreted_type;  ///< "GTV", "ORGAN", "EXTERNAL", ...; may be empty
+    std::string interpreted_type;      ///< "GTV", "ORGAN", "EXTERNAL", ...; may be empty
+    std::string generation_algorithm;  ///< "AUTOMATIC", "SEMIAUTOMATIC", "MANUAL" or empty
     std::string frame_of_reference_uid;
     std::optional<std::array<std::uint8_t, 3>> color;  ///< red, green, blue
     ContourSet contours;                               ///< `contours.name` is the ROI's name; may be empty
@@ -43,5 +45,27 @@ StructureSet read_rtstruct(const std::filesystem::path& path);
 /// The ROI with this name or, if none has it, with this number; without either, the only ROI that has contours. Throws
 /// Error(invalid_input), listing the ROIs, when that leaves none or several.
 Roi select_roi(const StructureSet& set, const std::optional<std::string>& name_or_number = std::nullopt);
+
+/// How the holes of a slice are stored.
+enum class HoleEncoding {
+    keyhole,    ///< one path that runs to the hole's rim and back through a channel; understood everywhere
+    exclusive,  ///< CLOSEDPLANAR_XOR contours; plain in the standard, unknown to most programs
+    nested,     ///< a contour inside another, to be filled even-odd; some programs fill it
+};
+
+struct WriteRtstructOptions {
+    HoleEncoding holes = HoleEncoding::keyhole;
+    std::string series_description = "kontur contours";
+};
+
+/// Writes a DICOM RT structure set (Implicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
+/// study, frame of reference, and for each contour its slice. ROIs are numbered from 1 where their number is 0; their frame
+/// of reference and notes are not used. Contours nested on one plane are filled even-odd, whatever their `hole` says.
+/// Coordinates are exact to 1e-9 mm. Returns what the user should know, one sentence each: contours that lie on no slice.
+/// Throws Error(invalid_input), naming ROI and contour, for open contours, fewer than 3 points, coordinates that are not
+/// finite and a hole that nothing encloses, and for two ROIs with one number; Error(unsupported) for interior, exterior
+/// or surface points; Error(io). Source: DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.
+std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const StructureSet& set,
+                                        const DicomSeries& images, const WriteRtstructOptions& options = {});
 
 }  // namespace kontur

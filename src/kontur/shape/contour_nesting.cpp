@@ -96,11 +96,15 @@ Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) 
     for (std::size_t i = 0; i < contours.size(); ++i) polygons.push_back(project(contours[i], contours[plane[i]].plane));
     Nesting nesting;
     nesting.depth.assign(contours.size(), 0);
+    nesting.enclosing.resize(contours.size());
     for (std::size_t a = 0; a < contours.size(); ++a)
         for (std::size_t b = 0; b < contours.size(); ++b) {
             if (a == b || plane[a] != plane[b] || !contours[a].closed || !contours[b].closed) continue;
             const Position position = position_of(polygons[a], polygons[b], tolerance_mm);
-            if (position == Position::inside) ++nesting.depth[a];
+            if (position == Position::inside) {
+                ++nesting.depth[a];
+                nesting.enclosing[a].push_back(b);
+            }
             if (position == Position::crossing) nesting.crossings.emplace_back(std::min(a, b), std::max(a, b));
         }
     std::sort(nesting.crossings.begin(), nesting.crossings.end());

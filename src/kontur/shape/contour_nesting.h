@@ -12,6 +12,7 @@ namespace kontur {
 /// Which closed contours of a plane lie inside others. Open contours enclose nothing and have depth 0.
 struct Nesting {
     std::vector<std::size_t> depth;                              ///< per contour: how many others on its plane enclose it
+    std::vector<std::vector<std::size_t>> enclosing;             ///< per contour: which ones they are, in ascending order
     std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< pairs of which one lies partly inside the other
 };
 

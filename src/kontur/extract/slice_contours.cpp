@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/extract/slice_contours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "kontur/base/error.h"
+#include "kontur/base/parallel.h"
+#include "kontur/extract/isolines.h"
+
+namespace kontur {
+namespace {
+
+/// One slice as a lattice of voxel centres. Its axes are the grid's steps, so that (u, v) are the voxel indices i and j.
+PlaneLattice lattice_of(const Grid& grid, std::int64_t k) {
+    const Vec3 u = grid.index_to_mm.column(0), v = grid.index_to_mm.column(1);
+    PlaneLattice lattice;
+    lattice.plane = {grid.center_mm(0, 0, k), normalized(cross(u, v)), u, v};
+    lattice.columns = grid.size.i;
+    lattice.rows = grid.size.j;
+    return lattice;
+}
+
+/// The slice's plane with orthonormal axes.
+Plane plane_of(const PlaneLattice& lattice) {
+    Plane plane = lattice.plane;
+    plane.u = normalized(plane.u);
+    plane.v = cross(plane.normal, plane.u);
+    return plane;
+}
+
+/// The voxel centres of a slice, their function values where they are known and the side of the surface elsewhere.
+class Slice {
+public:
+    Slice(const Mask& mask, std::int64_t k)
+        : grid_(mask.grid), k_(k), levels_(static_cast<std::size_t>(grid_.size.i * grid_.size.j)) {
+        const auto first = mask.values.begin() + static_cast<std::ptrdiff_t>(grid_.offset(0, 0, k));
+        std::transform(first, first + static_cast<std::ptrdiff_t>(levels_.size()), levels_.begin(),
+                       [](std::uint8_t inside) { return inside ? 1.0 : -1.0; });
+    }
+
+    bool is_empty() const {
+        return std::all_of(levels_.begin(), levels_.end(), [](double level) { return level < 0; });
+    }
+
+    /// Evaluates the function at the centres that have a neighbour on the other side: the lines pass nowhere else.
+    void evaluate_border(const ImplicitFunction& function) {
+        std::vector<std::size_t> border;
+        std::vector<Vec3> points;
+        for (std::int64_t j = 0; j < grid_.size.j; ++j)
+            for (std::int64_t i = 0; i < grid_.size.i; ++i)
+                if (is_border(i, j)) {
+                    border.push_back(offset(i, j));
+                    points.push_back(grid_.center_mm(i, j, k_));
+                }
+        std::vector<double> values(points.size());
+        function.values(points, values, 1);
+        for (std::size_t n = 0; n < border.size(); ++n) levels_[border[n]] = values[n];
+    }
+
+    const std::vector<double>& levels() const { return levels_; }
+    double level(double i, double j) const {
+        return levels_[offset(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j))];
+    }
+
+private:
+    std::size_t offset(std::int64_t i, std::int64_t j) const { return static_cast<std::size_t>(i + grid_.size.i * j); }
+    bool is_border(std::int64_t i, std::int64_t j) const {
+        const bool in = levels_[offset(i, j)] > 0;
+        const auto differs = [&](std::int64_t a, std::int64_t b) {
+            return a >= 0 && b >= 0 && a < grid_.size.i && b < grid_.size.j && (levels_[offset(a, b)] > 0) != in;
+        };
+        return differs(i - 1, j) || differs(i + 1, j) || differs(i, j - 1) || differs(i, j + 1);
+    }
+
+    const Grid& grid_;
+    std::int64_t k_;
+    std::vector<double> levels_;
+};
+
+/// A point of a line between two voxel centres of which the surface separates one from the other.
+struct Crossing {
+    std::array<double, 2> low{}, high{};  ///< indices (i, j)
+    double low_level = 0, high_level = 0;
+    int last_moved = 0;  ///< -1: low, 1: high
+
+    /// Where the straight line through the two levels is zero.
+    std::array<double, 2> zero() const {
+        const double t = low_level / (low_level - high_level);
+        return {low[0] + t * (high[0] - low[0]), low[1] + t * (high[1] - low[1])};
+    }
+
+    /// One step of regula falsi. When the same end moves twice the other one's level is halved (the Illinois algorithm,
+    /// Dowell & Jarratt 1971), which draws both ends to the zero.
+    void narrow(const std::array<double, 2>& at, double level) {
+        const bool moves_low = (level > 0) == (low_level > 0);
+        if (moves_low) {
+            low = at, low_level = level;
+            if (last_moved == -1) high_level /= 2;
+        } else {
+            high = at, high_level = level;
+            if (last_moved == 1) low_level /= 2;
+        }
+        last_moved = moves_low ? -1 : 1;
+    }
+};
+
+/// Points on the grid's border stay where they are: both indices are integers.
+std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const Slice& slice) {
+    Crossing crossing{{std::floor(point[0]), std::floor(point[1])}, {std::ceil(point[0]), std::ceil(point[1])}};
+    if (crossing.low == crossing.high) return std::nullopt;
+    crossing.low_level = slice.level(crossing.low[0], crossing.low[1]);
+    crossing.high_level = slice.level(crossing.high[0], crossing.high[1]);
+    if ((crossing.low_level > 0) == (crossing.high_level > 0)) return std::nullopt;
+    return crossing;
+}
+
+/// Moves the lines' points from where linear interpolation put them to the function's zeros; all of them step by step,
+/// because the function is several times cheaper in bulk.
+void refine(std::vector<Isoline>& lines, const Slice& slice, const ImplicitFunction& function, const Plane& plane) {
+    constexpr int kSteps = 8;  // leaves less than 1e-6 of a voxel where the surface is as smooth as fits are
+    std::vector<Crossing> crossings;
+    std::vector<std::array<double, 2>*> points;
+    for (Isoline& line : lines)
+        for (std::array<double, 2>& point : line.points)
+            if (const auto crossing = crossing_at(point, slice)) {
+                crossings.push_back(*crossing);
+                points.push_back(&point);
+            }
+    std::vector<Vec3> places(points.size());
+    std::vector<double> values(points.size());
+    for (int step = 0; step < kSteps; ++step) {
+        for (std::size_t n = 0; n < points.size(); ++n) places[n] = plane.from_uv((*points[n])[0], (*points[n])[1]);
+        function.values(places, values, 1);
+        for (std::size_t n = 0; n < points.size(); ++n) {
+            crossings[n].narrow(*points[n], values[n]);
+            *points[n] = crossings[n].zero();
+        }
+    }
+}
+
+std::vector<Contour> contours_of_slice(const Mask& mask, const ImplicitFunction& function, std::int64_t k) {
+    Slice slice(mask, k);
+    if (slice.is_empty()) return {};
+    slice.evaluate_border(function);
+    const PlaneLattice lattice = lattice_of(mask.grid, k);
+    std::vector<Isoline> lines = isolines(lattice, slice.levels());
+    refine(lines, slice, function, lattice.plane);
+    const Plane plane = plane_of(lattice);
+    std::vector<Contour> contours;
+    for (const Isoline& line : lines) {
+        Contour& contour = contours.emplace_back(Contour{.plane = plane, .points = {}, .hole = line.hole});
+        for (const auto& [i, j] : line.points) contour.points.push_back(lattice.plane.from_uv(i, j));
+    }
+    return contours;
+}
+
+}  // namespace
+
+ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, int threads, const Progress& progress) {
+    check_grid(mask.grid);
+    if (static_cast<std::int64_t>(mask.values.size()) != mask.grid.voxel_count())
+        throw Error(ErrorKind::invalid_input, "the mask has " + std::to_string(mask.values.size()) +
+                                                  " values for a grid of " + std::to_string(mask.grid.voxel_count()) +
+                                                  " voxels");
+    constexpr std::int64_t kSlicesAtOnce = 32;  // between two looks at the progress
+    std::vector<std::vector<Contour>> slices(static_cast<std::size_t>(mask.grid.size.k));
+    for (std::int64_t start = 0; start < mask.grid.size.k; start += kSlicesAtOnce) {
+        progress.report("slice", static_cast<double>(start) / static_cast<double>(mask.grid.size.k));
+        const std::int64_t count = std::min(kSlicesAtOnce, mask.grid.size.k - start);
+        parallel_for(count, 1, threads, [&](std::int64_t first, std::int64_t end) {
+            for (std::int64_t k = start + first; k < start + end; ++k)
+                slices[static_cast<std::size_t>(k)] = contours_of_slice(mask, function, k);
+        });
+    }
+    ContourSet set;
+    for (std::vector<Contour>& contours : slices)
+        std::move(contours.begin(), contours.end(), std::back_inserter(set.contours));
+    progress.report("slice", 1);
+    return set;
+}
+
+}  // namespace kontur

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to io/: what the DICOM objects that kontur makes have in common. Uses DCMTK's types.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_header.h"
+#include "kontur/io/dicom_series.h"
+
+namespace kontur::dcmtk {
+
+/// Sets an element from text (several values separated by '\'). Throws std::logic_error when DCMTK refuses: a wrong tag.
+void put(DcmItem& item, const DcmTagKey& tag, const std::string& text);
+void put(DcmItem& item, const DcmTagKey& tag, std::int64_t number);
+
+/// A new last item of a sequence, which is made when it is not there.
+DcmItem& append_item(DcmItem& item, const DcmTagKey& sequence);
+
+/// A name or comment of the user's as one value of at most `max_characters`: backslashes, which separate values, become
+/// slashes, control characters blanks; what is too long is cut at a character's end.
+std::string one_value(std::string_view text, std::size_t max_characters);
+
+/// The items of a coded concept, such as {"113076", "DCM", "Segmentation"}.
+struct Code {
+    const char* value;
+    const char* scheme;
+    const char* meaning;
+};
+void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
+
+/// A new object of a series of its own, in UTF-8, that belongs to the patient, study and frame of reference of `images`,
+/// whose first file is read for it; names kontur as its maker.
+void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
+                    const std::string& series_description);
+
+/// Refers to a slice's file, and to its frame where that has several.
+void put_image_reference(DcmItem& item, const DicomHeader& slice);
+
+/// Writes the file, whole or not at all. Throws Error(io).
+void save(DcmFileFormat& file, const std::filesystem::path& path, E_TransferSyntax syntax);
+
+}  // namespace kontur::dcmtk
+
+namespace kontur {
+
+/// The headers of a series' slices, in the order of k. Throws what `read_dicom_header` throws, and Error(invalid_input) for
+/// a series without files or a file without identifiers.
+std::vector<DicomHeader> read_slice_headers(const DicomSeries& images);
+
+}  // namespace kontur

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "kontur/base/error.h"
+#include "kontur/io/decimal_string.h"
+#include "kontur/io/dicom_document.h"
+#include "kontur/io/keyhole.h"
+#include "kontur/io/rtstruct.h"
+#include "kontur/shape/contour_nesting.h"
+
+namespace kontur {
+namespace {
+
+using dcmtk::append_item;
+using dcmtk::put;
+using dcmtk::put_image_reference;
+
+constexpr double kTouchingMm = 1e-6;  ///< what rounding leaves of the distance between touching contours
+
+Error invalid(const std::string& message) { return Error(ErrorKind::invalid_input, message); }
+
+/// A contour as it will stand in the file.
+struct StoredPath {
+    std::vector<Vec3> points;
+    const char* type = "CLOSED_PLANAR";
+    const Plane* plane = nullptr;
+};
+
+void check_contour(const Contour& contour) {
+    if (!contour.closed) throw invalid("it is open; only closed contours can be written");
+    if (contour.points.size() < 3)
+        throw invalid(fmt::format("it has {} points; at least 3 are needed", contour.points.size()));
+    if (!std::all_of(contour.points.begin(), contour.points.end(), is_finite))
+        throw invalid("it has a NaN or infinite coordinate");
+}
+
+void check_set(const ContourSet& set, const Nesting& nesting) {
+    if (!set.interior.empty() || !set.exterior.empty() || !set.surface.empty())
+        throw Error(ErrorKind::unsupported,
+                    "points inside, outside or on the surface cannot be written to an RT structure set");
+    for (std::size_t n = 0; n < set.contours.size(); ++n) {
+        try {
+            check_contour(set.contours[n]);
+            if (set.contours[n].hole && nesting.depth[n] == 0) throw invalid("it is a hole that no contour encloses");
+        } catch (const Error& error) {
+            throw error.with_context(fmt::format("contour {}", n + 1));
+        }
+    }
+}
+
+/// Filled even-odd.
+bool is_hole(const Nesting& nesting, std::size_t contour) { return nesting.depth[contour] % 2 == 1; }
+
+/// The holes that lie directly in contour `outer`.
+std::vector<std::vector<Vec3>> holes_in(const std::vector<Contour>& contours, const Nesting& nesting, std::size_t outer) {
+    std::vector<std::vector<Vec3>> holes;
+    for (std::size_t n = 0; n < contours.size(); ++n) {
+        const auto& enclosing = nesting.enclosing[n];
+        if (is_hole(nesting, n) && nesting.depth[n] == nesting.depth[outer] + 1 &&
+            std::find(enclosing.begin(), enclosing.end(), outer) != enclosing.end())
+            holes.push_back(contours[n].points);
+    }
+    return holes;
+}
+
+std::vector<StoredPath> keyholes(const std::vector<Contour>& contours, const Nesting& nesting) {
+    std::vector<StoredPath> paths;
+    for (std::size_t n = 0; n < contours.size(); ++n) {
+        if (is_hole(nesting, n)) continue;
+        StoredPath& path = paths.emplace_back();
+        path.plane = &contours[n].plane;
+        const auto holes = holes_in(contours, nesting, n);
+        path.points = holes.empty() ? contours[n].points : join_keyhole(contours[n].points, holes, *path.plane);
+    }
+    return paths;
+}
+
+/// PS3.3 C.8.8.6.3: when one contour of a ROI is combined by exclusive or, all are.
+std::vector<StoredPath> rings(const std::vector<Contour>& contours, const char* type) {
+    std::vector<StoredPath> paths;
+    for (const Contour& contour : contours) paths.push_back({contour.points, type, &contour.plane});
+    return paths;
+}
+
+std::vector<StoredPath> stored_paths(const ContourSet& set, HoleEncoding encoding) {
+    const Nesting nesting = find_nesting(set.contours, kTouchingMm);
+    check_set(set, nesting);
+    const bool has_holes =
+        std::any_of(nesting.enclosing.begin(), nesting.enclosing.end(), [](const auto& e) { return !e.empty(); });
+    if (has_holes && encoding == HoleEncoding::keyhole) return keyholes(set.contours, nesting);
+    return rings(set.contours, has_holes && encoding == HoleEncoding::exclusive ? "CLOSEDPLANAR_XOR" : "CLOSED_PLANAR");
+}
+
+/// The slice on which a contour lies: parallel to it and nearer than a tenth of the way to the next slice. Contours are
+/// often some hundredths of a millimetre off their slice.
+const DicomHeader* slice_of(const StoredPath& path, const std::vector<DicomHeader>& slices) {
+    const auto off = [&](const DicomHeader& slice) {
+        return std::abs(dot(slice.placement.normal(), path.points.front() - slice.placement.position));
+    };
+    const auto nearer = [&](const DicomHeader& a, const DicomHeader& b) { return off(a) < off(b); };
+    const DicomHeader& nearest = *std::min_element(slices.begin(), slices.end(), nearer);
+    const Vec3 normal = nearest.placement.normal();
+    const double step = slices.size() > 1
+                            ? std::abs(dot(normal, slices[1].placement.position - slices[0].placement.position))
+                            : nearest.thickness_mm.value_or(1);
+    const bool on_slice = off(nearest) <= 0.1 * step && std::abs(dot(normal, path.plane->normal)) > 1 - 1e-6;
+    return on_slice ? &nearest : nullptr;
+}
+
+std::string contour_data(const std::vector<Vec3>& points) {
+    std::string text;
+    for (const Vec3& p : points)
+        for (const double coordinate : {p.x, p.y, p.z}) {
+            if (!text.empty()) text += '\\';
+            text += to_decimal_string(coordinate);
+        }
+    return text;
+}
+
+void put_image_hierarchy(DcmItem& document, const std::vector<DicomHeader>& slices) {
+    const char* const kDetachedStudyManagement = "1.2.840.10008.3.1.2.3.1";
+    DcmItem& frame = append_item(document, DCM_ReferencedFrameOfReferenceSequence);
+    put(frame, DCM_FrameOfReferenceUID, dcmtk::text(document, DCM_FrameOfReferenceUID));
+    DcmItem& study = append_item(frame, DCM_RTReferencedStudySequence);
+    put(study, DCM_ReferencedSOPClassUID, kDetachedStudyManagement);
+    put(study, DCM_ReferencedSOPInstanceUID, dcmtk::text(document, DCM_StudyInstanceUID));
+    DcmItem& series = append_item(study, DCM_RTReferencedSeriesSequence);
+    put(series, DCM_SeriesInstanceUID, slices.front().series_uid);
+    for (const DicomHeader& slice : slices) put_image_reference(append_item(series, DCM_ContourImageSequence), slice);
+}
+
+class RoiWriter {
+public:
+    RoiWriter(DcmItem& document, const std::vector<DicomHeader>& slices, HoleEncoding holes)
+        : document_(document), slices_(slices), holes_(holes) {}
+
+    void write(const Roi& roi, std::int64_t number) {
+        const std::string name = roi.name.empty() ? roi.contours.name : roi.name;
+        put_entry(roi, name, number);
+        DcmItem& item = append_item(document_, DCM_ROIContourSequence);
+        put(item, DCM_ReferencedROINumber, number);
+        if (roi.color)
+            put(item, DCM_ROIDisplayColor, fmt::format("{}\\{}\\{}", (*roi.color)[0], (*roi.color)[1], (*roi.color)[2]));
+        std::int64_t contour_number = 0;
+        for (const StoredPath& path : stored_paths(roi.contours, holes_)) put_contour(item, path, ++contour_number);
+        put_observation(roi, number);
+    }
+
+    /// Contours without a slice so far.
+    std::size_t off_slices() const { return off_slices_; }
+
+private:
+    void put_entry(const Roi& roi, const std::string& name, std::int64_t number) {
+        DcmItem& entry = append_item(document_, DCM_StructureSetROISequence);
+        put(entry, DCM_ROINumber, number);
+        put(entry, DCM_ReferencedFrameOfReferenceUID, dcmtk::text(document_, DCM_FrameOfReferenceUID));
+        put(entry, DCM_ROIName, dcmtk::one_value(name, 64));
+        put(entry, DCM_ROIGenerationAlgorithm, roi.generation_algorithm);
+    }
+
+    void put_contour(DcmItem& roi, const StoredPath& path, std::int64_t number) {
+        DcmItem& item = append_item(roi, DCM_ContourSequence);
+        put(item, DCM_ContourNumber, number);
+        if (const DicomHeader* slice = slice_of(path, slices_))
+            put_image_reference(append_item(item, DCM_ContourImageSequence), *slice);
+        else ++off_slices_;
+        put(item, DCM_ContourGeometricType, path.type);
+        put(item, DCM_NumberOfContourPoints, static_cast<std::int64_t>(path.points.size()));
+        put(item, DCM_ContourData, contour_data(path.points));
+    }
+
+    void put_observation(const Roi& roi, std::int64_t number) {
+        DcmItem& item = append_item(document_, DCM_RTROIObservationsSequence);
+        put(item, DCM_ObservationNumber, number);
+        put(item, DCM_ReferencedROINumber, number);
+        put(item, DCM_RTROIInterpretedType, roi.interpreted_type);
+        put(item, DCM_ROIInterpreter, "");
+    }
+
+    DcmItem& document_;
+    const std::vector<DicomHeader>& slices_;
+    HoleEncoding holes_;
+    std::size_t off_slices_ = 0;
+};
+
+/// The ROIs' own numbers; where they are 0 the lowest free ones.
+std::vector<std::int64_t> roi_numbers(const std::vector<Roi>& rois) {
+    std::vector<std::int64_t> numbers;
+    std::set<std::int64_t> taken;
+    for (const Roi& roi : rois)
+        if (roi.number != 0 && !taken.insert(roi.number).second)
+            throw invalid(fmt::format("two ROIs have the number {}", roi.number));
+    for (const Roi& roi : rois) {
+        std::int64_t number = roi.number;
+        if (number == 0)
+            for (number = 1; !taken.insert(number).second;) ++number;
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+}  // namespace
+
+std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const StructureSet& set,
+                                        const DicomSeries& images, const WriteRtstructOptions& options) {
+    dcmtk::set_up();
+    const std::vector<DicomHeader> slices = read_slice_headers(images);
+    const std::vector<std::int64_t> numbers = roi_numbers(set.rois);
+    DcmFileFormat file;
+    DcmItem& document = *file.getDataset();
+    dcmtk::start_document(document, images, UID_RTStructureSetStorage, "RTSTRUCT", options.series_description);
+    put(document, DCM_StructureSetLabel, dcmtk::one_value(set.label.empty() ? "kontur" : set.label, 16));
+    put(document, DCM_StructureSetDate, dcmtk::text(document, DCM_InstanceCreationDate));
+    put(document, DCM_StructureSetTime, dcmtk::text(document, DCM_InstanceCreationTime));
+    put(document, DCM_ApprovalStatus, "UNAPPROVED");
+    put_image_hierarchy(document, slices);
+    RoiWriter writer(document, slices, options.holes);
+    for (std::size_t n = 0; n < set.rois.size(); ++n) {
+        try {
+            writer.write(set.rois[n], numbers[n]);
+        } catch (const Error& error) {
+            throw error.with_context(fmt::format("ROI {} '{}'", numbers[n], set.rois[n].name));
+        }
+    }
+    // Explicit VR has 16-bit lengths for decimal strings; a contour of 1300 points would not fit.
+    dcmtk::save(file, path, EXS_LittleEndianImplicit);
+    if (writer.off_slices() == 0) return {};
+    return {fmt::format("{} contour{} on no slice of the images, and carry no reference to one; many programs ignore such",
+                        writer.off_slices(), writer.off_slices() == 1 ? " lies" : "s lie")};
+}
+
+}  // namespace kontur

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""RT structure sets out of kontur segment, trace and convert, as pydicom and dciodvfy see them."""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+import numpy
+import pytest
+from support import ball_array, circle, kontur, names, read_nifti, real_data, write_nifti, write_planes
+
+SUPPORT = pathlib.Path(__file__).parent.parent / "support"
+CENTER = (-15.0, -25.0, 110.0)  # within the images
+RADIUS = 3.5
+
+
+@pytest.fixture(scope="module")
+def images(tmp_path_factory):
+    """A DICOM series of 9 axial slices, 2.5 mm apart."""
+    folder = tmp_path_factory.mktemp("images") / "axial"
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "axial", folder], check=True)
+    return folder / "dicom"
+
+
+def ball_contours(path):
+    return write_planes(path, [circle(axis, offset, center=CENTER, radius=RADIUS) for axis in "xyz" for offset in (-1.5, 0, 1.5)])
+
+
+def checked(path, images):
+    """The ROI lines and the contour lines of a file in which pydicom and dciodvfy find no fault."""
+    words = [sys.executable, SUPPORT / "check_rtstruct.py", path, images]
+    result = subprocess.run(words, capture_output=True, text=True)
+    assert result.returncode == 0, result
+    lines = [line.split() for line in result.stdout.splitlines()]
+    return [line for line in lines if not line[0].startswith("CLOSED")], [line for line in lines if line[0].startswith("CLOSED")]
+
+
+def disc_area(z):
+    return math.pi * max(0, RADIUS**2 - (z - CENTER[2]) ** 2)
+
+
+def test_segment_cuts_the_surface_on_the_images_slices(tmp_path, images):
+    contours = ball_contours(tmp_path / "ball.json")
+    words = ["--image", images, "--output", tmp_path / "mask.nii.gz", "--rtstruct", tmp_path / "rs.dcm", "--name", "Läsion"]
+    result = kontur("segment", contours, *words)
+    assert result.returncode == 0, result
+    assert "rs.dcm" in result.stdout
+    [roi], found = checked(tmp_path / "rs.dcm", images)
+    assert roi[1] == "Läsion" and roi[3] == "SEMIAUTOMATIC"
+    areas = {float(line[3]): float(line[2]) for line in found}
+    assert sorted(areas) == [107.5, 110.0, 112.5]
+    for z, area in areas.items():
+        # The chords of a coarse lattice cut off some of each disc, the surface itself is exact to 0.1 mm.
+        assert area == pytest.approx(disc_area(z), rel=0.08)
+    mask = read_nifti(tmp_path / "mask.nii.gz")
+    assert [k for k in range(9) if mask[:, :, k].any()] == [3, 4, 5]
+
+
+def test_trace_cuts_a_mask_on_the_images_slices(tmp_path, images):
+    kontur("segment", ball_contours(tmp_path / "ball.json"), "--image", images, "--output", tmp_path / "mask.nii.gz")
+    words = ["--image", images, "--output", tmp_path / "rs.dcm", "--name", "ball"]
+    assert kontur("trace", tmp_path / "mask.nii.gz", *words).returncode == 0
+    [roi], found = checked(tmp_path / "rs.dcm", images)
+    assert roi[1] == "ball"
+    assert [float(line[3]) for line in found] == [107.5, 110.0, 112.5]
+
+
+def test_an_images_slices_also_cut_into_a_contour_file(tmp_path):
+    mask = write_nifti(tmp_path / "mask.nii.gz", ball_array())
+    assert kontur("trace", mask, "--image", mask, "--output", tmp_path / "out.json").returncode == 0
+    planes = json.loads((tmp_path / "out.json").read_text())["planes"]
+    assert [p["origin"][2] for p in planes] == [float(z) for z in range(-4, 15)]
+    assert kontur("trace", mask, "--output", tmp_path / "none.json").returncode == 65
+
+
+def test_a_structure_set_survives_the_way_through_kontur(tmp_path):
+    folder = real_data("04_sarcoma_STS_040/CT")
+    first = folder / "RTSTRUCT_RS.dcm"
+    assert kontur("convert", first, tmp_path / "rs.dcm", "--image", folder / "image").returncode == 0
+    for source, target in [(first, "before.json"), (tmp_path / "rs.dcm", "after.json")]:
+        assert kontur("convert", source, tmp_path / target).returncode == 0
+    before, after = (json.loads((tmp_path / name).read_text()) for name in ("before.json", "after.json"))
+    assert before["structure"] == after["structure"] == "GTV_Mass_CT"
+    points = [
+        sorted((tuple(p) for plane in found["planes"] for c in plane["contours"] for p in c["points"]))
+        for found in (before, after)
+    ]
+    assert len(points[0]) == 25540
+    assert numpy.abs(numpy.array(points[0]) - numpy.array(points[1])).max() < 1e-4
+
+
+@pytest.mark.parametrize("encoding, kind", [("keyhole", "CLOSED_PLANAR"), ("xor", "CLOSEDPLANAR_XOR"), ("nested", "CLOSED_PLANAR")])
+def test_holes_are_stored_as_asked(tmp_path, images, encoding, kind):
+    plane = circle("z", 0, center=CENTER, radius=RADIUS)
+    plane["contours"] += circle("z", 0, center=CENTER, radius=1)["contours"]
+    contours = write_planes(tmp_path / "ring.json", [plane])
+    words = ["convert", contours, tmp_path / "rs.dcm", "--image", images, "--holes", encoding]
+    assert kontur(*words).returncode == 0
+    assert kontur("convert", tmp_path / "rs.dcm", tmp_path / "again.json").returncode == 0
+    [again] = json.loads((tmp_path / "again.json").read_text())["planes"]
+    assert sorted((c["hole"], len(c["points"])) for c in again["contours"]) == [(False, 40), (True, 40)]
+    assert kind.encode() in (tmp_path / "rs.dcm").read_bytes()
+
+
+def test_dicom_output_without_dicom_images_is_refused_before_any_work(tmp_path):
+    contours = ball_contours(tmp_path / "ball.json")
+    image = write_nifti(tmp_path / "image.nii.gz", ball_array())
+    before = names(tmp_path)
+    for words in [
+        ["convert", contours, tmp_path / "rs.dcm"],
+        ["convert", contours, tmp_path / "rs.dcm", "--image", image],
+        ["segment", contours, "--image", image, "--output", tmp_path / "m.nii.gz", "--rtstruct", tmp_path / "rs.dcm"],
+        ["trace", image, "--planes", contours, "--output", tmp_path / "rs.dcm"],
+    ]:
+        result = kontur(*words)
+        assert result.returncode == 65
+        assert "DICOM" in result.stderr
+        assert names(tmp_path) == before

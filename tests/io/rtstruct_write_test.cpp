@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kontur/extract/rasterize.h"
+#include "kontur/io/dicom_series.h"
+#include "kontur/io/keyhole.h"
+#include "kontur/io/rtstruct.h"
+#include "support/expect_error.h"
+#include "support/random.h"
+#include "support/run_python.h"
+#include "support/temporary_folder.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Vec3> ring(const Plane& plane, double u, double v, double radius, int points) {
+    std::vector<Vec3> result;
+    for (int n = 0; n < points; ++n) {
+        const double angle = 2 * std::numbers::pi * n / points;
+        result.push_back(plane.from_uv(u + radius * std::cos(angle), v + radius * std::sin(angle)));
+    }
+    return result;
+}
+
+class WriteRtstruct : public testing::Test {
+protected:
+    /// Makes the images "axial" or "oblique" to draw on: 9 slices of 14 x 12 pixels.
+    void use_images(const std::string& name) {
+        const auto made = test::run_python("make_dicom_series.py", {name, (folder_ / name).string()});
+        ASSERT_EQ(made.exit_code, 0) << made.output;
+        images_ = folder_ / name / "dicom";
+        const DicomGrid found = read_dicom_grid(images_);
+        series_ = found.series;
+        grid_ = found.grid;
+    }
+
+    Plane slice(std::int64_t k) const {
+        const Vec3 u = normalized(grid_.index_to_mm.column(0)), v = normalized(grid_.index_to_mm.column(1));
+        return {grid_.center_mm(0, 0, k), cross(u, v), u, v};
+    }
+
+    void add(ContourSet& set, const Plane& plane, double u, double v, double radius, int points = 24) const {
+        set.contours.push_back({.plane = plane, .points = ring(plane, u, v, radius, points)});
+    }
+
+    /// Slice 2: a disc with two holes, an island in one of them, and another disc; slice 3: a disc.
+    Roi holes() const {
+        Roi roi;
+        roi.name = "L\xC3\xA4sion \xD0\x96";
+        roi.interpreted_type = "GTV";
+        roi.generation_algorithm = "SEMIAUTOMATIC";
+        roi.color = {10, 20, 255};
+        add(roi.contours, slice(2), 4.03, 4.11, 3.47);
+        add(roi.contours, slice(2), 2.53, 4.07, 1.2);
+        add(roi.contours, slice(2), 2.53, 4.07, 0.5);
+        add(roi.contours, slice(2), 5.53, 4.31, 0.8);
+        add(roi.contours, slice(2), 8.51, 6.03, 0.8);
+        add(roi.contours, slice(3), 4.03, 4.11, 3.03);
+        return roi;
+    }
+
+    fs::path path() const { return folder_ / "structures.dcm"; }
+    std::vector<std::string> write(const Roi& roi, const WriteRtstructOptions& options = {}) const {
+        return write_rtstruct(path(), {"test", {roi}}, series_, options);
+    }
+    /// What others read in the file; a failed test unless they find no fault.
+    std::string verdict() const {
+        const auto checked = test::run_python("check_rtstruct.py", {path().string(), images_.string()});
+        EXPECT_EQ(checked.exit_code, 0) << checked.output;
+        return checked.output;
+    }
+
+    test::TemporaryFolder folder_;
+    fs::path images_;
+    DicomSeries series_;
+    Grid grid_;
+};
+
+int count(const std::string& text, std::string_view part) {
+    int found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+/// Every point of one set is near some point of the other.
+double largest_distance(const ContourSet& from, const ContourSet& to) {
+    double worst = 0;
+    for (const Contour& contour : from.contours)
+        for (const Vec3& p : contour.points) {
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Contour& other : to.contours)
+                for (const Vec3& q : other.points) nearest = std::min(nearest, distance(p, q));
+            worst = std::max(worst, nearest);
+        }
+    return worst;
+}
+
+TEST_F(WriteRtstruct, ComesBackTheSameWithHolesInEachEncoding) {
+    for (const char* images : {"axial", "oblique"}) {
+        use_images(images);
+        const Roi roi = holes();
+        const Mask mask = rasterize(roi.contours, grid_);
+        for (const HoleEncoding encoding : {HoleEncoding::keyhole, HoleEncoding::exclusive, HoleEncoding::nested}) {
+            SCOPED_TRACE(std::string(images) + ", encoding " + std::to_string(static_cast<int>(encoding)));
+            EXPECT_TRUE(write(roi, {.holes = encoding}).empty());
+            const StructureSet set = read_rtstruct(path());
+            EXPECT_EQ(set.label, "test");
+            ASSERT_EQ(set.rois.size(), 1u);
+            const Roi& again = set.rois.front();
+            EXPECT_EQ(again.name, roi.name);
+            EXPECT_EQ(again.number, 1);
+            EXPECT_EQ(again.interpreted_type, "GTV");
+            EXPECT_EQ(again.generation_algorithm, "SEMIAUTOMATIC");
+            EXPECT_EQ(again.color, roi.color);
+            EXPECT_EQ(again.frame_of_reference_uid, series_.frame_of_reference_uid);
+            EXPECT_EQ(again.contours.contours.size(), 6u);
+            EXPECT_EQ(point_count(again.contours), point_count(roi.contours));
+            EXPECT_LT(largest_distance(again.contours, roi.contours), 1e-9);
+            EXPECT_LT(largest_distance(roi.contours, again.contours), 1e-9);
+            EXPECT_EQ(rasterize(again.contours, grid_).values, mask.values);
+        }
+    }
+}
+
+TEST_F(WriteRtstruct, IsUnderstoodByOthers) {
+    for (const char* images : {"axial", "oblique", "tilt"}) {
+        use_images(images);
+        write(holes());
+        const std::string seen = verdict();
+        EXPECT_NE(seen.find("1 L\xC3\xA4sion \xD0\x96 GTV SEMIAUTOMATIC 10,20,255"), std::string::npos) << seen;
+        EXPECT_EQ(count(seen, "CLOSED_PLANAR 76 "), 1) << "the disc with its two holes and two channels: 3 x 24 + 4";
+        EXPECT_EQ(count(seen, "CLOSED_PLANAR 24 "), 3) << "the island, the other disc, the next slice";
+        EXPECT_EQ(count(seen, " -\n"), 0) << "each names its slice";
+    }
+}
+
+TEST_F(WriteRtstruct, KeepsLongContours) {
+    use_images("axial");
+    Roi roi;
+    roi.name = "long";
+    add(roi.contours, slice(4), 4, 4, 3, 8000);
+    write(roi);
+    EXPECT_GT(fs::file_size(path()), 300'000u);
+    EXPECT_NE(verdict().find("CLOSED_PLANAR 8000 28.2743"), std::string::npos);
+    const Roi again = select_roi(read_rtstruct(path()));
+    ASSERT_EQ(point_count(again.contours), 8000u);
+    EXPECT_LT(largest_distance(again.contours, roi.contours), 1e-9);
+}
+
+TEST_F(WriteRtstruct, SaysWhichContoursLieOnNoSlice) {
+    use_images("axial");
+    Roi roi = holes();
+    add(roi.contours, make_plane(grid_.center_mm(7, 6, 4), {1, 0, 0}), 0, 0, 3);
+    const std::vector<std::string> notes = write(roi);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(notes.front().starts_with("1 contour lies on no slice of the images")) << notes.front();
+    EXPECT_EQ(count(verdict(), " -\n"), 1);
+}
+
+TEST_F(WriteRtstruct, NumbersRoisThatHaveNone) {
+    use_images("axial");
+    StructureSet set{"", {holes(), holes(), Roi{}}};
+    set.rois[0].number = 2;
+    set.rois[2].name = std::string(70, 'x') + "\\";
+    write_rtstruct(path(), set, series_);
+    const StructureSet again = read_rtstruct(path());
+    EXPECT_EQ(again.rois[0].number, 2);
+    EXPECT_EQ(again.rois[1].number, 1);
+    EXPECT_EQ(again.rois[2].number, 3);
+    EXPECT_EQ(again.rois[2].name, std::string(64, 'x')) << "DICOM's limit";
+    EXPECT_TRUE(again.rois[2].contours.contours.empty());
+    verdict();
+    set.rois[1].number = 2;
+    EXPECT_KONTUR_ERROR(write_rtstruct(path(), set, series_), ErrorKind::invalid_input, "two ROIs have the number 2");
+}
+
+TEST_F(WriteRtstruct, RefusesWhatItCannotSay) {
+    use_images("axial");
+    const auto refused = [&](const auto& change) {
+        Roi roi = holes();
+        change(roi.contours);
+        try {
+            write(roi);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const std::string roi = "ROI 1 'L\xC3\xA4sion \xD0\x96': ";
+    EXPECT_EQ(refused([](ContourSet& set) { set.contours[1].closed = false; }),
+              roi + "contour 2: it is open; only closed contours can be written");
+    EXPECT_EQ(refused([](ContourSet& set) { set.contours[4].points.resize(2); }),
+              roi + "contour 5: it has 2 points; at least 3 are needed");
+    EXPECT_EQ(refused([](ContourSet& set) { set.contours[5].points[3].y = NAN; }),
+              roi + "contour 6: it has a NaN or infinite coordinate");
+    EXPECT_EQ(refused([](ContourSet& set) { set.contours[5].hole = true; }),
+              roi + "contour 6: it is a hole that no contour encloses");
+    EXPECT_NE(refused([](ContourSet& set) { set.interior.push_back({}); }).find("points inside"), std::string::npos);
+    EXPECT_FALSE(fs::exists(path()));
+    EXPECT_KONTUR_ERROR(write_rtstruct(path(), {}, {}), ErrorKind::invalid_input, "the image series has no files");
+}
+
+/// Proper crossings of the path's edges with each other.
+int crossings(const std::vector<Vec3>& path) {
+    const auto side = [](const Vec3& a, const Vec3& b, const Vec3& p) { return cross(b - a, p - a).z; };
+    int found = 0;
+    for (std::size_t m = 0; m < path.size(); ++m)
+        for (std::size_t n = 0; n < m; ++n) {
+            const Vec3 &a = path[m], &b = path[(m + 1) % path.size()], &c = path[n], &d = path[(n + 1) % path.size()];
+            found += side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+        }
+    return found;
+}
+
+double signed_area(const std::vector<Vec3>& path) {
+    double twice = 0;
+    for (std::size_t n = 0; n < path.size(); ++n) twice += cross(path[n], path[(n + 1) % path.size()]).z;
+    return twice / 2;
+}
+
+TEST(JoinKeyhole, EnclosesTheOuterRingLessItsHolesWithoutCrossingItself) {
+    std::mt19937 random = test::random_of_this_test();
+    std::uniform_real_distribution<double> jitter(0.1, 0.45);
+    std::bernoulli_distribution turned(0.5);
+    const Plane plane;
+    for (int round = 0; round < 20; ++round) {
+        const std::vector<Vec3> outer{{0, 0, 0}, {6, 0, 0}, {6, 6, 0}, {0, 6, 0}};
+        std::vector<std::vector<Vec3>> holes;
+        double area = 36;
+        for (int i = 0; i < 5; ++i)  // on a lattice, so that many corners lie on common lines
+            for (int j = 0; j < 5; ++j) {
+                holes.push_back(ring(plane, i + 1, j + 1, round == 0 ? 0.25 : jitter(random), round == 0 ? 4 : 7));
+                area -= std::abs(signed_area(holes.back()));
+                if (turned(random)) std::reverse(holes.back().begin(), holes.back().end());
+            }
+        const std::vector<Vec3> path = join_keyhole(outer, holes, plane);
+        EXPECT_EQ(crossings(path), 0);
+        EXPECT_NEAR(std::abs(signed_area(path)), area, 1e-9) << "holes run against the outer ring";
+        EXPECT_EQ(split_keyhole(path, 1e-3).size(), 26u);
+    }
+}
+
+}  // namespace
+}  // namespace kontur

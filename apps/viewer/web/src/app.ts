@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+import { type Vec3 } from "./geometry/vec";
+import type { Screen } from "./geometry/screen";
+import { Navigation, type PaneName, type SavedNavigation } from "./model/navigation";
+import { Project } from "./model/project";
+import { Http, ServerError } from "./net/http";
+import { Latest } from "./net/latest";
+import { VIEW_NAMES, type Contour, type ServerEvent, type Session, type ViewName } from "./net/protocol";
+import { Socket, type ConnectionState } from "./net/socket";
+import { SurfaceView } from "./three/surface_view";
+import { Editor } from "./tools/editor";
+import { ViewInput } from "./tools/view_input";
+import { Keyboard } from "./ui/keyboard";
+import { hintFor } from "./ui/hints";
+import { el } from "./ui/dom";
+import { firstHint, importFile, openExport, openHelp, openImport } from "./ui/dialogs";
+import { crosshairOnto, Panel, viewAlong } from "./ui/panel";
+import { Notices, StatusBar } from "./ui/status";
+import { Toolbar } from "./ui/toolbar";
+import { SliceView } from "./view/slice_view";
+
+interface SavedPage {
+  navigation: SavedNavigation;
+  structure: number;
+  hintSeen: boolean;
+}
+
+const SAVE_PAGE_MS = 400;
+
+/** Puts the parts of the page together, and hands the server's events to them. */
+export class App {
+  readonly navigation = new Navigation();
+  readonly project = new Project();
+  readonly views = new Map<ViewName, SliceView>();
+  readonly editor: Editor;
+  active: ViewName = "axial";
+  private readonly http: Http;
+  private readonly socket: Socket;
+  private readonly status = new StatusBar();
+  private readonly notices = new Notices();
+  private readonly stage = el("main", { class: "stage" });
+  private readonly surface: SurfaceView;
+  private readonly toolbar: Toolbar;
+  private readonly keyboard: Keyboard;
+  private readonly inputs: ViewInput[] = [];
+  private readonly values: Latest<Vec3>;
+  private session: Session | null = null;
+  private connection: ConnectionState = "connecting";
+  private unsaved = 0;
+  private hintSeen = false;
+  private saveTimer = 0;
+
+  constructor(token: string) {
+    this.http = new Http(token);
+    this.socket = new Socket(token, {
+      event: (event) => this.receive(event),
+      connection: (state) => this.connected(state),
+      unsaved: (count) => this.tellSaved(count),
+    });
+    const failed = (error: unknown) => this.failed(error);
+    this.editor = new Editor(this.navigation, this.project, {
+      call: (name, args) => this.socket.call(name, args),
+      screenOf: (view) => this.views.get(view)?.screen() ?? null,
+      failed,
+      tell: (text) => this.notices.show("info", text),
+    });
+    const shared = { navigation: this.navigation, project: this.project, editor: this.editor, http: this.http, failed };
+    for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
+    this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p) });
+    this.values = new Latest((p) => this.askValue(p));
+    this.toolbar = new Toolbar({
+      ...shared,
+      undo: () => this.undo(),
+      redo: () => this.redo(),
+      openExport: () => openExport(shared),
+      openImport: () => openImport(this.importServices()),
+      openHelp: () => openHelp(this.session?.version ?? ""),
+    });
+    const panel = new Panel({
+      ...shared,
+      call: (name, args = {}) => this.editor.edit(name, args),
+      goTo: (p) => this.goTo(p),
+      show: (contour) => this.show(contour),
+      copySelected: (steps) => void this.editor.copySelected(this.active, steps),
+    });
+    this.keyboard = new Keyboard({
+      app: this,
+      undo: () => this.undo(),
+      redo: () => this.redo(),
+      help: () => openHelp(this.session?.version ?? ""),
+      leave: () => this.leave(),
+    });
+    this.stage.append(...[...this.views.values()].map((view) => view.element), this.surface.element, this.notices.element);
+    document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element);
+    this.connectParts();
+    this.acceptDrops();
+  }
+
+  start(): void {
+    this.socket.open();
+  }
+
+  private connectParts(): void {
+    const { navigation, project, editor } = this;
+    const each = (act: (view: SliceView) => void) => () => this.views.forEach(act);
+    navigation.on(["planes", "window"], each((view) => view.refresh(true)));
+    navigation.on(["planes"], () => this.surface.planesChanged());
+    navigation.on(["layout"], () => this.lay());
+    navigation.on(["planes", "window", "layout"], () => this.savePageSoon());
+    project.on(["contours", "structures", "surfaces"], each((view) => view.refresh(false)));
+    project.on(["selection", "draft"], each((view) => view.paint()));
+    project.on(["contours", "structures", "selection"], () => this.surface.contoursChanged());
+    project.on(["structures"], () => this.surface.restyle());
+    project.on(["surfaces"], () => this.surface.surfacesChanged());
+    project.on(["structures"], () => this.savePageSoon());
+    editor.on(["tool", "sketch", "hover"], each((view) => view.paint()));
+    editor.on(["tool", "sketch"], () => this.tellHint());
+    project.on(["selection"], () => this.tellHint());
+    for (const [name, view] of this.views) {
+      this.inputs.push(
+        new ViewInput(view, {
+          navigation,
+          editor,
+          isPanning: () => this.keyboard.spaceHeld,
+          pointed: (_, event) => this.pointed(view, event),
+          jump: (_, event) => this.jump(view, event),
+        }),
+      );
+      view.element.addEventListener("pointerdown", () => this.activate(name), { capture: true });
+      view.header.addEventListener("dblclick", () => this.toggleSingle(name));
+    }
+    this.surface.header.addEventListener("dblclick", () => this.toggleSingle("surface"));
+  }
+
+  // Server
+
+  private receive(event: ServerEvent): void {
+    switch (event.event) {
+      case "session":
+        return this.begin(event);
+      case "changed":
+        return this.project.apply(event);
+      case "surface":
+        return this.project.setSurface(event);
+      case "status":
+        return this.status.setWork(event.text, event.fraction);
+      case "notice":
+        return this.notices.show(event.level, event.text);
+    }
+  }
+
+  private begin(session: Session): void {
+    const isFirst = this.session === null;
+    this.session = session;
+    const page = session.page as SavedPage | null;
+    document.title = `${session.title} · kontur`;
+    this.status.start(session.project);
+    this.tellSaved(this.unsaved);
+    this.toolbar.start(session.title, session.presets);
+    // After a reconnect the user stays where he is.
+    this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
+    this.project.start(session);
+    if (isFirst && page?.structure) this.project.activate(page.structure);
+    void this.surface.start(session.image);
+    for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
+    this.hintSeen ||= page?.hintSeen ?? false;
+    if (!this.hintSeen && session.contours.length === 0) this.showFirstHint();
+    this.tellHint();
+    document.body.dataset["ready"] = "true";
+  }
+
+  private connected(state: ConnectionState): void {
+    if (state === "lost" && this.connection === "open")
+      this.notices.show("error", "The connection to kontur is lost. What was saved is kept in the project; the page reconnects as soon as kontur answers.");
+    if (state === "open") this.notices.element.replaceChildren();
+    this.connection = state;
+    document.body.dataset["connection"] = state;
+    this.tellSaved(this.unsaved);
+  }
+
+  private tellSaved(unsaved: number): void {
+    this.unsaved = unsaved;
+    this.status.setSaved(this.connection, unsaved);
+  }
+
+  private failed(error: unknown): void {
+    const text = error instanceof Error ? error.message : String(error);
+    const expected = error instanceof ServerError && this.connection !== "open";
+    if (!expected) this.notices.show("error", text);
+  }
+
+  undo(): void {
+    if (this.editor.sketch) return this.editor.removeLastPoint();
+    this.editor.edit("undo", {});
+  }
+
+  redo(): void {
+    this.editor.edit("redo", {});
+  }
+
+  // Looking around
+
+  private lay(): void {
+    const { layout, big } = this.navigation;
+    this.stage.dataset["layout"] = layout;
+    const panes: [PaneName, HTMLElement][] = [...[...this.views].map(([name, view]): [PaneName, HTMLElement] => [name, view.element]), ["surface", this.surface.element]];
+    const bigPane: PaneName | null = layout === "big-surface" ? "surface" : layout === "overview" ? null : big;
+    for (const [name, element] of panes) {
+      element.classList.toggle("big", name === bigPane);
+      element.hidden = layout === "single" && name !== bigPane;
+    }
+  }
+
+  toggleSingle(pane: PaneName): void {
+    const { navigation } = this;
+    if (navigation.layout === "single" && navigation.big === pane) navigation.setLayout("overview");
+    else navigation.setLayout("single", pane);
+  }
+
+  private activate(view: ViewName): void {
+    this.active = view;
+    for (const [name, { element }] of this.views) element.classList.toggle("focused", name === view);
+    if (this.navigation.layout === "overview") this.navigation.big = view;
+  }
+
+  private screens(): Partial<Record<ViewName, Screen>> {
+    const screens: Partial<Record<ViewName, Screen>> = {};
+    for (const [name, view] of this.views) {
+      const screen = view.screen();
+      if (screen) screens[name] = screen;
+    }
+    return screens;
+  }
+
+  goTo(p: Vec3): void {
+    this.navigation.goTo(p, this.screens());
+  }
+
+  private show(contour: Contour): void {
+    let view = viewAlong(contour, this.navigation);
+    if (!view) {
+      view = "oblique";
+      this.navigation.turnTo(view, contour.plane);
+    }
+    this.activate(view);
+    this.goTo(crosshairOnto(contour, this.navigation.crosshair));
+  }
+
+  private jump(view: SliceView, event: PointerEvent): void {
+    const at = view.worldAt(event);
+    if (at) this.goTo(at);
+  }
+
+  private pointed(view: SliceView, event: PointerEvent): void {
+    const at = view.worldAt(event);
+    if (at && this.connection === "open") this.values.send(at);
+  }
+
+  private async askValue(at: Vec3): Promise<void> {
+    const { value } = await this.socket.call<{ value: number | null }>("value", { at });
+    const unit = this.session?.image.unit ?? "";
+    const shown = value === null ? "outside" : `${Number.isInteger(value) ? value : value.toPrecision(4)} ${unit}`.trim();
+    this.status.setCursor(`${place(at)}  ·  ${shown}`);
+  }
+
+  /** Esc: first what the pointer does, then the sketch, then the tool, then the selection. */
+  private leave(): void {
+    if (this.inputs.some((input) => input.cancel())) return;
+    if (this.editor.sketch) return this.editor.leaveSketch();
+    if (this.editor.tool !== "edit") return this.editor.choose("edit");
+    this.project.select(null);
+  }
+
+  private tellHint(): void {
+    this.status.setHint(hintFor(this.editor, this.project));
+  }
+
+  private showFirstHint(): void {
+    if (this.stage.querySelector(".first-hint")) return;
+    const hint = firstHint(() => {
+      hint.remove();
+      this.hintSeen = true;
+      this.editor.choose("wire");
+      this.savePageSoon();
+    });
+    this.stage.append(hint);
+  }
+
+  private importServices() {
+    return {
+      http: this.http,
+      failed: (error: unknown) => this.failed(error),
+      working: (text: string) => this.status.setWork(text, null),
+      imported: (file: string, structures: number[]) => {
+        this.notices.show("info", `${file}: ${structures.length === 1 ? "1 structure" : `${structures.length} structures`} imported.`);
+        if (structures[0]) this.project.activate(structures[0]);
+      },
+    };
+  }
+
+  private acceptDrops(): void {
+    document.addEventListener("dragover", (event) => event.preventDefault());
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      const file = event.dataTransfer?.files[0];
+      if (file) importFile(file, this.importServices());
+    });
+  }
+
+  private savePageSoon(): void {
+    if (!this.session) return;
+    window.clearTimeout(this.saveTimer);
+    this.saveTimer = window.setTimeout(() => {
+      const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen };
+      this.socket.call("page.save", { state }).catch(() => undefined); // the next change saves again
+    }, SAVE_PAGE_MS);
+  }
+}
+
+function place(p: Vec3): string {
+  const letters = [["R", "L"], ["A", "P"], ["I", "S"]] as const;
+  return p.map((value, i) => `${letters[i]![value >= 0 ? 1 : 0]} ${Math.abs(value).toFixed(1)}`).join("  ") + " mm";
+}

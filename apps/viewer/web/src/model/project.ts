@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Changed, Contour, History, Session, Structure, Surface } from "../net/protocol";
+import { Emitter } from "./emitter";
+
+type Topic = "contours" | "structures" | "surfaces" | "history" | "selection" | "draft";
+
+export interface Selection {
+  contour: number;
+  /** Index of a control point. */
+  point: number | null;
+}
+
+/** What the server holds, as its events told it, and what the user has selected in it. */
+export class Project extends Emitter<Topic> {
+  readonly structures = new Map<number, Structure>();
+  readonly contours = new Map<number, Contour>();
+  readonly surfaces = new Map<number, Surface>();
+  history: History = { undo: null, redo: null };
+  selection: Selection | null = null;
+  private draftContour: Contour | null = null;
+  private active = 0;
+
+  start(session: Session): void {
+    this.structures.clear();
+    this.contours.clear();
+    this.surfaces.clear();
+    for (const structure of session.structures) this.structures.set(structure.id, structure);
+    for (const contour of session.contours) this.contours.set(contour.id, contour);
+    for (const surface of session.surfaces) this.surfaces.set(surface.structure, surface);
+    this.history = session.history;
+    this.draftContour = null;
+    this.keepReferencesValid();
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft");
+  }
+
+  apply({ structures, contours, history }: Changed): void {
+    for (const structure of structures?.set ?? []) this.structures.set(structure.id, structure);
+    for (const id of structures?.removed ?? []) {
+      this.structures.delete(id);
+      this.surfaces.delete(id);
+    }
+    for (const contour of contours?.set ?? []) this.contours.set(contour.id, contour);
+    for (const id of contours?.removed ?? []) this.contours.delete(id);
+    this.history = history;
+    this.draftContour = null;
+    this.keepReferencesValid();
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft");
+  }
+
+  setSurface(surface: Surface): void {
+    if (!this.structures.has(surface.structure)) return;
+    const before = this.surfaces.get(surface.structure);
+    // While the hand moves only previews come; the figures of the last refined surface stay until there are new ones.
+    this.surfaces.set(surface.structure, surface.stage === "preview" ? { ...before, ...surface } : surface);
+    this.emit("surfaces");
+  }
+
+  /** The contour as the pointer holds it just now, instead of the stored one. */
+  get draft(): Contour | null {
+    return this.draftContour;
+  }
+
+  set draft(contour: Contour | null) {
+    this.draftContour = contour;
+    this.emit("draft");
+  }
+
+  contour(id: number): Contour | undefined {
+    return this.draftContour?.id === id ? this.draftContour : this.contours.get(id);
+  }
+
+  isShown(contour: Contour): boolean {
+    return contour.visible && (this.structures.get(contour.structure)?.visible ?? false);
+  }
+
+  shownContours(): Contour[] {
+    return [...this.contours.keys()].map((id) => this.contour(id)!).filter((contour) => this.isShown(contour));
+  }
+
+  contoursOf(structure: number): Contour[] {
+    return [...this.contours.values()].filter((contour) => contour.structure === structure);
+  }
+
+  /** The structure that new contours belong to; undefined when there is none. */
+  get activeStructure(): Structure | undefined {
+    return this.structures.get(this.active) ?? this.structures.values().next().value;
+  }
+
+  activate(structure: number): void {
+    this.active = structure;
+    this.emit("structures");
+  }
+
+  select(selection: Selection | null): void {
+    const same = selection?.contour === this.selection?.contour && selection?.point === this.selection?.point;
+    if (same) return;
+    this.selection = selection;
+    const structure = selection && this.contours.get(selection.contour)?.structure;
+    if (structure) this.active = structure;
+    this.emit("selection", "structures");
+  }
+
+  get selectedContour(): Contour | undefined {
+    return this.selection ? this.contour(this.selection.contour) : undefined;
+  }
+
+  private keepReferencesValid(): void {
+    const contour = this.selection && this.contours.get(this.selection.contour);
+    if (!contour) this.selection = null;
+    else if (this.selection?.point != null && this.selection.point >= contour.control.length)
+      this.selection = { contour: contour.id, point: null };
+  }
+}

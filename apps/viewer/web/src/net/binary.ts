@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+
+const TYPES = { u8: Uint8Array, u32: Uint32Array, f32: Float32Array } as const;
+
+interface ArrayEntry {
+  type: keyof typeof TYPES;
+  offset: number;
+  count: number;
+}
+
+/** A reply of the form: uint32 N, N bytes of JSON, arrays. The arrays are views on the buffer. */
+export class BinaryReply<Header> {
+  readonly header: Header;
+  private readonly entries: Record<string, ArrayEntry>;
+
+  constructor(private readonly buffer: ArrayBuffer) {
+    const size = new DataView(buffer).getUint32(0, true);
+    const text = new TextDecoder().decode(new Uint8Array(buffer, 4, size));
+    const { arrays, ...header } = JSON.parse(text) as { arrays?: Record<string, ArrayEntry> };
+    this.header = header as Header;
+    this.entries = arrays ?? {};
+  }
+
+  has(name: string): boolean {
+    return name in this.entries;
+  }
+
+  u8(name: string): Uint8Array {
+    return this.array(name, "u8") as Uint8Array;
+  }
+
+  u32(name: string): Uint32Array {
+    return this.array(name, "u32") as Uint32Array;
+  }
+
+  f32(name: string): Float32Array {
+    return this.array(name, "f32") as Float32Array;
+  }
+
+  private array(name: string, type: keyof typeof TYPES): Uint8Array | Uint32Array | Float32Array {
+    const entry = this.entries[name];
+    if (!entry) return new TYPES[type](0);
+    if (entry.type !== type) throw new Error(`the server's array "${name}" holds ${entry.type}, not ${type}`);
+    return new TYPES[type](this.buffer, entry.offset, entry.count);
+  }
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+import { BinaryReply } from "./binary";
+import type { SliceHeader, SliceRequest } from "./protocol";
+
+/** An answer that the server gave, or that it gave none; `message` is a sentence for the user. */
+export class ServerError extends Error {
+  constructor(
+    readonly kind: string,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+export interface MeshHeader {
+  structure: number;
+  revision: number;
+  stage: string;
+}
+
+/** Requests for bulk data below `/api/`. */
+export class Http {
+  constructor(private readonly token: string) {}
+
+  async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
+    return new BinaryReply(await (await this.post("slice", JSON.stringify(request))).arrayBuffer());
+  }
+
+  async mesh(structure: number): Promise<BinaryReply<MeshHeader>> {
+    return new BinaryReply(await (await this.request(`mesh/${structure}`)).arrayBuffer());
+  }
+
+  /** The file and the name that the server proposes for it. */
+  async export(name: string, structure: number | null): Promise<{ blob: Blob; name: string }> {
+    const reply = await this.request(`export/${name}` + (structure === null ? "" : `?structure=${structure}`));
+    const proposed = /filename="([^"]+)"/.exec(reply.headers.get("Content-Disposition") ?? "");
+    return { blob: await reply.blob(), name: proposed?.[1] ?? name };
+  }
+
+  async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}): Promise<{ structures: number[] }> {
+    const query = new URLSearchParams({ name: file.name, ...options });
+    return (await (await this.post(`import/${what}?${query}`, file)).json()) as { structures: number[] };
+  }
+
+  private post(path: string, body: BodyInit): Promise<Response> {
+    return this.request(path, { method: "POST", body });
+  }
+
+  private async request(path: string, options: RequestInit = {}): Promise<Response> {
+    let reply: Response;
+    try {
+      reply = await fetch(`/api/${path}`, { ...options, headers: { Authorization: `Bearer ${this.token}` } });
+    } catch {
+      throw new ServerError("io", "kontur does not answer.");
+    }
+    if (!reply.ok) throw await errorOf(reply);
+    return reply;
+  }
+}
+
+async function errorOf(reply: Response): Promise<ServerError> {
+  try {
+    const { error } = (await reply.json()) as { error: { kind: string; message: string } };
+    return new ServerError(error.kind, error.message);
+  } catch {
+    return new ServerError("io", `kontur answered with status ${reply.status}.`);
+  }
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// The messages of docs/viewer-protocol.md. Names are the protocol's.
+import type { PixelPlane, Plane } from "../geometry/plane";
+import type { Vec3 } from "../geometry/vec";
+
+export type ViewName = "axial" | "sagittal" | "coronal" | "oblique";
+export const VIEW_NAMES: readonly ViewName[] = ["axial", "sagittal", "coronal", "oblique"];
+
+export type StretchKind = "free" | "line" | "spline" | "wire";
+
+export interface Window {
+  center: number;
+  width: number;
+}
+
+export interface Preset extends Window {
+  name: string;
+}
+
+export interface ViewGeometry {
+  plane: Plane;
+  step_mm: number;
+  width_mm: number;
+  height_mm: number;
+  range_mm: [number, number];
+}
+
+export interface Structure {
+  id: number;
+  name: string;
+  color: string;
+  visible: boolean;
+}
+
+export interface ControlPoint {
+  at: Vec3;
+  kind: StretchKind;
+  index: number;
+}
+
+export interface Contour {
+  id: number;
+  structure: number;
+  kind: "freehand" | "spline" | "livewire" | "mixed";
+  plane: Plane;
+  hole: boolean;
+  visible: boolean;
+  points: Vec3[];
+  control: ControlPoint[];
+}
+
+export interface History {
+  undo: string | null;
+  redo: string | null;
+}
+
+export interface Conflict {
+  at: Vec3;
+  distance_mm: number;
+  contours: [number, number];
+}
+
+export interface Surface {
+  event?: "surface";
+  structure: number;
+  revision: number;
+  stage: "preview" | "refined" | "none";
+  triangles: number;
+  volume_ml?: number;
+  residual?: { max_mm: number; rms_mm: number; contour: number; at: Vec3 };
+  conflicts?: Conflict[];
+  warnings?: string[];
+}
+
+export interface ImageInfo {
+  size: [number, number, number];
+  spacing_mm: [number, number, number];
+  corners: Vec3[];
+  center: Vec3;
+  unit: string;
+  range: [number, number];
+  notes: string[];
+}
+
+export interface Session {
+  event: "session";
+  version: string;
+  title: string;
+  project: string;
+  image: ImageInfo;
+  window: Window;
+  presets: Preset[];
+  views: Record<ViewName, ViewGeometry>;
+  structures: Structure[];
+  contours: Contour[];
+  surfaces: Surface[];
+  history: History;
+  page: unknown;
+}
+
+export interface Changed {
+  event: "changed";
+  structures?: { set?: Structure[]; removed?: number[] };
+  contours?: { set?: Contour[]; removed?: number[] };
+  history: History;
+}
+
+export interface Status {
+  event: "status";
+  text: string;
+  fraction: number | null;
+}
+
+export interface Notice {
+  event: "notice";
+  level: "info" | "warning" | "error";
+  text: string;
+}
+
+export type ServerEvent = Session | Changed | (Surface & { event: "surface" }) | Status | Notice;
+
+export interface SketchPoint {
+  at: Vec3;
+  kind: StretchKind;
+  path?: Vec3[];
+}
+
+export interface PathResult {
+  points: Vec3[];
+  control: ControlPoint[];
+}
+
+export interface SliceRequest {
+  view: string;
+  plane: PixelPlane;
+  width: number;
+  height: number;
+  window: Window;
+  pixels: boolean;
+  outlines: boolean;
+}
+
+export interface SliceHeader {
+  width: number;
+  height: number;
+  letters: { left: string; right: string; top: string; bottom: string };
+  outlines: { structure: number; revision: number; lines: { first: number; count: number; closed: boolean }[] }[];
+  crossings: { contour: number; first: number; count: number }[];
+  contours: number[];
+}

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+import * as THREE from "three";
+import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
+import { boxSection } from "../geometry/plane";
+import type { Plane } from "../geometry/plane";
+import { add, distance, mix, scale, type Vec3 } from "../geometry/vec";
+import { tinted } from "../view/palette";
+
+export interface MeshData {
+  positions: Float32Array;
+  normals: Float32Array;
+  triangles: Uint32Array;
+}
+
+const vector = (p: Vec3): THREE.Vector3 => new THREE.Vector3(p[0], p[1], p[2]);
+
+/** Surfaces, contours and slice planes in space; drawn only when something has changed. */
+export class Scene {
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.OrthographicCamera();
+  private readonly controls: TrackballControls;
+  private readonly light = new THREE.DirectionalLight(0xffffff, 2.1);
+  private readonly surfaces = new Map<number, THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>>();
+  private readonly lines = new THREE.Group();
+  private readonly planes = new THREE.Group();
+  private readonly marks = new THREE.Group();
+  private readonly letters = new THREE.Group();
+  private readonly extent_mm: number;
+  private readonly center: Vec3;
+  private queued = false;
+  private aspect = 1;
+  private framed = false;
+
+  /** Throws where the browser has no WebGL. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly corners: readonly Vec3[],
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.center = scale(corners.reduce(add), 1 / corners.length);
+    this.extent_mm = Math.max(...corners.map((corner) => distance(corner, this.center)));
+    this.scene.add(new THREE.HemisphereLight(0xdfe8f5, 0x2a2f38, 1.5), this.light, this.lines, this.planes, this.marks, this.letters);
+    this.scene.add(this.imageBox());
+    this.controls = new TrackballControls(this.camera, canvas);
+    Object.assign(this.controls, { rotateSpeed: 3, zoomSpeed: 1.2, panSpeed: 0.9, staticMoving: true });
+    this.controls.addEventListener("change", () => this.draw());
+    this.viewFrom([0.55, -1, 0.45], this.center, this.extent_mm);
+    canvas.addEventListener("pointermove", () => this.controls.update());
+    canvas.addEventListener("wheel", () => requestAnimationFrame(() => this.controls.update()));
+    this.canvas.addEventListener("webglcontextrestored", () => this.draw());
+  }
+
+  resize(width: number, height: number): void {
+    if (width < 2 || height < 2) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setSize(width, height, false);
+    this.aspect = width / height;
+    this.setFrustum();
+    this.controls.handleResize();
+    this.draw();
+  }
+
+  setMesh(structure: number, data: MeshData): void {
+    this.removeMesh(structure);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(data.positions, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(data.normals, 3));
+    geometry.setIndex(new THREE.BufferAttribute(data.triangles, 1));
+    const material = new THREE.MeshStandardMaterial({ roughness: 0.62, metalness: 0, side: THREE.DoubleSide });
+    const mesh = new THREE.Mesh(geometry, material);
+    this.surfaces.set(structure, mesh);
+    this.scene.add(mesh);
+    if (!this.framed) this.frame();
+    this.draw();
+  }
+
+  removeMesh(structure: number): void {
+    const mesh = this.surfaces.get(structure);
+    if (!mesh) return;
+    this.scene.remove(mesh);
+    mesh.geometry.dispose();
+    mesh.material.dispose();
+    this.surfaces.delete(structure);
+    this.draw();
+  }
+
+  style(structure: number, color: string, visible: boolean, opacity: number): void {
+    const mesh = this.surfaces.get(structure);
+    if (!mesh) return;
+    mesh.material.color.set(color);
+    mesh.material.transparent = opacity < 1;
+    mesh.material.opacity = opacity;
+    mesh.material.depthWrite = opacity >= 1;
+    mesh.visible = visible;
+    this.draw();
+  }
+
+  /** The structures that have a mesh. */
+  get meshes(): number[] {
+    return [...this.surfaces.keys()];
+  }
+
+  setContours(contours: { points: readonly Vec3[]; color: string; selected: boolean }[]): void {
+    this.clear(this.lines);
+    for (const { points, color, selected } of contours) {
+      const geometry = new THREE.BufferGeometry().setFromPoints(points.map(vector));
+      const material = new THREE.LineBasicMaterial({ color: tinted(color, selected ? 0.95 : 0.6) });
+      this.lines.add(new THREE.LineLoop(geometry, material));
+    }
+    this.draw();
+  }
+
+  setPlanes(planes: { plane: Plane; color: string }[]): void {
+    this.clear(this.planes);
+    for (const { plane, color } of planes) {
+      const outline = boxSection(this.corners, plane);
+      if (outline.length < 3) continue;
+      const points = outline.map(vector);
+      const fan = outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]);
+      const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
+      const glass = new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.05, side: THREE.DoubleSide, depthWrite: false });
+      const rim = new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.75 });
+      this.planes.add(new THREE.Mesh(sheet, glass), new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(points), rim));
+    }
+    this.draw();
+  }
+
+  setMarks(places: readonly Vec3[]): void {
+    this.clear(this.marks);
+    for (const place of places) {
+      const ball = new THREE.Mesh(new THREE.SphereGeometry(this.extent_mm / 90, 16, 12), new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
+      ball.position.copy(vector(place));
+      this.marks.add(ball);
+    }
+    this.draw();
+  }
+
+  /** Turns the camera to look at the surfaces, or at the whole image without any. */
+  frame(): void {
+    const box = new THREE.Box3();
+    for (const mesh of this.surfaces.values()) if (mesh.visible) box.expandByObject(mesh);
+    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
+    if (box.isEmpty()) return this.viewFrom(towards.toArray(), this.center, this.extent_mm);
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    this.framed = true;
+    this.viewFrom(towards.toArray(), sphere.center.toArray(), sphere.radius * 1.35);
+  }
+
+  /** Looks from this direction (LPS), head up. */
+  viewFrom(direction: Vec3, target: Vec3 = this.controls.target.toArray(), radius?: number): void {
+    this.controls.target.copy(vector(target));
+    this.camera.up.set(0, 0, 1);
+    if (Math.abs(direction[2]) > 0.95) this.camera.up.set(0, -1, 0);
+    const reach = 4 * this.extent_mm;
+    this.camera.position.copy(vector(target)).addScaledVector(vector(direction).normalize(), reach);
+    this.camera.near = 0.01 * reach;
+    this.camera.far = 3 * reach;
+    if (radius !== undefined) {
+      this.camera.zoom = 1;
+      this.radius = radius;
+    }
+    this.setFrustum();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Where a ray through this place of the canvas (0 to 1) meets a surface. */
+  pick(x: number, y: number): Vec3 | null {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2(2 * x - 1, 1 - 2 * y), this.camera);
+    const hit = ray.intersectObjects([...this.surfaces.values()].filter((mesh) => mesh.visible))[0];
+    return hit ? hit.point.toArray() : null;
+  }
+
+  private radius = 100;
+
+  private setFrustum(): void {
+    const half = this.radius * Math.max(1, 1 / this.aspect);
+    Object.assign(this.camera, { left: -half * this.aspect, right: half * this.aspect, top: half, bottom: -half });
+    this.camera.updateProjectionMatrix();
+  }
+
+  private draw(): void {
+    if (this.queued) return;
+    this.queued = true;
+    requestAnimationFrame(() => {
+      this.queued = false;
+      this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
+      this.light.target.position.copy(this.controls.target);
+      this.light.target.updateMatrixWorld();
+      this.renderer.render(this.scene, this.camera);
+      this.canvas.dataset["frames"] = String(Number(this.canvas.dataset["frames"] ?? 0) + 1);
+    });
+  }
+
+  private clear(group: THREE.Group): void {
+    for (const child of [...group.children]) {
+      const drawn = child as THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
+      drawn.geometry.dispose();
+      drawn.material.dispose();
+    }
+    group.clear();
+  }
+
+  /** The image's edges, and letters at its faces. */
+  private imageBox(): THREE.LineSegments {
+    const ends: THREE.Vector3[] = [];
+    for (let a = 0; a < 8; ++a)
+      for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
+    for (const bit of [1, 2, 4]) this.addFaceLetters(bit);
+    const material = new THREE.LineBasicMaterial({ color: 0x56606c, transparent: true, opacity: 0.5 });
+    return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), material);
+  }
+
+  private addFaceLetters(bit: number): void {
+    const faces = [0, bit].map((side) => {
+      const corners = this.corners.filter((_, k) => (k & bit) === side);
+      return scale(corners.reduce(add), 1 / corners.length);
+    }) as [Vec3, Vec3];
+    for (const [at, other] of [faces, [faces[1], faces[0]] as const]) {
+      const sprite = letterSprite(directionLetter(at, other), this.extent_mm / 9);
+      sprite.position.copy(vector(mix(other, at, 1.06)));
+      this.letters.add(sprite);
+    }
+  }
+}
+
+function directionLetter(at: Vec3, from: Vec3): string {
+  const d = [0, 1, 2].map((i) => at[i]! - from[i]!);
+  const axis = d.reduce((best, value, i) => (Math.abs(value) > Math.abs(d[best]!) ? i : best), 0);
+  return (["RL", "AP", "IS"] as const)[axis]![d[axis]! > 0 ? 1 : 0]!;
+}
+
+function letterSprite(letter: string, size: number): THREE.Sprite {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d")!;
+  context.font = "600 40px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillStyle = "#9aa5b1";
+  context.fillText(letter, 32, 34);
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false }));
+  sprite.scale.set(size, size, 1);
+  return sprite;
+}

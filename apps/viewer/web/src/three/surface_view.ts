@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { Http } from "../net/http";
+import { ServerError } from "../net/http";
+import { Latest } from "../net/latest";
+import { VIEW_NAMES, type ImageInfo } from "../net/protocol";
+import type { Vec3 } from "../geometry/vec";
+import { button, el } from "../ui/dom";
+import { ICONS } from "../ui/icons";
+import { PLANE_COLORS } from "../view/palette";
+import type { Scene } from "./scene";
+
+export interface SurfaceViewServices {
+  navigation: Navigation;
+  project: Project;
+  http: Http;
+  failed(error: unknown): void;
+  goTo(p: Vec3): void;
+}
+
+const DIRECTIONS: [string, string, Vec3][] = [
+  ["A", "From the front", [0, -1, 0]],
+  ["P", "From the back", [0, 1, 0]],
+  ["L", "From the patient's left", [1, 0, 0]],
+  ["R", "From the patient's right", [-1, 0, 0]],
+  ["S", "From above", [0, 0, 1]],
+];
+
+/** The pane of the 3D view. Without WebGL it says so, and the rest of the page works on. */
+export class SurfaceView {
+  readonly element: HTMLElement;
+  readonly header = el("div", { class: "pane-header" });
+  private readonly canvas = el("canvas", { class: "surface-canvas" });
+  private readonly message = el("div", { class: "pane-message" });
+  private readonly fetches = new Map<number, Latest<void>>();
+  private readonly shownRevisions = new Map<number, number>();
+  private scene: Scene | null = null;
+  private opacity = 1;
+
+  constructor(private readonly services: SurfaceViewServices) {
+    const look = el(
+      "div",
+      { class: "look-from" },
+      ...DIRECTIONS.map(([letter, title, direction]) =>
+        button({ label: letter, title, class: "letter-button", onclick: () => this.scene?.viewFrom(direction) }),
+      ),
+    );
+    const glass = button({ icon: ICONS.surface, title: "See through the surface", class: "icon-button small", onclick: () => this.toggleGlass() });
+    const frame = button({ icon: ICONS.reset, title: "Show the whole surface", class: "icon-button small", onclick: () => this.scene?.frame() });
+    const enlarge = button({
+      icon: ICONS.enlarge,
+      title: "Show the 3D view alone, or go back (double click on its title)",
+      class: "icon-button small",
+      onclick: () => this.header.dispatchEvent(new MouseEvent("dblclick")),
+    });
+    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, glass, frame, enlarge);
+    this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header);
+    this.canvas.ondblclick = (event) => this.pick(event);
+    new ResizeObserver(() => this.resized()).observe(this.element);
+  }
+
+  async start(image: ImageInfo): Promise<void> {
+    if (!this.scene) {
+      try {
+        if (!hasWebGl()) throw new Error("no WebGL");
+        const { Scene } = await import("./scene");
+        this.scene ??= new Scene(this.canvas, image.corners);
+        this.element.dataset["webgl"] = "yes";
+      } catch {
+        this.element.dataset["webgl"] = "no";
+        this.showMessage(
+          "No 3D view: this browser has no WebGL",
+          "Slices, drawing, outlines and export all work without it. To see the surface in 3D, switch on hardware acceleration in the browser's settings, or use another browser.",
+        );
+        return;
+      }
+    }
+    this.resized();
+    this.planesChanged();
+    this.contoursChanged();
+    this.surfacesChanged();
+  }
+
+  planesChanged(): void {
+    const { navigation } = this.services;
+    this.scene?.setPlanes(VIEW_NAMES.map((view) => ({ plane: navigation.plane(view), color: PLANE_COLORS[view] })));
+  }
+
+  contoursChanged(): void {
+    const { project } = this.services;
+    this.scene?.setContours(
+      project.shownContours().map((contour) => ({
+        points: contour.points,
+        color: project.structures.get(contour.structure)!.color,
+        selected: project.selection?.contour === contour.id,
+      })),
+    );
+    this.showHint();
+  }
+
+  /** Fetches meshes that are newer than those shown. */
+  surfacesChanged(): void {
+    const { project } = this.services;
+    if (!this.scene) return;
+    for (const id of this.scene.meshes) if ((project.surfaces.get(id)?.stage ?? "none") === "none") this.remove(id);
+    for (const surface of project.surfaces.values()) {
+      if (surface.stage === "none" || this.shownRevisions.get(surface.structure) === surface.revision) continue;
+      this.fetchesOf(surface.structure).send();
+    }
+    this.scene.setMarks([...project.surfaces.values()].flatMap((surface) => (surface.conflicts ?? []).map(({ at }) => at)));
+    this.restyle();
+    this.showHint();
+  }
+
+  restyle(): void {
+    for (const { id, color, visible } of this.services.project.structures.values()) this.scene?.style(id, color, visible, this.opacity);
+  }
+
+  private remove(id: number): void {
+    this.scene?.removeMesh(id);
+    this.shownRevisions.delete(id);
+    this.tellState();
+  }
+
+  private fetchesOf(structure: number): Latest<void> {
+    let fetches = this.fetches.get(structure);
+    if (!fetches) this.fetches.set(structure, (fetches = new Latest(() => this.fetchMesh(structure))));
+    return fetches;
+  }
+
+  private async fetchMesh(structure: number): Promise<void> {
+    try {
+      const reply = await this.services.http.mesh(structure);
+      this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles") });
+      this.shownRevisions.set(structure, reply.header.revision);
+      this.restyle();
+      this.tellState();
+    } catch (error) {
+      // "not_found": the surface went while it was asked for, which an event has said or will say
+      if (!(error instanceof ServerError && (error.kind === "not_found" || error.kind === "cancelled"))) this.services.failed(error);
+    }
+  }
+
+  private tellState(): void {
+    this.element.dataset["revisions"] = [...this.shownRevisions].map(([id, revision]) => `${id}:${revision}`).join(" ");
+  }
+
+  private showHint(): void {
+    if (!this.scene) return;
+    const hasSurface = [...this.services.project.surfaces.values()].some((surface) => surface.stage !== "none");
+    if (hasSurface || this.services.project.contours.size > 1) this.message.hidden = true;
+    else this.showMessage("", "The surface appears here as soon as there is a contour.");
+  }
+
+  private showMessage(title: string, text: string): void {
+    this.message.replaceChildren(...(title ? [el("strong", {}, title)] : []), el("p", {}, text));
+    this.message.hidden = false;
+  }
+
+  private toggleGlass(): void {
+    this.opacity = this.opacity === 1 ? 0.45 : 1;
+    this.restyle();
+  }
+
+  private pick(event: MouseEvent): void {
+    const box = this.canvas.getBoundingClientRect();
+    const hit = this.scene?.pick((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+    if (hit) this.services.goTo(hit);
+  }
+
+  private resized(): void {
+    const box = this.element.getBoundingClientRect();
+    this.scene?.resize(box.width, box.height);
+  }
+}
+
+function hasWebGl(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return context !== null;
+}

@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: Apache-2.0
+import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { heightOver } from "../geometry/plane";
+import { scale, sub, type Vec3 } from "../geometry/vec";
+import { Emitter } from "../model/emitter";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import { Latest } from "../net/latest";
+import type { Contour, PathResult, StretchKind, ViewName } from "../net/protocol";
+import { hitContour, hitPlaneLines, inView, planeLine, type ContourHit, type LineHit, type PlaneLine } from "./hit";
+import { Sketch } from "./sketch";
+import { VIEW_NAMES } from "../net/protocol";
+
+export type ToolName = "edit" | "freehand" | "spline" | "wire" | "redraw" | "move";
+
+const KIND_OF_TOOL: Partial<Record<ToolName, StretchKind>> = { freehand: "line", spline: "spline", wire: "wire" };
+const CLOSE_PIXELS = 11;
+const CLICK_PIXELS = 5; // a press that moves less is a click
+const HAND_STEP_PIXELS = 1.5;
+
+export interface Modifiers {
+  ctrl: boolean;
+  shift: boolean;
+}
+
+/** What follows a press of the left button until it is released. */
+export interface Gesture {
+  move(pointer: Point2): void;
+  end(pointer: Point2): void;
+  cancel?(): void;
+}
+
+export interface EditorServices {
+  call<Result>(name: string, args?: Record<string, unknown>): Promise<Result>;
+  screenOf(view: ViewName): Screen | null;
+  failed(error: unknown): void;
+  tell(text: string): void;
+}
+
+export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
+
+/** The tools: turns presses, moves and keys on a view into calls that draw and edit. */
+export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
+  tool: ToolName = "edit";
+  sketch: Sketch | null = null;
+  /** The sketch's line as the server made it, and the line on to the pointer. */
+  placedLine: Vec3[] = [];
+  rubberLine: Vec3[] = [];
+  /** Drawn by hand at this moment, or about to replace a stretch. */
+  handLine: Vec3[] = [];
+  pointer: Vec3 | null = null;
+  pointerCloses = false;
+  hover: Hover = null;
+  linesShown = true;
+  private hidden = new Set<ViewName>();
+
+  private readonly placed = new Latest<Sketch>((sketch) => this.askPlaced(sketch));
+  private readonly rubber = new Latest<{ sketch: Sketch; pointer: Vec3; mm: number }>((request) => this.askRubber(request));
+  private readonly drafts = new Latest<{ name: string; args: Record<string, unknown> }>((edit) => this.askDraft(edit));
+  private sketchScale = 1;
+
+  constructor(
+    private readonly navigation: Navigation,
+    private readonly project: Project,
+    private readonly services: EditorServices,
+  ) {
+    super();
+  }
+
+  // Tools
+
+  choose(tool: ToolName): void {
+    if (tool === this.tool) return;
+    this.tool = tool;
+    const kind = KIND_OF_TOOL[tool];
+    if (kind) this.sketch?.setKind(kind);
+    else this.leaveSketch();
+    this.setHover(null);
+    this.emit("tool", "sketch");
+  }
+
+  get draws(): boolean {
+    return this.tool in KIND_OF_TOOL;
+  }
+
+  toggleLines(): void {
+    this.linesShown = !this.linesShown;
+    this.emit("hover");
+  }
+
+  isPlaneHidden(view: ViewName): boolean {
+    return this.hidden.has(view);
+  }
+
+  togglePlane(view: ViewName): void {
+    if (!this.hidden.delete(view)) this.hidden.add(view);
+    this.emit("hover");
+  }
+
+  /** The other views' planes as lines on this one. */
+  lines(view: ViewName, screen: Screen): PlaneLine[] {
+    if (!this.linesShown) return [];
+    return VIEW_NAMES.filter((other) => other !== view && !this.hidden.has(other))
+      .map((other) => planeLine(screen, this.navigation.crosshair, other, this.navigation.cameras[other].axes))
+      .filter((line): line is PlaneLine => line !== null);
+  }
+
+  // Pointer
+
+  press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
+    if (this.draws) return this.pressToDraw(view, screen, pointer);
+    const hit = this.contourAt(view, screen, pointer);
+    if (this.tool === "redraw") return this.redrawGesture(screen, this.navigation.step(view), pointer, hit);
+    if (this.tool === "move") return hit ? this.moveGesture(screen, pointer, hit.contour) : null;
+    if (hit) return this.pressOnContour(screen, pointer, hit, modifiers);
+    return this.pressOnLines(view, screen, pointer);
+  }
+
+  moved(view: ViewName, screen: Screen, pointer: Point2): void {
+    this.pointer = toWorld(screen, pointer);
+    if (this.draws) return this.stretchRubber(view, screen, pointer);
+    const contour = this.contourAt(view, screen, pointer);
+    if (contour) return this.setHover({ contour, view });
+    if (this.tool !== "edit") return this.setHover(null);
+    const line = hitPlaneLines(this.lines(view, screen), toScreen(screen, this.navigation.crosshair), pointer);
+    this.setHover(line ? { line, view } : null);
+  }
+
+  left(): void {
+    this.pointer = null;
+    this.rubber.drop();
+    this.rubberLine = [];
+    this.setHover(null);
+    this.emit("sketch");
+  }
+
+  doubleClick(): void {
+    if (this.sketch) this.close();
+  }
+
+  cursor(): string {
+    if (this.draws || this.tool === "redraw") return "crosshair";
+    if (!this.hover) return this.tool === "move" ? "default" : "crosshair";
+    if ("contour" in this.hover) return this.tool === "move" ? "move" : this.hover.contour.on === "point" ? "grab" : "pointer";
+    return this.hover.line.on === "turn" ? "alias" : "move";
+  }
+
+  private contourAt(view: ViewName, screen: Screen, pointer: Point2): ContourHit | null {
+    const selected = this.project.selection?.contour ?? null;
+    return hitContour(this.project.shownContours(), screen, this.navigation.step(view), pointer, selected);
+  }
+
+  private setHover(hover: Hover): void {
+    if (JSON.stringify(hover) === JSON.stringify(this.hover)) return;
+    this.hover = hover;
+    this.emit("hover");
+  }
+
+  // Drawing
+
+  private pressToDraw(view: ViewName, screen: Screen, pointer: Point2): Gesture | null {
+    if (this.sketch && !this.sketch.liesIn(planeOf(screen), this.navigation.step(view) / 2)) {
+      this.services.tell("The contour you began lies in another plane. Enter closes it, Esc leaves it.");
+      return null;
+    }
+    const start = toWorld(screen, pointer);
+    const hand: Vec3[] = [start];
+    let last = pointer;
+    let isDrag = false;
+    return {
+      move: (at) => {
+        isDrag ||= gap(at, pointer) > CLICK_PIXELS;
+        if (gap(at, last) < HAND_STEP_PIXELS) return;
+        last = at;
+        hand.push(toWorld(screen, at));
+        if (!isDrag) return;
+        this.handLine = hand;
+        this.rubberLine = [];
+        this.pointerCloses = this.isNearStart(screen, at);
+        this.emit("sketch");
+      },
+      end: (at) => {
+        this.handLine = [];
+        this.sketchScale = screen.mm_per_pixel;
+        if (isDrag) this.endHand(screen, at, hand);
+        else this.click(screen, at);
+      },
+      cancel: () => {
+        this.handLine = [];
+        this.emit("sketch");
+      },
+    };
+  }
+
+  private endHand(screen: Screen, at: Point2, hand: Vec3[]): void {
+    const closes = this.isNearStart(screen, at);
+    if (!this.sketch && this.tool === "freehand") {
+      const structure = this.project.activeStructure?.id ?? 0;
+      return void this.add(Sketch.closedFree(planeOf(screen), structure, hand));
+    }
+    const sketch = this.begun(screen);
+    sketch.drawFree(hand);
+    if (closes && sketch.canClose) {
+      sketch.points.pop(); // the stretch ends at the first point instead
+      return this.close();
+    }
+    this.sketchChanged();
+  }
+
+  private click(screen: Screen, at: Point2): void {
+    const sketch = this.begun(screen);
+    const onLast = sketch.last && gap(toScreen(screen, sketch.last.at), at) < 3;
+    if ((this.isNearStart(screen, at) && sketch.canClose) || (onLast && sketch.canClose)) return this.close();
+    if (onLast) return;
+    sketch.place(toWorld(screen, at));
+    this.sketchChanged();
+  }
+
+  private begun(screen: Screen): Sketch {
+    const structure = this.project.activeStructure?.id ?? 0;
+    this.sketch ??= new Sketch(planeOf(screen), structure, KIND_OF_TOOL[this.tool] ?? "line");
+    this.project.select(null);
+    return this.sketch;
+  }
+
+  private isNearStart(screen: Screen, at: Point2): boolean {
+    const first = this.sketch?.first;
+    return first !== undefined && this.sketch!.points.length > 1 && gap(toScreen(screen, first), at) < CLOSE_PIXELS;
+  }
+
+  private sketchChanged(): void {
+    this.rubberLine = [];
+    if (this.sketch) this.placed.send(this.sketch);
+    this.emit("sketch");
+  }
+
+  private stretchRubber(view: ViewName, screen: Screen, pointer: Point2): void {
+    if (this.sketch?.last && this.sketch.liesIn(planeOf(screen), this.navigation.step(view) / 2)) {
+      this.pointerCloses = this.isNearStart(screen, pointer) && this.sketch.canClose;
+      const target = this.pointerCloses ? this.sketch.first! : toWorld(screen, pointer);
+      this.rubber.send({ sketch: this.sketch, pointer: target, mm: screen.mm_per_pixel });
+    }
+    this.emit("sketch");
+  }
+
+  private async askPlaced(sketch: Sketch): Promise<void> {
+    if (sketch.points.length < 2) {
+      this.placedLine = sketch.points.map((point) => point.at);
+      if (sketch.last?.kind !== "wire") return;
+    }
+    const count = sketch.points.length;
+    const result = await this.path(sketch, sketch.points);
+    if (this.sketch !== sketch || sketch.points.length !== count) return;
+    sketch.adopt(result.control);
+    this.placedLine = result.points;
+    this.emit("sketch");
+  }
+
+  private async askRubber({ sketch, pointer, mm }: { sketch: Sketch; pointer: Vec3; mm: number }): Promise<void> {
+    if (this.sketch !== sketch) return;
+    this.sketchScale = mm;
+    const count = sketch.points.length;
+    const result = await this.path(sketch, sketch.rubberBand(pointer));
+    if (this.sketch !== sketch || sketch.points.length !== count) return;
+    this.rubberLine = result.points.slice(result.control.at(-2)?.index ?? 0);
+    this.emit("sketch");
+  }
+
+  private path(sketch: Sketch, control: unknown[]): Promise<PathResult> {
+    const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
+    return this.services.call<PathResult>("path", { plane, control, closed: false });
+  }
+
+  /** Makes a contour of the sketch. */
+  close(): void {
+    const sketch = this.sketch;
+    if (!sketch) return;
+    if (!sketch.canClose) return this.services.tell("A contour needs at least three points.");
+    this.leaveSketch();
+    void this.add(sketch);
+  }
+
+  leaveSketch(): void {
+    this.sketch = null;
+    this.placedLine = [];
+    this.rubberLine = [];
+    this.handLine = [];
+    this.pointerCloses = false;
+    this.placed.drop();
+    this.rubber.drop();
+    this.emit("sketch");
+  }
+
+  removeLastPoint(): void {
+    if (!this.sketch) return;
+    this.sketch.removeLast();
+    if (this.sketch.isEmpty) this.leaveSketch();
+    else this.sketchChanged();
+  }
+
+  private async add(sketch: Sketch): Promise<void> {
+    try {
+      const structure = sketch.structure || (await this.addStructure());
+      const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
+      const { contour } = await this.services.call<{ contour: number }>("contour.add", { structure, plane, control: sketch.points });
+      if (!this.sketch) this.project.select({ contour, point: null });
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+
+  private async addStructure(): Promise<number> {
+    const { structure } = await this.services.call<{ structure: { id: number } }>("structure.add");
+    return structure.id;
+  }
+
+  // Editing
+
+  private pressOnContour(screen: Screen, pointer: Point2, hit: ContourHit, modifiers: Modifiers): Gesture | null {
+    if (modifiers.ctrl) {
+      this.edit("contour.insert_point", { id: hit.contour, at: hit.at });
+      this.project.select({ contour: hit.contour, point: null });
+      return null;
+    }
+    this.project.select({ contour: hit.contour, point: hit.on === "point" ? hit.index : null });
+    if (modifiers.shift) return this.moveGesture(screen, pointer, hit.contour);
+    const mm_per_pixel = screen.mm_per_pixel;
+    if (hit.on === "point")
+      return this.draftGesture(pointer, (at) => ({
+        name: "contour.move_point",
+        args: { id: hit.contour, index: hit.index, to: toWorld(screen, at), mm_per_pixel },
+      }));
+    return this.draftGesture(pointer, (at) => ({
+      name: "contour.pull",
+      args: { id: hit.contour, from: hit.at, to: toWorld(screen, at) },
+    }));
+  }
+
+  private moveGesture(screen: Screen, pointer: Point2, contour: number): Gesture {
+    this.project.select({ contour, point: null });
+    const start = toWorld(screen, pointer);
+    return this.draftGesture(pointer, (at) => ({
+      name: "contour.translate",
+      args: { id: contour, by: sub(toWorld(screen, at), start) },
+    }));
+  }
+
+  /** The surface follows the pointer by drafts; the release makes the edit. */
+  private draftGesture(start: Point2, editAt: (pointer: Point2) => { name: string; args: Record<string, unknown> }): Gesture {
+    let isDrag = false;
+    return {
+      move: (at) => {
+        isDrag ||= gap(at, start) > 2;
+        if (isDrag) this.drafts.send(editAt(at));
+      },
+      end: (at) => {
+        this.drafts.drop();
+        if (!isDrag) return;
+        const { name, args } = editAt(at);
+        this.edit(name, args);
+      },
+      cancel: () => this.dropDraft(),
+    };
+  }
+
+  private async askDraft({ name, args }: { name: string; args: Record<string, unknown> }): Promise<void> {
+    try {
+      const { contour } = await this.services.call<{ contour: Contour }>(name, { ...args, draft: true });
+      this.project.draft = contour;
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+
+  private dropDraft(): void {
+    this.drafts.drop();
+    void this.drafts.idle().then(() => {
+      this.project.draft = null;
+      this.services.call("draft.drop").catch(this.services.failed);
+    });
+  }
+
+  private redrawGesture(screen: Screen, step_mm: number, pointer: Point2, hit: ContourHit | null): Gesture | null {
+    const id = hit?.contour ?? this.project.selection?.contour;
+    const contour = id === undefined ? undefined : this.project.contour(id);
+    if (!contour || !inView(contour, screen, step_mm)) {
+      this.services.tell("Begin on the line of the contour that you want to redraw.");
+      return null;
+    }
+    this.project.select({ contour: contour.id, point: null });
+    const hand: Vec3[] = [toWorld(screen, pointer)];
+    return {
+      move: (at) => {
+        hand.push(toWorld(screen, at));
+        this.handLine = hand;
+        this.emit("sketch");
+      },
+      end: () => {
+        this.handLine = [];
+        this.emit("sketch");
+        if (hand.length > 2) this.edit("contour.redraw", { id: contour.id, path: hand });
+      },
+      cancel: () => {
+        this.handLine = [];
+        this.emit("sketch");
+      },
+    };
+  }
+
+  edit(name: string, args: Record<string, unknown>): void {
+    this.services.call(name, args).catch((error: unknown) => {
+      this.project.draft = null;
+      this.services.failed(error);
+    });
+  }
+
+  /** The selected point, or else the selected contour. */
+  deleteSelected(): void {
+    const selection = this.project.selection;
+    if (!selection) return;
+    if (selection.point === null) return this.edit("contour.remove", { ids: [selection.contour] });
+    this.edit("contour.delete_point", { id: selection.contour, index: selection.point });
+    this.project.select({ contour: selection.contour, point: null });
+  }
+
+  /** Lays a copy of the selected contour `steps` slices further along its normal, and shows it. */
+  async copySelected(view: ViewName, steps: number): Promise<void> {
+    const contour = this.project.selectedContour;
+    if (!contour) return this.services.tell("Select a contour first: click its line, or its row in the list.");
+    try {
+      const offset_mm = steps * this.navigation.step(view);
+      const copy = await this.services.call<{ contour: Contour }>("contour.copy", { id: contour.id, offset_mm });
+      this.project.select({ contour: copy.contour.id, point: null });
+      this.navigation.setCrosshair(sub(this.navigation.crosshair, scale(contour.plane.normal, heightOver(copy.contour.plane, this.navigation.crosshair))));
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+
+  // Crosshair and plane lines
+
+  private pressOnLines(view: ViewName, screen: Screen, pointer: Point2): Gesture {
+    const lines = this.lines(view, screen);
+    const hit = hitPlaneLines(lines, toScreen(screen, this.navigation.crosshair), pointer);
+    if (hit?.on === "turn") return this.turnGesture(view, hit.view, pointer);
+    if (hit?.on === "move") return this.slideGesture(screen, hit.view, pointer);
+    this.project.select(null);
+    const go = (at: Point2) => this.navigation.setCrosshair(toWorld(screen, at));
+    go(pointer);
+    return { move: go, end: () => undefined };
+  }
+
+  private turnGesture(view: ViewName, turned: ViewName, pointer: Point2): Gesture {
+    const angleAt = (at: Point2): number => {
+      const [x, y] = toScreen(this.services.screenOf(view)!, this.navigation.crosshair);
+      return Math.atan2(at[1] - y, at[0] - x);
+    };
+    let last = angleAt(pointer);
+    return {
+      move: (at) => {
+        const angle = angleAt(at);
+        this.navigation.rotate(turned, view, angle - last);
+        last = angle;
+      },
+      end: () => undefined,
+    };
+  }
+
+  /** Moves the crosshair along the other plane's normal only, as far as that shows in this view. */
+  private slideGesture(screen: Screen, slid: ViewName, pointer: Point2): Gesture {
+    const { normal } = this.navigation.cameras[slid].axes;
+    let last = pointer;
+    return {
+      move: (at) => {
+        const by = sub(toWorld(screen, at), toWorld(screen, last));
+        last = at;
+        const depth = this.navigation.depth(slid).at;
+        this.navigation.scrollTo(slid, depth + by[0] * normal[0] + by[1] * normal[1] + by[2] * normal[2]);
+      },
+      end: () => undefined,
+    };
+  }
+
+}

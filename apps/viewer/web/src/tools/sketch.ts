@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+import { coincide, type Plane } from "../geometry/plane";
+import type { Vec3 } from "../geometry/vec";
+import type { ControlPoint, SketchPoint, StretchKind } from "../net/protocol";
+
+/** A contour while it is drawn: control points, each with how the line from it goes on. */
+export class Sketch {
+  points: SketchPoint[] = [];
+
+  constructor(
+    readonly plane: Plane,
+    readonly structure: number,
+    private kind: StretchKind,
+  ) {}
+
+  get isEmpty(): boolean {
+    return this.points.length === 0;
+  }
+
+  /** A closed line needs three points, or one stretch drawn by hand. */
+  get canClose(): boolean {
+    return this.points.length >= 3 || this.points.some((point) => (point.path?.length ?? 0) >= 8);
+  }
+
+  get first(): Vec3 | undefined {
+    return this.points[0]?.at;
+  }
+
+  get last(): SketchPoint | undefined {
+    return this.points.at(-1);
+  }
+
+  liesIn(plane: Plane, tolerance_mm: number): boolean {
+    return coincide(this.plane, plane, tolerance_mm);
+  }
+
+  /** The kind of the stretch from the last point on, and of those after it. */
+  setKind(kind: StretchKind): void {
+    this.kind = kind;
+    if (this.last && !this.last.path) this.last.kind = kind;
+  }
+
+  place(at: Vec3): void {
+    this.points.push({ at, kind: this.kind });
+  }
+
+  /** A stretch drawn by hand: from the last point, or where the hand began, to where it ended. */
+  drawFree(path: readonly Vec3[]): void {
+    const start = path[0], end = path.at(-1);
+    if (!start || !end || path.length < 2) return;
+    if (this.isEmpty) this.place(start);
+    const from = this.last!;
+    from.kind = "free";
+    from.path = path.slice(1, -1);
+    this.place(end);
+  }
+
+  /** A hand-drawn contour as a whole: one stretch from its first point around to it. */
+  static closedFree(plane: Plane, structure: number, path: readonly Vec3[]): Sketch {
+    const sketch = new Sketch(plane, structure, "free");
+    sketch.points = [{ at: path[0]!, kind: "free", path: path.slice(1) }];
+    return sketch;
+  }
+
+  removeLast(): void {
+    this.points.pop();
+    const last = this.last;
+    if (!last) return;
+    delete last.path;
+    last.kind = this.kind;
+  }
+
+  /** Takes over where the server has moved points to the edge. */
+  adopt(control: readonly ControlPoint[]): void {
+    if (control.length !== this.points.length) return;
+    control.forEach((point, i) => (this.points[i]!.at = point.at));
+  }
+
+  /** What to ask the path for between the last point and the pointer: a spline bends with its neighbours. */
+  rubberBand(pointer: Vec3): SketchPoint[] {
+    const count = this.last?.kind === "spline" ? 3 : 1;
+    return [...this.points.slice(-count), { at: pointer, kind: this.last?.kind ?? this.kind }];
+  }
+}

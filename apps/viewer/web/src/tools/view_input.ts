@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+import { toWorld, type Point2 } from "../geometry/screen";
+import { sub } from "../geometry/vec";
+import type { Navigation } from "../model/navigation";
+import type { SliceView } from "../view/slice_view";
+import type { Editor, Gesture } from "./editor";
+
+export interface InputServices {
+  navigation: Navigation;
+  editor: Editor;
+  isPanning(): boolean; // space is held
+  pointed(view: SliceView, event: PointerEvent): void;
+  jump(view: SliceView, event: PointerEvent): void;
+}
+
+const WHEEL_STEP = 60; // of deltaY in pixels, for touchpads that send many small ones
+
+/** Lets the mouse scroll, zoom, pan and window a view, and hands the left button to the editor. */
+export class ViewInput {
+  private gesture: Gesture | null = null;
+  private wheelRest = 0;
+
+  constructor(
+    private readonly view: SliceView,
+    private readonly services: InputServices,
+  ) {
+    const canvas = view.overlay;
+    canvas.addEventListener("pointerdown", (event) => this.down(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.up(event));
+    canvas.addEventListener("pointercancel", () => this.cancel());
+    canvas.addEventListener("pointerleave", () => this.gesture === null && services.editor.left());
+    canvas.addEventListener("dblclick", () => services.editor.doubleClick());
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    view.element.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+  }
+
+  /** Leaves what the pointer is doing; false when it is doing nothing. */
+  cancel(): boolean {
+    const gesture = this.gesture;
+    this.gesture = null;
+    gesture?.cancel?.();
+    return gesture !== null;
+  }
+
+  private down(event: PointerEvent): void {
+    const screen = this.view.screen();
+    if (!screen || this.gesture) return;
+    this.view.overlay.focus({ preventScroll: true });
+    this.view.overlay.setPointerCapture(event.pointerId);
+    const at = this.view.pointOf(event);
+    const { editor } = this.services;
+    const modifiers = { ctrl: event.ctrlKey || event.metaKey, shift: event.shiftKey };
+    if (event.button === 2) this.gesture = this.windowGesture(at);
+    else if (event.button === 1 || (event.button === 0 && this.services.isPanning())) this.gesture = this.panGesture(at);
+    else if (event.button === 0) this.gesture = editor.press(this.view.name, screen, at, modifiers);
+    event.preventDefault();
+  }
+
+  private move(event: PointerEvent): void {
+    const screen = this.view.screen();
+    if (!screen) return;
+    const at = this.view.pointOf(event);
+    this.services.pointed(this.view, event);
+    if (this.gesture) return this.gesture.move(at);
+    if (event.shiftKey && event.buttons === 0) return this.services.jump(this.view, event);
+    this.services.editor.moved(this.view.name, screen, at);
+  }
+
+  private up(event: PointerEvent): void {
+    const gesture = this.gesture;
+    this.gesture = null;
+    gesture?.end(this.view.pointOf(event));
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const { navigation } = this.services;
+    const delta = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? event.deltaY * 20 : event.deltaY;
+    const screen = this.view.screen();
+    if (!screen) return;
+    if (event.ctrlKey || event.metaKey) return navigation.zoomAt(this.view.name, toWorld(screen, this.view.pointOf(event)), Math.exp(-delta / 400));
+    this.wheelRest += delta;
+    const steps = Math.trunc(this.wheelRest / WHEEL_STEP);
+    this.wheelRest -= steps * WHEEL_STEP;
+    if (steps !== 0) navigation.scroll(this.view.name, Math.abs(delta) >= 100 ? Math.sign(steps) : steps);
+  }
+
+  private panGesture(start: Point2): Gesture {
+    let last = start;
+    return {
+      move: (at) => {
+        const screen = this.view.screen();
+        if (screen) this.services.navigation.pan(this.view.name, sub(toWorld(screen, last), toWorld(screen, at)));
+        last = at;
+      },
+      end: () => undefined,
+    };
+  }
+
+  /** To the right: more contrast range; up: darker, as radiologists' workstations do. */
+  private windowGesture(start: Point2): Gesture {
+    const { navigation } = this.services;
+    const { center, width } = navigation.window;
+    const gain = Math.max(width, 1e-6) / 300;
+    return {
+      move: (at) => navigation.setWindow({ center: center + (at[1] - start[1]) * gain, width: width + (at[0] - start[0]) * gain * 2 }),
+      end: () => undefined,
+    };
+  }
+}

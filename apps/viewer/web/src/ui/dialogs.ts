@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Http } from "../net/http";
+import type { Project } from "../model/project";
+import { button, el } from "./dom";
+import { ICONS } from "./icons";
+
+/** A modal window; Esc and a click beside it close it. */
+function openDialog(title: string, name: string, ...content: HTMLElement[]): HTMLDialogElement {
+  const dialog = el("dialog", { class: "dialog", "data-test": name });
+  const close = button({ icon: ICONS.close, title: "Close (Esc)", class: "icon-button small", onclick: () => dialog.close() });
+  dialog.append(el("div", { class: "dialog-title" }, el("h2", {}, title), close), ...content);
+  dialog.onclick = (event) => event.target === dialog && dialog.close();
+  dialog.onclose = () => dialog.remove();
+  document.body.append(dialog);
+  dialog.showModal();
+  return dialog;
+}
+
+const EXPORTS: [string, [string, string, string][]][] = [
+  [
+    "Mask on the image's grid",
+    [
+      ["mask.nii.gz", "NIfTI", ".nii.gz"],
+      ["mask.nrrd", "NRRD", ".nrrd"],
+      ["mask.seg.nrrd", "3D Slicer segmentation", ".seg.nrrd"],
+      ["mask.mha", "MetaImage", ".mha"],
+    ],
+  ],
+  [
+    "Surface",
+    [
+      ["mesh.stl", "STL", ".stl"],
+      ["mesh.ply", "PLY", ".ply"],
+      ["mesh.obj", "OBJ", ".obj"],
+    ],
+  ],
+  [
+    "Contours",
+    [
+      ["contours.json", "kontur", ".json"],
+      ["contours.mrk.json", "3D Slicer curves", ".mrk.json"],
+    ],
+  ],
+  ["Picture", [["picture.png", "PNG", ".png"]]],
+];
+
+export interface ExportServices {
+  http: Http;
+  project: Project;
+  failed(error: unknown): void;
+}
+
+export function openExport({ http, project, failed }: ExportServices): void {
+  const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
+  for (const { id, name } of project.structures.values())
+    structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
+  const chosen = () => (structure.value ? Number(structure.value) : null);
+  const status = el("p", { class: "dialog-status" });
+  const save = async (name: string, of: number | null, clicked: HTMLButtonElement): Promise<void> => {
+    clicked.disabled = true;
+    status.textContent = `Preparing ${name} …`;
+    try {
+      const file = await http.export(name, of);
+      download(file.blob, file.name);
+      status.textContent = `${file.name} was handed to the browser's downloads.`;
+    } catch (error) {
+      status.textContent = "";
+      failed(error);
+    }
+    clicked.disabled = false;
+  };
+  const entry = (name: string, label: string, extension: string, of: () => number | null): HTMLElement => {
+    const element: HTMLButtonElement = button({ label, title: `Save as ${extension}`, class: "choice", test: `export-${name}`, onclick: () => void save(name, of(), element) });
+    element.append(el("small", {}, extension));
+    return element;
+  };
+  const groups = EXPORTS.map(([title, files]) =>
+    el("div", { class: "export-group" }, el("h3", {}, title), el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, chosen)))),
+  );
+  const whole = el(
+    "div",
+    { class: "export-group" },
+    el("h3", {}, "Project with its history"),
+    el("div", { class: "choices" }, entry("project.kontur", "kontur project", ".kontur", () => null)),
+  );
+  openDialog("Export", "export-dialog", el("label", { class: "field" }, "Structure", structure), ...groups, whole, status);
+}
+
+function download(blob: Blob, name: string): void {
+  const link = el("a", { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+export interface ImportServices {
+  http: Http;
+  failed(error: unknown): void;
+  imported(file: string, structures: number[]): void;
+  working(text: string): void;
+}
+
+const CONTOUR_FILES = /\.(json|dcm)$/i;
+const MASK_FILES = /\.(nii|nii\.gz|nrrd|mha|mhd)$/i;
+
+export function openImport(services: ImportServices): void {
+  const input = el("input", { type: "file", accept: ".json,.dcm,.nii,.gz,.nrrd,.mha", "data-test": "import-file" });
+  const dialog = openDialog(
+    "Import",
+    "import-dialog",
+    el("p", {}, "Contours (kontur or 3D Slicer JSON, RTSTRUCT) become a new structure. A mask (NIfTI, NRRD, MetaImage) is traced into contours. You can also drop a file onto the page."),
+    input,
+  );
+  input.onchange = () => {
+    const file = input.files?.[0];
+    dialog.close();
+    if (file) importFile(file, services);
+  };
+}
+
+export function importFile(file: File, services: ImportServices): void {
+  if (CONTOUR_FILES.test(file.name)) void send("contours", file, {}, services);
+  else if (MASK_FILES.test(file.name)) openMaskImport(file, services);
+  else services.failed(new Error(`${file.name}: contours are imported from .json and .dcm, masks from .nii, .nii.gz, .nrrd and .mha.`));
+}
+
+function openMaskImport(file: File, services: ImportServices): void {
+  const axes = el(
+    "select",
+    { title: "Directions of the planes" },
+    el("option", { value: "axial,sagittal,coronal" }, "axial, sagittal and coronal"),
+    el("option", { value: "axial" }, "axial only"),
+  );
+  const planes = el("input", { type: "number", min: "1", max: "200", value: "9", class: "number" });
+  const go = button({
+    label: "Trace into contours",
+    title: "Import the mask",
+    class: "primary",
+    test: "import-mask",
+    onclick: () => {
+      dialog.close();
+      void send("mask", file, { axes: axes.value, planes: planes.value }, services);
+    },
+  });
+  const dialog = openDialog(
+    `Import ${file.name}`,
+    "mask-dialog",
+    el("p", {}, "Each label of the mask becomes a structure, drawn by contours on planes through it."),
+    el("label", { class: "field" }, "Planes", axes),
+    el("label", { class: "field" }, "Planes along each axis", planes),
+    el("div", { class: "dialog-buttons" }, go),
+  );
+}
+
+async function send(what: "contours" | "mask", file: File, options: Record<string, string>, services: ImportServices): Promise<void> {
+  services.working(`Importing ${file.name}`);
+  try {
+    services.imported(file.name, (await services.http.import(what, file, options)).structures);
+  } catch (error) {
+    services.failed(error);
+  }
+  services.working("");
+}
+
+type KeyRow = [string, string];
+const HELP: [string, KeyRow[]][] = [
+  [
+    "Look around",
+    [
+      ["Wheel, ↑ ↓", "scroll through slices (Page keys: ten at a time)"],
+      ["Ctrl + wheel, + −", "zoom"],
+      ["Middle drag, Space + drag", "pan"],
+      ["Right drag", "window: width to the right, centre up and down"],
+      ["Shift + move", "all views jump to the point under the pointer"],
+      ["Click, drag", "move the crosshair (Edit)"],
+      ["Drag a plane line", "move that plane; drag its dot to turn it"],
+      ["1 2 3 4 5", "axial, sagittal, coronal, oblique, 3D alone; 0 all"],
+      ["X", "show or hide plane lines"],
+      ["Home", "all views back to where they began"],
+    ],
+  ],
+  [
+    "Draw",
+    [
+      ["L  F  S", "live-wire, freehand, spline; change in mid-contour as you like"],
+      ["Left clicks", "place points"],
+      ["Left drag", "draw by hand"],
+      ["Click the first point, double click, Enter", "close the contour"],
+      ["Backspace", "remove the last point"],
+      ["Esc", "leave the contour or the tool"],
+    ],
+  ],
+  [
+    "Edit",
+    [
+      ["V", "edit tool"],
+      ["Drag a point or a line", "bend the contour"],
+      ["Ctrl + click on a line", "insert a point"],
+      ["Del", "delete the selected point, or the contour"],
+      ["R", "redraw a piece: draw from the line back to the line"],
+      ["M, Shift + drag", "move a contour"],
+      ["C, Shift + C", "copy to the next, previous slice"],
+      ["H", "hole on or off"],
+      ["Ctrl + Z, Ctrl + Shift + Z", "undo, redo: every action, also after a restart"],
+    ],
+  ],
+  [
+    "3D",
+    [
+      ["Left, middle, right drag", "turn, zoom, shift"],
+      ["Double click on the surface", "show that place in the slices"],
+    ],
+  ],
+];
+
+export function openHelp(version: string): void {
+  const columns = HELP.map(([title, rows]) =>
+    el("section", {}, el("h3", {}, title), el("dl", {}, ...rows.flatMap(([keys, what]) => [el("dt", {}, keys), el("dd", {}, what)]))),
+  );
+  openDialog("Mouse and keyboard", "help-dialog", el("div", { class: "help-columns" }, ...columns), el("p", { class: "fine" }, `kontur ${version}. Research software, not a medical device.`));
+}
+
+/** Shown once per project. */
+export function firstHint(close: () => void): HTMLElement {
+  return el(
+    "div",
+    { class: "first-hint", "data-test": "first-hint" },
+    el("h2", {}, "Segment in three steps"),
+    el(
+      "ol",
+      {},
+      el("li", {}, "Scroll to the structure with the wheel. Shift + move brings the other views along."),
+      el("li", {}, "Draw around it: Live-wire follows the edge between your clicks, Freehand follows your hand."),
+      el("li", {}, "Draw a second contour in another view. The surface follows after every edit; correct where it is wrong."),
+    ),
+    el("p", { class: "fine" }, "Everything is saved as you go. Press ? for mouse and keyboard."),
+    button({ label: "Start drawing", title: "Close this hint and take the live-wire tool", class: "primary", test: "hint-close", onclick: close }),
+  );
+}

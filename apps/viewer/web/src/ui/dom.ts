@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+
+type Child = Node | string | null | undefined;
+type Properties = Record<string, unknown>;
+
+/** An element with properties ("class" and "data-..." as attributes) and children. */
+export function el<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  properties: Properties = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[Tag] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === undefined || value === null) continue;
+    if (name === "class" || name.includes("-")) element.setAttribute(name, String(value));
+    else (element as unknown as Properties)[name] = value;
+  }
+  element.append(...children.filter((child): child is Node | string => child != null));
+  return element;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A line icon of 20 x 20. */
+export function icon(path: string): SVGSVGElement {
+  const svg = document.createElementNS(SVG, "svg");
+  svg.setAttribute("viewBox", "0 0 20 20");
+  svg.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS(SVG, "path");
+  line.setAttribute("d", path);
+  svg.append(line);
+  return svg;
+}
+
+export interface ButtonOptions {
+  label?: string;
+  icon?: string;
+  title: string;
+  class?: string;
+  test?: string;
+  onclick: (event: MouseEvent) => void;
+}
+
+export function button(options: ButtonOptions): HTMLButtonElement {
+  return el(
+    "button",
+    {
+      type: "button",
+      class: options.class ?? "button",
+      title: options.title,
+      "aria-label": options.title,
+      "data-test": options.test,
+      onclick: options.onclick,
+    },
+    options.icon ? icon(options.icon) : null,
+    options.label ? el("span", {}, options.label) : null,
+  );
+}

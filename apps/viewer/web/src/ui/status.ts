@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { ConnectionState } from "../net/socket";
+import type { Notice } from "../net/protocol";
+import { el } from "./dom";
+
+/** The line at the bottom: cursor, what to do next, what is computed, whether all is saved. */
+export class StatusBar {
+  readonly element = el("footer", { class: "status" });
+  private readonly cursor = el("span", { class: "cursor", "data-test": "cursor" });
+  private readonly hint = el("span", { class: "hint" });
+  private readonly work = el("span", { class: "work", "data-test": "work" });
+  private readonly bar = el("progress", { max: 1, hidden: true });
+  private readonly saved = el("span", { class: "saved", "data-test": "saved" });
+  private project = "";
+  private workTimer = 0;
+
+  constructor() {
+    this.element.append(this.cursor, this.hint, this.bar, this.work, this.saved);
+    this.work.setAttribute("aria-live", "polite");
+  }
+
+  start(project: string): void {
+    this.project = project;
+  }
+
+  setCursor(text: string): void {
+    this.cursor.textContent = text;
+  }
+
+  setHint(text: string): void {
+    this.hint.textContent = text;
+  }
+
+  /** Work that is over within 0.15 s is not announced: a line that flickers tells nobody anything. */
+  setWork(text: string, fraction: number | null): void {
+    window.clearTimeout(this.workTimer);
+    const show = () => {
+      this.work.textContent = text;
+      this.bar.hidden = text === "" || fraction === null;
+      if (fraction !== null) this.bar.value = fraction;
+    };
+    if (text === "" || this.work.textContent !== "") show();
+    else this.workTimer = window.setTimeout(show, 150);
+  }
+
+  setSaved(connection: ConnectionState, unsaved: number): void {
+    const state = connection !== "open" ? "lost" : unsaved > 0 ? "saving" : "saved";
+    const texts = { lost: "Not connected", saving: "Saving…", saved: `Saved in ${this.project}` };
+    this.saved.textContent = texts[state];
+    this.saved.dataset["state"] = state;
+  }
+}
+
+const NOTICE_MS = 6000;
+
+/** Sentences for the user, at the top of the views; errors stay until they are closed. */
+export class Notices {
+  readonly element = el("div", { class: "notices", role: "status" });
+
+  show(level: Notice["level"], text: string): void {
+    for (const old of this.element.children) if (old.textContent === text) old.remove();
+    const notice = el("div", { class: `notice ${level}`, title: "Click to close" }, text);
+    notice.onclick = () => notice.remove();
+    this.element.append(notice);
+    while (this.element.children.length > 4) this.element.firstElementChild!.remove();
+    if (level !== "error") setTimeout(() => notice.remove(), NOTICE_MS);
+  }
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { LayoutName, Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { Preset } from "../net/protocol";
+import type { Editor, ToolName } from "../tools/editor";
+import { button, el } from "./dom";
+import { ICONS } from "./icons";
+
+export interface ToolbarServices {
+  navigation: Navigation;
+  project: Project;
+  editor: Editor;
+  undo(): void;
+  redo(): void;
+  openExport(): void;
+  openImport(): void;
+  openHelp(): void;
+}
+
+const TOOLS: [ToolName, string, string, string][] = [
+  ["edit", "Edit", "V", "Move the crosshair and plane lines; drag points and lines of contours"],
+  ["wire", "Live-wire", "L", "Click points: the line between them follows the edge in the image. Drag to draw by hand in between"],
+  ["freehand", "Freehand", "F", "Drag around the structure; releasing closes the contour"],
+  ["spline", "Spline", "S", "Click points: a smooth curve goes through them. Drag to draw by hand in between"],
+  ["redraw", "Redraw", "R", "Draw a new piece over a contour, beginning and ending on its line"],
+  ["move", "Move", "M", "Drag a contour as a whole within its plane"],
+];
+
+const LAYOUTS: [LayoutName, string, string][] = [
+  ["overview", ICONS.overview, "Four slices beside the 3D view"],
+  ["big-slice", ICONS.bigSlice, "One view big, the others beside it"],
+  ["big-surface", ICONS.bigSurface, "The 3D view big"],
+  ["single", ICONS.single, "One view alone"],
+];
+
+export class Toolbar {
+  readonly element = el("header", { class: "toolbar", role: "toolbar", "aria-label": "Tools" });
+  private readonly tools = new Map<ToolName, HTMLButtonElement>();
+  private readonly layouts = new Map<LayoutName, HTMLButtonElement>();
+  private readonly undo: HTMLButtonElement;
+  private readonly redo: HTMLButtonElement;
+  private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets" });
+  private readonly center = el("input", { type: "number", class: "number", title: "Window: centre (drag with the right button over a slice)" });
+  private readonly width = el("input", { type: "number", class: "number", title: "Window: width", min: "0" });
+  private readonly title = el("span", { class: "file-title" });
+  private presetList: Preset[] = [];
+
+  constructor(private readonly services: ToolbarServices) {
+    const { navigation, editor } = services;
+    for (const [tool, label, key, title] of TOOLS)
+      this.tools.set(tool, button({ icon: ICONS[tool], label, title: `${title} (${key})`, class: "tool", test: `tool-${tool}`, onclick: () => editor.choose(tool) }));
+    for (const [layout, path, title] of LAYOUTS)
+      this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, onclick: () => navigation.setLayout(layout) }));
+    this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", onclick: services.undo });
+    this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", onclick: services.redo });
+    this.presets.onchange = () => this.choosePreset();
+    this.center.onchange = this.width.onchange = () => this.typeWindow();
+    this.element.append(
+      el("span", { class: "brand" }, "kontur"),
+      this.title,
+      group(...this.tools.values()),
+      group(this.undo, this.redo),
+      el("span", { class: "spring" }),
+      group(el("label", { class: "window-label" }, "Window"), this.presets, this.center, this.width),
+      group(...this.layouts.values()),
+      group(
+        button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", onclick: () => editor.toggleLines() }),
+      ),
+      group(
+        button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", onclick: services.openImport }),
+        button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool", test: "export", onclick: services.openExport }),
+        button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", onclick: services.openHelp }),
+      ),
+    );
+    editor.on(["tool"], () => this.update());
+    navigation.on(["layout", "window"], () => this.update());
+    services.project.on(["history"], () => this.update());
+  }
+
+  start(title: string, presets: Preset[]): void {
+    this.title.textContent = title;
+    this.title.title = title;
+    this.presetList = presets;
+    this.presets.replaceChildren(
+      ...presets.map(({ name }, i) => el("option", { value: String(i) }, name)),
+      el("option", { value: "", hidden: true }, "Custom"),
+    );
+    this.update();
+  }
+
+  private update(): void {
+    const { editor, navigation, project } = this.services;
+    for (const [tool, element] of this.tools) press(element, tool === editor.tool);
+    for (const [layout, element] of this.layouts) press(element, layout === navigation.layout);
+    const { undo, redo } = project.history;
+    describe(this.undo, undo, "Undo", "Ctrl+Z");
+    describe(this.redo, redo, "Redo", "Ctrl+Shift+Z");
+    const { center, width } = navigation.window;
+    if (document.activeElement !== this.center) this.center.value = short(center);
+    if (document.activeElement !== this.width) this.width.value = short(width);
+    const preset = this.presetList.findIndex((entry) => short(entry.center) === short(center) && short(entry.width) === short(width));
+    this.presets.value = preset < 0 ? "" : String(preset);
+  }
+
+  private choosePreset(): void {
+    const preset = this.presetList[Number(this.presets.value)];
+    if (preset) this.services.navigation.setWindow({ center: preset.center, width: preset.width });
+    this.presets.blur();
+  }
+
+  private typeWindow(): void {
+    const center = this.center.valueAsNumber, width = this.width.valueAsNumber;
+    if (Number.isFinite(center) && width > 0) this.services.navigation.setWindow({ center, width });
+  }
+}
+
+const group = (...children: HTMLElement[]): HTMLElement => el("div", { class: "group" }, ...children);
+
+const short = (value: number): string => (Math.abs(value) >= 10 ? value.toFixed(0) : value.toPrecision(3));
+
+function press(element: HTMLElement, pressed: boolean): void {
+  element.setAttribute("aria-pressed", String(pressed));
+}
+
+function describe(element: HTMLButtonElement, what: string | null, verb: string, keys: string): void {
+  element.disabled = what === null;
+  element.title = what === null ? `Nothing to ${verb.toLowerCase()}` : `${verb}: ${what} (${keys})`;
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+import { sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
+import { scaleBar } from "../geometry/scale_bar";
+import type { PixelPlane } from "../geometry/plane";
+import type { Vec3 } from "../geometry/vec";
+import type { Contour, SliceHeader } from "../net/protocol";
+import { hasHandles, type PlaneLine } from "../tools/hit";
+import { PLANE_COLORS, tinted, withAlpha } from "./palette";
+
+const SHADE = "rgba(8, 10, 13, 0.75)";
+const INK = "#e8edf2";
+
+/** Draws vectors over a slice, in CSS pixels of `screen`. */
+export class OverlayPainter {
+  constructor(
+    private readonly ctx: CanvasRenderingContext2D,
+    private readonly screen: Screen,
+  ) {}
+
+  /** Where the computed surfaces cut the plane: thin, filled. */
+  outlines(header: SliceHeader, points: Float32Array, slice: PixelPlane, colorOf: (structure: number) => string): void {
+    const { a, dx, dy } = sliceOnScreen(this.screen, slice);
+    for (const { structure, lines } of header.outlines) {
+      const path = new Path2D();
+      for (const { first, count, closed } of lines) {
+        for (let i = first; i < first + count; ++i) {
+          const x = a * points[2 * i]! + dx, y = a * points[2 * i + 1]! + dy;
+          if (i === first) path.moveTo(x, y);
+          else path.lineTo(x, y);
+        }
+        if (closed) path.closePath();
+      }
+      const color = colorOf(structure);
+      this.ctx.fillStyle = withAlpha(color, 0.13);
+      this.ctx.fill(path, "evenodd");
+      this.ctx.lineJoin = "round";
+      this.stroke(path, withAlpha(color, 0.95), 1.4);
+    }
+  }
+
+  /** Contours of other planes, as the points where they cross this one. */
+  crossings(header: SliceHeader, points: Float32Array, slice: PixelPlane, colorOf: (contour: number) => string | null): void {
+    const { a, dx, dy } = sliceOnScreen(this.screen, slice);
+    for (const { contour, first, count } of header.crossings) {
+      const color = colorOf(contour);
+      if (!color) continue;
+      for (let i = first; i < first + count; ++i)
+        this.diamond([a * points[2 * i]! + dx, a * points[2 * i + 1]! + dy], color);
+    }
+  }
+
+  /** A drawn contour: light with a dark rim, unlike the computed outlines; holes dashed. */
+  contour(contour: Contour, color: string, state: { selected: boolean; hovered: boolean; point: number | null; hoveredPoint: number | null }): void {
+    const path = this.path(contour.points, true);
+    const light = tinted(color, state.selected || state.hovered ? 0.82 : 0.55);
+    this.ctx.lineJoin = "round";
+    this.stroke(path, SHADE, state.selected ? 4.5 : 3.8);
+    if (contour.hole) this.ctx.setLineDash([7, 4]);
+    this.stroke(path, light, state.selected ? 2.4 : 1.9);
+    this.ctx.setLineDash([]);
+    if (!hasHandles(contour) || !(state.selected || state.hovered)) return;
+    contour.control.forEach(({ at }, i) => this.handle(toScreen(this.screen, at), i === state.point, i === state.hoveredPoint, color));
+  }
+
+  /** The contour that is being drawn. */
+  sketch(placed: readonly Vec3[], rubber: readonly Vec3[], points: readonly Vec3[], color: string, closes: boolean): void {
+    this.ctx.lineJoin = "round";
+    this.line(placed, tinted(color, 0.75), 2.2);
+    this.ctx.setLineDash([5, 4]);
+    this.line(rubber, tinted(color, 0.75), 1.8);
+    this.ctx.setLineDash([]);
+    points.forEach((at, i) => {
+      const p = toScreen(this.screen, at);
+      this.handle(p, false, false, color);
+      if (i === 0) this.ring(p, closes ? 9 : 7, closes ? "#ffffff" : withAlpha("#ffffff", 0.5), closes ? 2.2 : 1);
+    });
+  }
+
+  hand(points: readonly Vec3[], color: string): void {
+    this.ctx.lineJoin = "round";
+    this.line(points, tinted(color, 0.75), 2.2);
+  }
+
+  planeLine({ view, ends, handles }: PlaneLine, crosshair: Point2, state: { strong: boolean; handles: boolean; faint: boolean }): void {
+    const { ctx } = this;
+    const color = PLANE_COLORS[view];
+    ctx.globalAlpha = state.faint ? 0.35 : state.strong ? 1 : 0.72;
+    const free = 14; // around the crosshair, so that what lies under it can be seen
+    for (const end of ends) {
+      const size = Math.hypot(end[0] - crosshair[0], end[1] - crosshair[1]);
+      if (size <= free) continue;
+      const t = free / size;
+      const path = new Path2D();
+      path.moveTo(crosshair[0] + t * (end[0] - crosshair[0]), crosshair[1] + t * (end[1] - crosshair[1]));
+      path.lineTo(end[0], end[1]);
+      this.stroke(path, color, state.strong ? 2 : 1);
+    }
+    if (state.handles)
+      for (const [x, y] of handles) {
+        ctx.beginPath();
+        ctx.arc(x, y, state.strong ? 5.5 : 4, 0, 2 * Math.PI);
+        ctx.fillStyle = "#14181d";
+        ctx.fill();
+        ctx.lineWidth = 1.6;
+        ctx.strokeStyle = color;
+        ctx.stroke();
+      }
+    ctx.globalAlpha = 1;
+  }
+
+  /** A place where contours contradict each other. */
+  conflict(at: Vec3): void {
+    const p = toScreen(this.screen, at);
+    this.ring(p, 9, SHADE, 4);
+    this.ring(p, 9, "#ff8f3f", 2);
+  }
+
+  letters({ left, right, top, bottom }: SliceHeader["letters"]): void {
+    const { width, height } = this.screen;
+    this.text(left, [9, height / 2], "left", "middle");
+    this.text(right, [width - 26, height / 2], "right", "middle");
+    this.text(top, [width / 2, 34], "center", "top");
+    this.text(bottom, [width / 2, height - 9], "center", "bottom");
+  }
+
+  scaleBar(): void {
+    const { ctx, screen } = this;
+    const bar = scaleBar(screen.mm_per_pixel, Math.min(140, screen.width / 3));
+    const x = 12, y = screen.height - 13;
+    const path = new Path2D(`M${x} ${y - 4}V${y}H${x + bar.pixels}V${y - 4}`);
+    this.stroke(path, SHADE, 4);
+    this.stroke(path, INK, 1.5);
+    ctx.font = "11px system-ui, sans-serif";
+    this.text(bar.label, [x + 1, y - 7], "left", "bottom", "11px system-ui, sans-serif");
+  }
+
+  private text(text: string, [x, y]: Point2, align: CanvasTextAlign, baseline: CanvasTextBaseline, font = "600 13px system-ui, sans-serif"): void {
+    const { ctx } = this;
+    ctx.font = font;
+    ctx.textAlign = align;
+    ctx.textBaseline = baseline;
+    ctx.lineJoin = "round";
+    ctx.lineWidth = 3;
+    ctx.strokeStyle = SHADE;
+    ctx.strokeText(text, x, y);
+    ctx.fillStyle = INK;
+    ctx.fillText(text, x, y);
+  }
+
+  private path(points: readonly Vec3[], closed: boolean): Path2D {
+    const path = new Path2D();
+    points.forEach((p, i) => {
+      const [x, y] = toScreen(this.screen, p);
+      if (i === 0) path.moveTo(x, y);
+      else path.lineTo(x, y);
+    });
+    if (closed) path.closePath();
+    return path;
+  }
+
+  private line(points: readonly Vec3[], color: string, width: number): void {
+    if (points.length < 2) return;
+    const path = this.path(points, false);
+    const dash = this.ctx.getLineDash();
+    this.ctx.setLineDash([]);
+    this.stroke(path, SHADE, width + 1.8);
+    this.ctx.setLineDash(dash);
+    this.stroke(path, color, width);
+  }
+
+  private stroke(path: Path2D, color: string, width: number): void {
+    this.ctx.strokeStyle = color;
+    this.ctx.lineWidth = width;
+    this.ctx.stroke(path);
+  }
+
+  private handle([x, y]: Point2, selected: boolean, hovered: boolean, color: string): void {
+    const { ctx } = this;
+    ctx.beginPath();
+    ctx.arc(x, y, selected || hovered ? 5.2 : 3.7, 0, 2 * Math.PI);
+    ctx.fillStyle = selected ? color : "#ffffff";
+    ctx.fill();
+    ctx.lineWidth = 1.4;
+    ctx.strokeStyle = selected ? "#ffffff" : "rgba(8, 10, 13, 0.9)";
+    ctx.stroke();
+  }
+
+  private diamond([x, y]: Point2, color: string): void {
+    const { ctx } = this;
+    const r = 3.8;
+    ctx.beginPath();
+    ctx.moveTo(x, y - r);
+    ctx.lineTo(x + r, y);
+    ctx.lineTo(x, y + r);
+    ctx.lineTo(x - r, y);
+    ctx.closePath();
+    ctx.lineWidth = 2.4;
+    ctx.lineJoin = "miter";
+    ctx.strokeStyle = SHADE;
+    ctx.stroke();
+    ctx.fillStyle = tinted(color, 0.55);
+    ctx.fill();
+  }
+
+  private ring([x, y]: Point2, radius: number, color: string, width: number): void {
+    const { ctx } = this;
+    ctx.beginPath();
+    ctx.arc(x, y, radius, 0, 2 * Math.PI);
+    ctx.lineWidth = width;
+    ctx.strokeStyle = color;
+    ctx.stroke();
+  }
+}

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { PixelPlane } from "../geometry/plane";
+import { areParallel } from "../geometry/plane";
+import { depthBelow, sliceOnScreen, slicePlane, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
+import type { Vec3 } from "../geometry/vec";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { Http } from "../net/http";
+import { ServerError } from "../net/http";
+import { Latest } from "../net/latest";
+import type { SliceHeader, ViewName } from "../net/protocol";
+import type { Editor } from "../tools/editor";
+import { inView } from "../tools/hit";
+import { button, el } from "../ui/dom";
+import { ICONS } from "../ui/icons";
+import { OverlayPainter } from "./overlay";
+import { PLANE_COLORS, VIEW_TITLES } from "./palette";
+
+const MOST_PIXELS = 4096; // of a slice, along a side
+const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
+
+interface ShownSlice {
+  plane: PixelPlane;
+  header: SliceHeader;
+  outlinePoints: Float32Array;
+  crossingPoints: Float32Array;
+}
+
+export interface SliceViewServices {
+  navigation: Navigation;
+  project: Project;
+  editor: Editor;
+  http: Http;
+  failed(error: unknown): void;
+}
+
+/** One pane: a slice as the server computes it, vectors over it, a slider beside it. */
+export class SliceView {
+  readonly element: HTMLElement;
+  readonly overlay = el("canvas", { class: "overlay", tabIndex: 0 });
+  readonly header: HTMLElement;
+  private readonly image = el("canvas", { class: "image" });
+  private readonly slider = el("input", { type: "range", class: "slice-slider", title: "Slice (mouse wheel, arrow keys)" });
+  private readonly position = el("span", { class: "slice-number" });
+  private readonly bitmap = document.createElement("canvas");
+  private bitmapPlane: PixelPlane | null = null;
+  private slice: ShownSlice | null = null;
+  private readonly requests: Latest<{ pixels: boolean }>;
+  private paintQueued = false;
+  private width = 0;
+  private height = 0;
+
+  constructor(
+    readonly name: ViewName,
+    private readonly services: SliceViewServices,
+  ) {
+    const { navigation } = services;
+    this.requests = new Latest(
+      (request) => this.ask(request.pixels),
+      (old, next) => ({ pixels: old.pixels || next.pixels }),
+    );
+    this.header = el("div", { class: "pane-header" });
+    const reset = button({
+      icon: ICONS.reset,
+      title: "Turn and zoom this view back to where it began",
+      class: "icon-button small",
+      onclick: () => navigation.resetView(name),
+    });
+    const enlarge = button({
+      icon: ICONS.enlarge,
+      title: "Show this view alone, or go back (double click on its title)",
+      class: "icon-button small",
+      test: `enlarge-${name}`,
+      onclick: () => this.header.dispatchEvent(new MouseEvent("dblclick")),
+    });
+    const dot = el("span", { class: "plane-dot" });
+    dot.style.background = PLANE_COLORS[name];
+    this.header.append(dot, el("span", { class: "pane-title" }, VIEW_TITLES[name]), this.position, el("span", { class: "spring" }), reset, enlarge);
+    this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image, this.overlay, this.header, this.slider);
+    this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
+    this.slider.oninput = () => navigation.scrollTo(name, Number(this.slider.value));
+    new ResizeObserver(() => this.resized()).observe(this.element);
+  }
+
+  /** Null while the pane is not shown. */
+  screen(): Screen | null {
+    if (!this.services.navigation.hasImage || this.width < 16 || this.height < 16) return null;
+    return this.services.navigation.screen(this.name, this.width, this.height);
+  }
+
+  /** Asks for a slice of the plane as it is now. */
+  refresh(pixels: boolean): void {
+    if (!this.screen()) return;
+    this.updateSlider();
+    this.paint();
+    this.requests.send({ pixels: pixels || this.bitmapPlane === null });
+    this.element.dataset["pending"] = "true";
+    void this.requests.idle().then(() => (this.element.dataset["pending"] = "false"));
+  }
+
+  /** Paints before the next frame. */
+  paint(): void {
+    if (this.paintQueued) return;
+    this.paintQueued = true;
+    requestAnimationFrame(() => {
+      this.paintQueued = false;
+      this.paintNow();
+    });
+  }
+
+  pointOf(event: MouseEvent): Point2 {
+    const box = this.overlay.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  private resized(): void {
+    const box = this.element.getBoundingClientRect();
+    if (box.width === this.width && box.height === this.height) return;
+    this.width = box.width;
+    this.height = box.height;
+    const ratio = this.ratio();
+    for (const canvas of [this.image, this.overlay]) {
+      canvas.width = Math.round(this.width * ratio);
+      canvas.height = Math.round(this.height * ratio);
+    }
+    this.refresh(true);
+  }
+
+  private ratio(): number {
+    return Math.min(window.devicePixelRatio || 1, MOST_PIXELS / Math.max(this.width, this.height, 1));
+  }
+
+  private async ask(pixels: boolean): Promise<void> {
+    const screen = this.screen();
+    if (!screen) return;
+    const ratio = this.ratio();
+    const plane = slicePlane(screen, ratio);
+    const width = Math.max(1, Math.round(screen.width * ratio));
+    const height = Math.max(1, Math.round(screen.height * ratio));
+    const { window } = this.services.navigation;
+    try {
+      const reply = await this.services.http.slice({ view: this.name, plane, width, height, window, pixels, outlines: true });
+      this.slice = {
+        plane,
+        header: reply.header,
+        outlinePoints: reply.f32("outline_points"),
+        crossingPoints: reply.f32("crossing_points"),
+      };
+      if (pixels) this.keepPixels(reply.u8("pixels"), width, height, plane);
+      this.paintNow();
+    } catch (error) {
+      if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
+    }
+    this.tellState();
+  }
+
+  /** What tests and measurements wait for. */
+  private tellState(): void {
+    const { dataset } = this.element;
+    dataset["revisions"] = (this.slice?.header.outlines ?? []).map((outline) => `${outline.structure}:${outline.revision}`).join(" ");
+    dataset["crossings"] = String(this.slice?.header.crossings.length ?? 0);
+    dataset["slices"] = String(Number(dataset["slices"] ?? 0) + 1);
+  }
+
+  private keepPixels(gray: Uint8Array, width: number, height: number, plane: PixelPlane): void {
+    if (this.bitmap.width !== width || this.bitmap.height !== height) {
+      this.bitmap.width = width;
+      this.bitmap.height = height;
+    }
+    const context = this.bitmap.getContext("2d")!;
+    const pixels = context.createImageData(width, height);
+    const rgba = new Uint32Array(pixels.data.buffer);
+    for (let i = 0; i < gray.length; ++i) rgba[i] = GRAY[gray[i]!]!;
+    context.putImageData(pixels, 0, 0);
+    this.bitmapPlane = plane;
+  }
+
+  private updateSlider(): void {
+    const { navigation } = this.services;
+    const { from, to, at } = navigation.depth(this.name);
+    Object.assign(this.slider, { min: String(from), max: String(to), step: String(navigation.step(this.name)) });
+    this.slider.value = String(at);
+    const { number, count } = navigation.slice(this.name);
+    this.position.textContent = `${number} / ${count}`;
+    this.element.dataset["slice"] = String(number);
+  }
+
+  private paintNow(): void {
+    const screen = this.screen();
+    if (!screen) return;
+    this.paintImage(screen);
+    this.paintOverlay(screen);
+  }
+
+  private paintImage(screen: Screen): void {
+    const context = this.image.getContext("2d")!;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, this.image.width, this.image.height);
+    if (!this.bitmapPlane || !areParallel(this.bitmapPlane, screen.axes)) return void this.drawStretched(context);
+    const ratio = this.ratio();
+    const { a, dx, dy } = sliceOnScreen(screen, this.bitmapPlane);
+    context.setTransform(a * ratio, 0, 0, a * ratio, (dx - a / 2) * ratio, (dy - a / 2) * ratio);
+    context.drawImage(this.bitmap, 0, 0);
+  }
+
+  /** Until the turned slice arrives the old one stays, as it was. */
+  private drawStretched(context: CanvasRenderingContext2D): void {
+    if (this.bitmapPlane) context.drawImage(this.bitmap, 0, 0, this.image.width, this.image.height);
+  }
+
+  private paintOverlay(screen: Screen): void {
+    const { project, editor, navigation } = this.services;
+    const context = this.overlay.getContext("2d")!;
+    const ratio = this.ratio();
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, this.width, this.height);
+    const painter = new OverlayPainter(context, screen);
+    if (this.slice && areParallel(this.slice.plane, screen.axes)) {
+      const { header, outlinePoints, crossingPoints, plane } = this.slice;
+      const shown = { ...header, outlines: header.outlines.filter(({ structure }) => project.structures.get(structure)?.visible) };
+      painter.outlines(shown, outlinePoints, plane, (id) => project.structures.get(id)?.color ?? "#888888");
+      painter.crossings(header, crossingPoints, plane, (id) => this.crossingColor(id, screen));
+    }
+    this.paintLines(painter, screen);
+    this.paintContours(painter, screen);
+    for (const surface of project.surfaces.values())
+      for (const { at } of surface.conflicts ?? [])
+        if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
+    this.paintSketch(painter, screen);
+    if (this.slice) painter.letters(this.slice.header.letters);
+    painter.scaleBar();
+    this.overlay.style.cursor = editor.cursor();
+  }
+
+  private crossingColor(contour: number, screen: Screen): string | null {
+    const { project, navigation } = this.services;
+    const found = project.contour(contour);
+    if (!found || !project.isShown(found) || inView(found, screen, navigation.step(this.name))) return null;
+    return project.structures.get(found.structure)?.color ?? null;
+  }
+
+  private paintLines(painter: OverlayPainter, screen: Screen): void {
+    const { editor, navigation } = this.services;
+    const crosshair = toScreen(screen, navigation.crosshair);
+    const hover = editor.hover && "line" in editor.hover && editor.hover.view === this.name ? editor.hover.line : null;
+    for (const line of editor.lines(this.name, screen)) {
+      const strong = hover !== null && (hover.on === "crosshair" || hover.view === line.view);
+      painter.planeLine(line, crosshair, { strong, handles: editor.tool === "edit", faint: editor.tool !== "edit" });
+    }
+  }
+
+  private paintContours(painter: OverlayPainter, screen: Screen): void {
+    const { project, editor, navigation } = this.services;
+    const hover = editor.hover && "contour" in editor.hover ? editor.hover.contour : null;
+    for (const contour of project.shownContours()) {
+      if (!inView(contour, screen, navigation.step(this.name))) continue;
+      const selected = project.selection?.contour === contour.id;
+      const hovered = hover?.contour === contour.id;
+      painter.contour(contour, project.structures.get(contour.structure)!.color, {
+        selected,
+        hovered,
+        point: selected ? (project.selection?.point ?? null) : null,
+        hoveredPoint: hovered && hover.on === "point" ? hover.index : null,
+      });
+    }
+  }
+
+  private paintSketch(painter: OverlayPainter, screen: Screen): void {
+    const { project, editor, navigation } = this.services;
+    const color = project.activeStructure?.color ?? "#e8b04a";
+    const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
+    const { sketch } = editor;
+    if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
+      const placed = editor.placedLine.length > 1 ? editor.placedLine : sketch.points.map((point) => point.at);
+      painter.sketch(placed, editor.rubberLine, sketch.points.map((point) => point.at), color, editor.pointerCloses);
+    }
+    if (near(editor.handLine[0]) && near(editor.handLine.at(-1))) painter.hand(editor.handLine, color);
+  }
+
+  /** The point of the plane under the pointer. */
+  worldAt(event: MouseEvent): Vec3 | null {
+    const screen = this.screen();
+    return screen && toWorld(screen, this.pointOf(event));
+  }
+
+}

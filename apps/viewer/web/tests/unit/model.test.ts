@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { toScreen, toWorld } from "../../src/geometry/screen";
+import { dot } from "../../src/geometry/vec";
+import { Project } from "../../src/model/project";
+import { near, session, square, started } from "./support";
+
+const history = { undo: null, redo: null };
+
+test("the whole image fits into a view of any shape", () => {
+  for (const [width, height] of [[300, 900], [900, 300]] as const) {
+    const screen = started().screen("axial", width, height);
+    assert.ok(200 / screen.mm_per_pixel <= width && 100 / screen.mm_per_pixel <= height);
+    assert.ok(200 / screen.mm_per_pixel > 0.9 * width || 100 / screen.mm_per_pixel > 0.9 * height);
+  }
+});
+
+test("scrolling moves by whole slices and stops at the image's ends", () => {
+  const navigation = started();
+  navigation.scroll("axial", 3);
+  near(navigation.crosshair, [0, 0, 6]);
+  navigation.scroll("axial", 1000);
+  near(navigation.crosshair, [0, 0, 50]);
+  assert.deepEqual(navigation.slice("axial"), { number: 51, count: 51 });
+  navigation.scroll("axial", -1000);
+  assert.deepEqual(navigation.slice("axial"), { number: 1, count: 51 });
+});
+
+test("scrolling from between two slices arrives on a slice", () => {
+  const navigation = started();
+  navigation.setCrosshair([0, 0, 0.9]);
+  navigation.scroll("axial", 1);
+  near(navigation.crosshair, [0, 0, 2]);
+});
+
+test("scrolling an oblique view leaves the crosshair's place within it", () => {
+  const navigation = started();
+  const { u, v } = navigation.cameras.oblique.axes;
+  navigation.scroll("oblique", 5);
+  near([dot(navigation.crosshair, u), dot(navigation.crosshair, v)], [0, 0]);
+  near([dot(navigation.crosshair, navigation.cameras.oblique.axes.normal)], [10]);
+});
+
+test("the crosshair cannot leave the image", () => {
+  const navigation = started();
+  navigation.setCrosshair([500, -500, 20]);
+  near(navigation.crosshair, [100, -80, 20]);
+});
+
+test("zooming keeps the point under the pointer, within limits", () => {
+  const navigation = started();
+  const at = toWorld(navigation.screen("coronal", 400, 300), [310, 50]);
+  for (let i = 0; i < 100; ++i) navigation.zoomAt("coronal", at, 1.3);
+  assert.equal(navigation.cameras.coronal.zoom, 40);
+  near(toScreen(navigation.screen("coronal", 400, 300), at), [310, 50], 1e-6);
+});
+
+test("a turned view still goes through the crosshair and scrolls to the image's corners", () => {
+  const navigation = started();
+  navigation.rotate("sagittal", "axial", 0.5);
+  assert.ok(navigation.isTurned("sagittal"));
+  navigation.scroll("sagittal", 1000);
+  const { to, at } = navigation.depth("sagittal");
+  assert.ok(to > 100);
+  near([at], [to], 1e-9);
+  navigation.resetView("sagittal");
+  assert.ok(!navigation.isTurned("sagittal"));
+});
+
+test("going to a point moves views that are zoomed in elsewhere, and only those", () => {
+  const navigation = started();
+  navigation.zoomAt("axial", [-90, 0, 0], 10);
+  const before = navigation.cameras.coronal;
+  navigation.goTo([60, 0, 4], { axial: navigation.screen("axial", 300, 300), coronal: navigation.screen("coronal", 300, 300) });
+  near(toScreen(navigation.screen("axial", 300, 300), [60, 0, 4]), [150, 150], 1e-6);
+  assert.equal(navigation.cameras.coronal, before);
+});
+
+test("what is saved brings every view back", () => {
+  const navigation = started();
+  navigation.rotate("oblique", "axial", 0.3);
+  navigation.scroll("axial", 4);
+  navigation.setLayout("single", "coronal");
+  const copy = started();
+  copy.start(session(), JSON.parse(JSON.stringify(navigation.saved())) as ReturnType<typeof navigation.saved>);
+  assert.equal(JSON.stringify(copy.saved()), JSON.stringify(navigation.saved()));
+});
+
+test("a window keeps a positive width", () => {
+  const navigation = started();
+  navigation.setWindow({ center: 10, width: -50 });
+  assert.ok(navigation.window.width > 0);
+});
+
+test("events set and remove structures and contours", () => {
+  const project = new Project();
+  project.start(session({ contours: [square(5), square(6)] }));
+  project.apply({ event: "changed", contours: { set: [square(7)], removed: [5] }, history: { undo: "Draw", redo: null } });
+  assert.deepEqual([...project.contours.keys()], [6, 7]);
+  assert.equal(project.history.undo, "Draw");
+  project.apply({ event: "changed", structures: { set: [], removed: [1] }, contours: { set: [], removed: [6, 7] }, history });
+  assert.equal(project.activeStructure, undefined);
+});
+
+test("a draft stands for its contour until the server stores something", () => {
+  const project = new Project();
+  project.start(session({ contours: [square(5)] }));
+  project.draft = square(5, { points: [] });
+  assert.deepEqual(project.shownContours()[0]!.points, []);
+  project.apply({ event: "changed", history });
+  assert.equal(project.shownContours()[0]!.points.length, 4);
+});
+
+test("a selection ends with what it selects", () => {
+  const project = new Project();
+  project.start(session({ contours: [square(5)] }));
+  project.select({ contour: 5, point: 3 });
+  const three = square(5, { control: square(5).control.slice(0, 3) });
+  project.apply({ event: "changed", contours: { set: [three], removed: [] }, history });
+  assert.deepEqual(project.selection, { contour: 5, point: null });
+  project.apply({ event: "changed", contours: { set: [], removed: [5] }, history });
+  assert.equal(project.selection, null);
+});
+
+test("contours of hidden structures are not shown", () => {
+  const project = new Project();
+  project.start(session({ contours: [square(5), square(6, { visible: false })] }));
+  assert.deepEqual(project.shownContours().map((contour) => contour.id), [5]);
+  project.apply({ event: "changed", structures: { set: [{ id: 1, name: "Liver", color: "#ffffff", visible: false }], removed: [] }, history });
+  assert.deepEqual(project.shownContours(), []);
+});
+
+test("a preview keeps the figures of the last refined surface; no surface has none", () => {
+  const project = new Project();
+  project.start(session());
+  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 9, volume_ml: 12 });
+  project.setSurface({ structure: 1, revision: 2, stage: "preview", triangles: 5 });
+  assert.equal(project.surfaces.get(1)!.volume_ml, 12);
+  assert.equal(project.surfaces.get(1)!.stage, "preview");
+  project.setSurface({ structure: 1, revision: 3, stage: "none", triangles: 0 });
+  assert.equal(project.surfaces.get(1)!.volume_ml, undefined);
+});

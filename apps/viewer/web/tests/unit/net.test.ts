@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { BinaryReply } from "../../src/net/binary";
+import { Latest } from "../../src/net/latest";
+
+interface Job {
+  request: number;
+  finish: () => void;
+}
+
+function jobs(): { started: Job[]; latest: Latest<number> } {
+  const started: Job[] = [];
+  const latest = new Latest<number>((request) => new Promise((finish) => started.push({ request, finish })));
+  return { started, latest };
+}
+
+const settled = () => new Promise((resolve) => setImmediate(resolve));
+
+test("one request runs at a time, and of those that wait only the latest follows", async () => {
+  const { started, latest } = jobs();
+  for (const request of [1, 2, 3, 4]) latest.send(request);
+  assert.deepEqual(started.map((job) => job.request), [1]);
+  started[0]!.finish();
+  await settled();
+  assert.deepEqual(started.map((job) => job.request), [1, 4]);
+  started[1]!.finish();
+  await latest.idle();
+  assert.equal(latest.busy, false);
+});
+
+test("requests that wait are merged as told", async () => {
+  const seen: boolean[] = [];
+  const latest = new Latest<boolean>(async (pixels) => void seen.push(pixels), (a, b) => a || b);
+  for (const pixels of [false, true, false]) latest.send(pixels);
+  await latest.idle();
+  assert.deepEqual(seen, [false, true]);
+});
+
+test("a dropped request does not run, a failed one does not stop the next", async () => {
+  const seen: number[] = [];
+  const latest = new Latest<number>(async (request) => {
+    seen.push(request);
+    if (request === 1) throw new Error("refused");
+  });
+  latest.send(1);
+  latest.send(2);
+  latest.drop();
+  await latest.idle();
+  latest.send(3);
+  await latest.idle();
+  assert.deepEqual(seen, [1, 3]);
+});
+
+function reply(header: object, size: number): { buffer: ArrayBuffer; start: number } {
+  const text = new TextEncoder().encode(JSON.stringify(header));
+  const start = Math.ceil((4 + text.length) / 4) * 4;
+  const buffer = new ArrayBuffer(start + size);
+  new DataView(buffer).setUint32(0, start - 4, true);
+  new Uint8Array(buffer).fill(32, 4, start).set(text, 4);
+  return { buffer, start };
+}
+
+test("a binary reply gives its header, and arrays without copying", () => {
+  const arrays = { pixels: { type: "u8", offset: 200, count: 3 }, points: { type: "f32", offset: 204, count: 2 } };
+  const { buffer } = reply({ width: 3, arrays }, 200);
+  new Uint8Array(buffer).set([7, 8, 9], 200);
+  new Float32Array(buffer, 204, 2).set([1.5, -2]);
+  const parsed = new BinaryReply<{ width: number }>(buffer);
+  assert.deepEqual(parsed.header, { width: 3 });
+  assert.deepEqual([...parsed.u8("pixels")], [7, 8, 9]);
+  assert.deepEqual([...parsed.f32("points")], [1.5, -2]);
+  assert.equal(parsed.f32("points").buffer, buffer);
+});
+
+test("an array that is missing is empty, one of another type is refused by name", () => {
+  const { buffer } = reply({ arrays: { points: { type: "f32", offset: 100, count: 0 } } }, 100);
+  const parsed = new BinaryReply(buffer);
+  assert.equal(parsed.has("pixels"), false);
+  assert.equal(parsed.u8("pixels").length, 0);
+  assert.throws(() => parsed.u32("points"), /"points" holds f32/);
+});

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Point2, Screen } from "../../src/geometry/screen";
+import type { Vec3 } from "../../src/geometry/vec";
+import { Project } from "../../src/model/project";
+import type { SketchPoint } from "../../src/net/protocol";
+import { Editor, type Gesture, type ToolName } from "../../src/tools/editor";
+import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
+import { Sketch } from "../../src/tools/sketch";
+import { AXIAL, CORONAL, near, SAGITTAL, session, SKEW, square, started } from "./support";
+
+const plane = { ...AXIAL, origin: [0, 0, 0] as Vec3 };
+const screen: Screen = { axes: AXIAL, center: [0, 0, 0], mm_per_pixel: 0.5, width: 400, height: 400 };
+const line = (count: number): Vec3[] => Array.from({ length: count }, (_, i) => [i, i * i * 0.1, 0]);
+
+test("hand-drawn and clicked stretches make one sketch", () => {
+  const sketch = new Sketch(plane, 1, "wire");
+  sketch.place([0, 0, 0]);
+  sketch.drawFree(line(10));
+  sketch.setKind("spline");
+  sketch.place([20, 5, 0]);
+  assert.deepEqual(sketch.points.map((point) => point.kind), ["free", "spline", "spline"]);
+  assert.equal(sketch.points[0]!.path!.length, 8);
+  near(sketch.points[1]!.at, [9, 8.1, 0]);
+});
+
+test("a hand-drawn stretch keeps its kind when the tool changes", () => {
+  const sketch = new Sketch(plane, 1, "line");
+  sketch.drawFree(line(10));
+  sketch.setKind("wire");
+  assert.deepEqual(sketch.points.map((point) => point.kind), ["free", "wire"]);
+});
+
+test("removing the last point takes the stretch to it away", () => {
+  const sketch = new Sketch(plane, 1, "wire");
+  sketch.drawFree(line(10));
+  sketch.removeLast();
+  assert.deepEqual(sketch.points, [{ at: [0, 0, 0], kind: "wire" }]);
+});
+
+test("a contour drawn by hand is one free stretch around", () => {
+  const { points } = Sketch.closedFree(plane, 1, line(12));
+  assert.equal(points.length, 1);
+  assert.equal(points[0]!.kind, "free");
+  assert.equal(points[0]!.path!.length, 11);
+});
+
+test("a spline's rubber band sends the neighbours that bend it, a wire only its start", () => {
+  const sketch = new Sketch(plane, 1, "spline");
+  for (const x of [0, 10, 20, 30, 40]) sketch.place([x, 0, 0]);
+  assert.equal(sketch.rubberBand([50, 0, 0]).length, 4);
+  sketch.setKind("wire");
+  assert.equal(sketch.rubberBand([50, 0, 0]).length, 2);
+});
+
+test("points snapped to an edge are taken over, unless the server sends others", () => {
+  const sketch = new Sketch(plane, 1, "wire");
+  sketch.place([0, 0, 0]);
+  sketch.adopt([{ at: [1, 1, 0], kind: "wire", index: 0 }]);
+  near(sketch.first!, [1, 1, 0]);
+  sketch.adopt([]);
+  near(sketch.first!, [1, 1, 0]);
+});
+
+test("the pointer hits control points before lines, and only contours of this plane", () => {
+  const contours = [square(1), square(2, { plane: { ...AXIAL, origin: [0, 0, 8] } }), square(3, { plane: { ...CORONAL, origin: [0, 0, 0] } })];
+  const at = (p: Point2) => hitContour(contours, screen, 2, p, null);
+  assert.deepEqual(at([181, 179]), { on: "point", contour: 1, index: 0, at: [-10, -10, 0] });
+  assert.deepEqual(at([200, 183]), { on: "line", contour: 1, at: [0, -10, 0] });
+  assert.equal(at([200, 200]), null);
+});
+
+test("of contours that coincide the selected one is hit", () => {
+  assert.equal(hitContour([square(1), square(2)], screen, 2, [200, 180], 2)?.contour, 2);
+});
+
+test("the mark where a hand-drawn contour begins is no handle", () => {
+  const drawn = square(1, { control: square(1).control.slice(0, 1) });
+  assert.equal(hitContour([drawn], screen, 2, [180, 180], null)?.on, "line");
+});
+
+test("plane lines are hit on their line, their handles and the crosshair", () => {
+  const lines = [planeLine(screen, [10, 0, 0], "sagittal", SAGITTAL)!, planeLine(screen, [10, 0, 0], "coronal", CORONAL)!];
+  assert.equal(planeLine(screen, [0, 0, 0], "axial", AXIAL), null);
+  const crosshair: Point2 = [220, 200];
+  assert.deepEqual(hitPlaneLines(lines, crosshair, [221, 203]), { on: "crosshair" });
+  assert.deepEqual(hitPlaneLines(lines, crosshair, [222, 90]), { on: "move", view: "sagittal" });
+  assert.deepEqual(hitPlaneLines(lines, crosshair, [364, 199]), { on: "turn", view: "coronal" });
+  assert.equal(hitPlaneLines(lines, crosshair, [100, 100]), null);
+});
+
+interface Call {
+  name: string;
+  args: Record<string, unknown>;
+}
+
+/** An editor whose server answers every call with what it was told. */
+function editing(tool: ToolName, contours = [square(5)]) {
+  const calls: Call[] = [];
+  const project = new Project();
+  project.start(session({ contours }));
+  const navigation = started();
+  const editor = new Editor(navigation, project, {
+    call: (name, args = {}) => {
+      calls.push({ name, args });
+      const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, index }));
+      return Promise.resolve({ control, points: control.map((point) => point.at), contour: 9 } as never);
+    },
+    screenOf: () => screen,
+    failed: (error) => assert.fail(String(error)),
+    tell: () => undefined,
+  });
+  editor.choose(tool);
+  const press = (p: Point2, modifiers = {}): Gesture | null => editor.press("axial", screen, p, { ctrl: false, shift: false, ...modifiers });
+  const drag = (...points: Point2[]) => {
+    const gesture = press(points[0]!);
+    for (const p of points.slice(1)) gesture?.move(p);
+    gesture?.end(points.at(-1)!);
+  };
+  const settled = () => new Promise((resolve) => setImmediate(resolve));
+  const edits = () => calls.filter(({ name, args }) => name !== "path" && args["draft"] !== true);
+  return { editor, project, navigation, calls, press, drag, settled, edits };
+}
+
+const round = (count: number, radius: number): Point2[] =>
+  Array.from({ length: count }, (_, i) => [200 + radius * Math.cos((6.2 * i) / count), 200 + radius * Math.sin((6.2 * i) / count)]);
+
+test("the freehand tool makes a contour when the button is released", async () => {
+  const { drag, edits, settled } = editing("freehand", []);
+  drag(...round(40, 90));
+  await settled();
+  assert.deepEqual(edits().map((call) => call.name), ["contour.add"]);
+  const [point] = edits()[0]!.args["control"] as SketchPoint[];
+  near(point!.at, [45, 0, 0], 1e-9);
+  assert.ok(point!.path!.length > 30);
+});
+
+test("clicks place points of the tool's kind, and a click on the first point closes", async () => {
+  const { editor, drag, edits, settled } = editing("wire", []);
+  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  await settled();
+  assert.equal(editor.sketch!.points.length, 3);
+  drag([103, 98]);
+  await settled();
+  assert.equal(editor.sketch, null);
+  const control = edits()[0]!.args["control"] as SketchPoint[];
+  assert.deepEqual(control.map((point) => point.kind), ["wire", "wire", "wire"]);
+});
+
+test("a hand-drawn stretch in between keeps the contour open, and a second tool continues it", async () => {
+  const { editor, drag, edits, settled } = editing("wire", []);
+  drag([100, 100]);
+  drag([100, 100], [150, 90], [200, 80], [250, 90], [300, 100]);
+  editor.choose("spline");
+  drag([300, 300]);
+  editor.close();
+  await settled();
+  const control = edits()[0]!.args["control"] as SketchPoint[];
+  assert.deepEqual(control.map((point) => point.kind), ["free", "spline", "spline"]);
+});
+
+test("two points do not make a contour", async () => {
+  const { editor, drag, edits, settled } = editing("spline", []);
+  drag([100, 100]);
+  drag([200, 100]);
+  editor.close();
+  await settled();
+  assert.equal(editor.sketch!.points.length, 2);
+  assert.deepEqual(edits(), []);
+});
+
+test("dragging a control point sends drafts, then one edit with the last place", async () => {
+  const { drag, calls, edits, settled } = editing("edit");
+  drag([180, 180], [170, 170], [160, 160]);
+  await settled();
+  assert.ok(calls.some(({ args }) => args["draft"] === true));
+  assert.deepEqual(edits(), [{ name: "contour.move_point", args: { id: 5, index: 0, to: [-20, -20, 0], mm_per_pixel: 0.5 } }]);
+});
+
+test("dragging the line bends it there, with Shift it moves the contour", async () => {
+  const { drag, press, edits, settled } = editing("edit");
+  drag([200, 180], [200, 160]);
+  const gesture = press([200, 180], { shift: true })!;
+  gesture.move([220, 180]);
+  gesture.end([220, 180]);
+  await settled();
+  assert.deepEqual(edits().map(({ name, args }) => [name, args["from"] ?? args["by"]]), [["contour.pull", [0, -10, 0]], ["contour.translate", [10, 0, 0]]]);
+});
+
+test("a click on a contour selects it and changes nothing; Ctrl + click inserts a point", async () => {
+  const { project, drag, press, edits, settled } = editing("edit");
+  drag([200, 180]);
+  assert.deepEqual(project.selection, { contour: 5, point: null });
+  assert.deepEqual(edits(), []);
+  press([210, 180], { ctrl: true });
+  await settled();
+  assert.deepEqual(edits().map((call) => call.name), ["contour.insert_point"]);
+});
+
+test("Del deletes the selected point, then the contour", () => {
+  const { editor, drag, edits } = editing("edit");
+  drag([180, 180]);
+  editor.deleteSelected();
+  editor.deleteSelected();
+  assert.deepEqual(edits().map(({ name, args }) => [name, args["index"] ?? args["ids"]]), [["contour.delete_point", 0], ["contour.remove", [5]]]);
+});
+
+test("redrawing sends the path that the hand drew to the contour where it began", async () => {
+  const { drag, edits, settled } = editing("redraw");
+  drag([180, 190], [170, 195], [165, 200], [170, 205], [180, 210]);
+  await settled();
+  assert.equal(edits()[0]!.name, "contour.redraw");
+  assert.equal((edits()[0]!.args["path"] as Vec3[]).length, 5);
+});
+
+test("dragging the coronal plane's line moves the crosshair across it only", () => {
+  const { navigation, drag } = editing("edit", []);
+  drag([100, 200], [140, 240]);
+  near(navigation.crosshair, [0, 20, 0], 1e-9);
+});
+
+test("turning a line turns that plane by the pointer's angle about the crosshair", () => {
+  const { navigation, drag } = editing("edit", []);
+  drag([344, 200], [200, 344]);
+  near(navigation.cameras.coronal.axes.u.map(Math.abs), [0, 1, 0], 1e-9);
+  assert.ok(!navigation.isTurned("sagittal"));
+});
+
+test("a sketch goes on in its own plane only", () => {
+  const { editor, drag } = editing("wire", []);
+  drag([100, 100]);
+  const elsewhere: Screen = { ...screen, axes: SKEW };
+  assert.equal(editor.press("oblique", elsewhere, [50, 50], { ctrl: false, shift: false }), null);
+  assert.equal(editor.sketch!.points.length, 1);
+});

@@ -15,8 +15,10 @@
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
+#include "kontur/shape/predicates.h"
 #include "kontur/shape/rgb_image.h"
 #include "kontur/shape/section.h"
+#include "kontur/shape/self_contacts.h"
 #include "kontur/shape/volume.h"
 
 // Files to shapes.

@@ -74,9 +74,12 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
     return prepare;
 }
 
-/// Where the surface is known to pass: every drawn point, and where contours cross themselves.
+/// Where the surface is known to pass: every drawn point and point of the fit, and each edge of each lobe where contours
+/// cross themselves.
 std::vector<Vec3> start_points(const ContourSet& set, const PreparedContours& prepared) {
     std::vector<Vec3> starts = prepared.crossings;
+    starts.insert(starts.end(), prepared.between_crossings.begin(), prepared.between_crossings.end());
+    for (const BoundaryPoint& point : prepared.points) starts.push_back(point.position);
     for (const Contour& contour : set.contours) starts.insert(starts.end(), contour.points.begin(), contour.points.end());
     return starts;
 }

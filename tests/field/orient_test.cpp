@@ -121,8 +121,8 @@ TEST(Orient, CrossingsAreThoseOfAllPairsOfSegments) {
         std::sort(found.begin(), found.end());
         ASSERT_EQ(found.size(), expected.size());
         for (std::size_t i = 0; i < found.size(); ++i) {
-            EXPECT_NEAR(found[i][0], expected[i][0], 1e-4);
-            EXPECT_NEAR(found[i][1], expected[i][1], 1e-4);
+            EXPECT_NEAR(found[i][0], expected[i][0], 1e-9);
+            EXPECT_NEAR(found[i][1], expected[i][1], 1e-9);
         }
     }
 }
@@ -158,6 +158,26 @@ TEST(Orient, LobesThatMeetInASharedPointBothPointOutward) {
         std::rotate(eight.begin(), eight.begin() + first, eight.end());
         EXPECT_EQ(expect_outward(test::contour_in(kTilted, eight), "eight"), 6);
     }
+}
+
+TEST(Orient, TouchIsNoCrossing) {
+    const Polygon crossing{{0, 0}, {2, -1}, {3, 0}, {2, 1}, {0, 0}, {-2, -1}, {-3, 0}, {-2, 1}};
+    const Polygon touching{{0, 0}, {2, -1}, {3, 0}, {2, 1}, {0, 0}, {-2, 1}, {-3, 0}, {-2, -1}};
+    EXPECT_EQ(orient(test::contour_in(Plane{}, crossing)).crossings.size(), 1u);
+    EXPECT_TRUE(orient(test::contour_in(Plane{}, touching)).crossings.empty());
+}
+
+TEST(Orient, DecidesByATrillionthOfAMillimetre) {
+    // A notch whose tip ends just before the opposite side, or just beyond it.
+    for (const double off : {1e-12, 1e-9, 1e-6, 1e-3})
+        for (const bool pierces : {false, true}) {
+            const double tip = -1 + (pierces ? -off : off);
+            const Contour contour =
+                test::contour_in(Plane{}, Polygon{{-1, -1}, {1, -1}, {1, 1}, {0.1, 1}, {0, tip}, {-0.1, 1}, {-1, 1}});
+            const ContourOrientation orientation = orient(contour);
+            EXPECT_EQ(orientation.crossings.size(), pierces ? 2u : 0u) << off;
+            EXPECT_NEAR(orientation.normals[4].y, pierces ? -1 : 1, 1e-9) << off;
+        }
 }
 
 TEST(Orient, StraightRunAtTheExtremePointIsNoObstacle) {

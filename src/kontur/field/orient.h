@@ -13,15 +13,18 @@ struct ContourOrientation {
     /// spike that folds back on itself Eq. 7 has no answer; there the normal points along the spike, out of its tip or,
     /// where the spike is a cut into the object, out of the cut.
     std::vector<Vec3> normals;
-    /// Points in mm where the contour crosses itself.
+    /// Points in mm where the contour crosses itself; where it only touches itself it does not.
     std::vector<Vec3> crossings;
+    /// Points in mm on the stretches between two crossings that hold no point of the contour: edges of lobes without one.
+    std::vector<Vec3> between_crossings;
 };
 
 /// Normals by Eq. 7, their sign walked along the contour from its point of smallest in-plane coordinate, which is surely
 /// convex, and flipped wherever a segment crosses others an odd number of times: both lobes of a figure of eight get
 /// outward normals, as under the even-odd rule. Also right where a contour runs through its own points or along its own
-/// segments: it counts as crossing or not there as if its points were displaced infinitesimally. Needs at least 3 points.
-/// O(n log n) time for n points of which few lie side by side.
+/// segments: the sign is flipped there as if its points were displaced infinitesimally. All decisions are exact on the
+/// in-plane coordinates. Needs at least 3 points of which none repeats the one before it. O(n log n) time for n points of
+/// which few lie side by side.
 ContourOrientation orient(const Contour& contour);
 
 }  // namespace kontur

@@ -31,7 +31,11 @@ void append(const Contour& drawn, std::int32_t index, const PrepareOptions& opti
     const ContourOrientation orientation = orient(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
         prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});
-    prepared.crossings.insert(prepared.crossings.end(), orientation.crossings.begin(), orientation.crossings.end());
+    const auto append_to = [](std::vector<Vec3>& to, const std::vector<Vec3>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    append_to(prepared.crossings, orientation.crossings);
+    append_to(prepared.between_crossings, orientation.between_crossings);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct PrepareOptions {
 /// The contours as the fit sees them.
 struct PreparedContours {
     std::vector<BoundaryPoint> points;
-    std::vector<Vec3> crossings;  ///< mm, where contours cross themselves
+    std::vector<Vec3> crossings;          ///< mm, where contours cross themselves
+    std::vector<Vec3> between_crossings;  ///< mm, on edges of lobes that hold no point of a contour
     std::vector<Cap> caps;
     std::vector<Cap> leak_probes;
     bool coplanar = false;  ///< all contours lie in one plane, so they alone do not determine a surface

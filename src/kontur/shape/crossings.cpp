@@ -115,9 +115,9 @@ double depth_between(const Section& section, const Plane& other, const Line& lin
 }
 
 /// Two planes whose contours meet on a line.
-class Meeting {
+class PlanePair {
 public:
-    Meeting(const Section& a, const Section& b, const Line& line) : sections_{&a, &b}, line_(line) {}
+    PlanePair(const Section& a, const Section& b, const Line& line) : sections_{&a, &b}, line_(line) {}
 
     /// In order along the line the passages of both planes form pairs: between the two of a pair the planes contradict each
     /// other, outside of the pairs they agree. Two passages of one plane have no match in the other.
@@ -212,7 +212,7 @@ std::vector<Crossing> find_crossings(const ContourSet& set) {
             const Section &first = planes[a].section, &second = planes[b].section;
             if (!reaches(planes[a].box, second.plane) && !reaches(planes[b].box, first.plane)) continue;
             if (const auto line = common_line(first.plane, second.plane, center))
-                Meeting(first, second, *line).append_to(crossings);
+                PlanePair(first, second, *line).append_to(crossings);
         }
     return crossings;
 }

@@ -10,12 +10,7 @@ namespace kontur {
 
 bool Section::contains(const Point2& p) const {
     bool inside = false;
-    for (const Polygon2& outline : outlines)
-        for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-            const Point2 &a = outline[before], &b = outline[i];
-            if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-            if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
-        }
+    for (const Polygon2& outline : outlines) inside ^= is_inside(outline, p);
     return inside;
 }
 

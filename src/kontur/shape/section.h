@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "kontur/shape/contour.h"
+#include "kontur/shape/predicates.h"
 
 namespace kontur {
-
-using Point2 = std::array<double, 2>;
-using Polygon2 = std::vector<Point2>;
 
 /// The contours drawn in one plane, as the region that they enclose by the even-odd rule; in the plane's (u, v), mm.
 struct Section {

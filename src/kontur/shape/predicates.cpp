@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/shape/predicates.h"
+
+// CGAL's headers take seconds to compile; they stay in this file.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+
+namespace kontur {
+
+int orientation(const Point2& a, const Point2& b, const Point2& c) {
+    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+    return CGAL::orientation(Point(a[0], a[1]), Point(b[0], b[1]), Point(c[0], c[1]));
+}
+
+bool is_on_segment(const Point2& a, const Point2& b, const Point2& p) {
+    for (const std::size_t axis : {0u, 1u}) {
+        const auto [low, high] = std::minmax(a[axis], b[axis]);
+        if (p[axis] < low || p[axis] > high) return false;
+    }
+    return orientation(a, b, p) == 0;
+}
+
+bool is_inside(std::span<const Point2> polygon, const Point2& p) {
+    bool inside = false;
+    for (std::size_t i = 0, before = polygon.size() - 1; i < polygon.size(); before = i++) {
+        const Point2 &a = polygon[before], &b = polygon[i];
+        if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+        // The ray to the right of p meets the edge if p lies left of it as it goes up, right of it as it goes down.
+        if (orientation(a, b, p) == (b[1] > a[1] ? 1 : -1)) inside = !inside;
+    }
+    return inside;
+}
+
+Meeting meeting(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+    for (const std::size_t axis : {0u, 1u})
+        if (std::max(a[axis], b[axis]) < std::min(c[axis], d[axis]) ||
+            std::max(c[axis], d[axis]) < std::min(a[axis], b[axis]))
+            return Meeting::apart;
+    const int c_side = orientation(a, b, c), d_side = orientation(a, b, d);
+    if (c_side * d_side > 0) return Meeting::apart;
+    const int a_side = orientation(c, d, a), b_side = orientation(c, d, b);
+    if (a_side * b_side > 0) return Meeting::apart;
+    if (c_side * d_side < 0 && a_side * b_side < 0) return Meeting::crossing;
+    const bool touches =
+        is_on_segment(a, b, c) || is_on_segment(a, b, d) || is_on_segment(c, d, a) || is_on_segment(c, d, b);
+    return touches ? Meeting::touching : Meeting::apart;
+}
+
+}  // namespace kontur

@@ -65,7 +65,7 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
 std::string_view name(Solver solver) noexcept {
     switch (solver) {
         case Solver::automatic:
-            return "auto";
+            return "automatic";
         case Solver::iterative:
             return "iterative";
         case Solver::cholesky:

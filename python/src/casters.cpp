@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "casters.h"
+
+#include "define.h"
+
+namespace kontur::python {
+
+std::string shape_text(const py::array& array) { return py::str(py::tuple(array.attr("shape"))).cast<std::string>(); }
+
+std::span<const Vec3> points_of(const ArrayOf<double>& array) {
+    if (array.size() == 0) return {};
+    if (array.ndim() != 2 || array.shape(1) != 3)
+        throw Error(ErrorKind::invalid_input,
+                    "an array of points has the shape " + shape_text(array) + "; (n, 3) is needed");
+    return {reinterpret_cast<const Vec3*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+std::string with_options(std::string help, const std::string& options) {
+    constexpr std::string_view kMark = "@options\n";
+    if (const std::size_t at = help.find(kMark); at != std::string::npos) help.replace(at, kMark.size(), options);
+    return help;
+}
+
+}  // namespace kontur::python

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// How values cross between C++ and Python. Every source of the bindings includes this file, because a conversion must be
+// the same in all of them.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <string>
+#include <vector>
+
+#include "kontur/kontur.h"
+
+namespace kontur::python {
+
+namespace py = pybind11;
+
+/// C-ordered array of these numbers; other arrays and sequences are converted.
+template <class Value>
+using ArrayOf = py::array_t<Value, py::array::c_style | py::array::forcecast>;
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<std::uint32_t, 3>) == 3 * sizeof(std::uint32_t));
+
+/// "(4, 3)"
+std::string shape_text(const py::array& array);
+
+/// The rows of an (n, 3) array, or of an empty one. Throws Error(invalid_input) for another shape.
+std::span<const Vec3> points_of(const ArrayOf<double>& array);
+
+/// An array of the given shape that owns the vector's memory.
+template <class Element, class Value = Element>
+py::array_t<Value> owning_array(std::vector<Element>&& values, std::vector<py::ssize_t> shape) {
+    auto* owned = new std::vector<Element>(std::move(values));
+    const py::capsule owner(owned, [](void* memory) { delete static_cast<std::vector<Element>*>(memory); });
+    return py::array_t<Value>(std::move(shape), reinterpret_cast<const Value*>(owned->data()), owner);
+}
+
+/// An array on memory that belongs to `owner`, which it keeps alive.
+template <class Value>
+py::array_t<Value> array_view(const Value* values, std::vector<py::ssize_t> shape, py::handle owner) {
+    return py::array_t<Value>(std::move(shape), values, owner);
+}
+
+/// The same without the right to write.
+template <class Array>
+Array read_only(Array array) {
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+/// One of an enumeration's values, as the word that the command line has for it.
+template <class Enum>
+struct Words;
+
+template <>
+struct Words<Kernel> {
+    static constexpr std::array values{Kernel::triharmonic, Kernel::biharmonic};
+};
+template <>
+struct Words<Normals> {
+    static constexpr std::array values{Normals::surface, Normals::in_plane};
+};
+template <>
+struct Words<Solver> {
+    static constexpr std::array values{Solver::automatic, Solver::iterative, Solver::cholesky, Solver::dense};
+};
+template <>
+struct Words<Voxelizer> {
+    static constexpr std::array values{Voxelizer::tracked, Voxelizer::exhaustive};
+};
+
+inline std::string_view name(NiftiTransform transform) { return transform == NiftiTransform::qform ? "qform" : "sform"; }
+template <>
+struct Words<NiftiTransform> {
+    static constexpr std::array values{NiftiTransform::qform, NiftiTransform::sform};
+};
+
+inline std::string_view name(ConstraintKind kind) {
+    constexpr std::array<std::string_view, 5> kNames{"boundary", "normal", "interior", "exterior", "cap"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+template <>
+struct Words<ConstraintKind> {
+    static constexpr std::array values{ConstraintKind::boundary, ConstraintKind::normal, ConstraintKind::interior,
+                                       ConstraintKind::exterior, ConstraintKind::cap};
+};
+
+template <class Enum>
+std::string word_of(Enum value) {
+    return std::string(name(value));
+}
+
+/// {'triharmonic', 'biharmonic'}
+template <class Enum>
+std::string choices() {
+    std::string text;
+    for (const Enum value : Words<Enum>::values) text += (text.empty() ? "'" : ", '") + word_of(value) + "'";
+    return "{" + text + "}";
+}
+
+}  // namespace kontur::python
+
+namespace pybind11::detail {
+
+// Its vector of unique pointers only looks as if it could be copied.
+template <>
+struct is_copy_constructible<kontur::SurfaceLattice> : std::false_type {};
+
+template <class Enum>
+struct word_caster {
+    PYBIND11_TYPE_CASTER(Enum, const_name("str"));
+
+    bool load(handle source, bool) {
+        if (!isinstance<str>(source)) return false;
+        const std::string word = source.cast<std::string>();
+        for (const Enum candidate : kontur::python::Words<Enum>::values) {
+            if (kontur::python::word_of(candidate) != word) continue;
+            value = candidate;
+            return true;
+        }
+        throw value_error("'" + word + "' is none of " + kontur::python::choices<Enum>());
+    }
+    static handle cast(Enum source, return_value_policy, handle) { return str(kontur::python::word_of(source)).release(); }
+};
+
+template <>
+struct type_caster<kontur::Kernel> : word_caster<kontur::Kernel> {};
+template <>
+struct type_caster<kontur::Normals> : word_caster<kontur::Normals> {};
+template <>
+struct type_caster<kontur::Solver> : word_caster<kontur::Solver> {};
+template <>
+struct type_caster<kontur::Voxelizer> : word_caster<kontur::Voxelizer> {};
+template <>
+struct type_caster<kontur::NiftiTransform> : word_caster<kontur::NiftiTransform> {};
+template <>
+struct type_caster<kontur::ConstraintKind> : word_caster<kontur::ConstraintKind> {};
+
+/// Three numbers; an array of float64, shape (3,), in Python.
+template <>
+struct type_caster<kontur::Vec3> {
+    PYBIND11_TYPE_CASTER(kontur::Vec3, const_name("numpy.ndarray"));
+
+    bool load(handle source, bool) {
+        const auto array = kontur::python::ArrayOf<double>::ensure(source);
+        if (!array) return PyErr_Clear(), false;
+        if (array.ndim() != 1 || array.size() != 3)
+            throw value_error("an array has the shape " + kontur::python::shape_text(array) + "; (3,) is needed");
+        value = {array.at(0), array.at(1), array.at(2)};
+        return true;
+    }
+    static handle cast(const kontur::Vec3& v, return_value_policy, handle) { return array_t<double>(3, &v.x).release(); }
+};
+
+/// Rows of three numbers; an array of float64, shape (n, 3), in Python.
+template <>
+struct type_caster<std::vector<kontur::Vec3>> {
+    PYBIND11_TYPE_CASTER(std::vector<kontur::Vec3>, const_name("numpy.ndarray"));
+
+    bool load(handle source, bool) {
+        const auto array = kontur::python::ArrayOf<double>::ensure(source);
+        if (!array) return PyErr_Clear(), false;
+        const auto points = kontur::python::points_of(array);
+        value.assign(points.begin(), points.end());
+        return true;
+    }
+    template <class Points>
+    static handle cast(Points&& points, return_value_policy, handle) {
+        const auto count = static_cast<ssize_t>(points.size());
+        return kontur::python::owning_array<kontur::Vec3, double>(std::vector<kontur::Vec3>(std::forward<Points>(points)),
+                                                                  {count, 3})
+            .release();
+    }
+};
+
+/// (i, j, k)
+template <>
+struct type_caster<kontur::Index3> {
+    PYBIND11_TYPE_CASTER(kontur::Index3, const_name("tuple[int, int, int]"));
+
+    bool load(handle source, bool convert) {
+        make_caster<std::array<std::int64_t, 3>> numbers;
+        if (!numbers.load(source, convert)) return false;
+        const auto& n = cast_op<std::array<std::int64_t, 3>&>(numbers);
+        value = {n[0], n[1], n[2]};
+        return true;
+    }
+    static handle cast(const kontur::Index3& n, return_value_policy, handle) { return make_tuple(n.i, n.j, n.k).release(); }
+};
+
+/// The corners of smallest and largest coordinates; an array of float64, shape (2, 3), in Python.
+template <>
+struct type_caster<kontur::Box3> {
+    PYBIND11_TYPE_CASTER(kontur::Box3, const_name("numpy.ndarray"));
+
+    bool load(handle source, bool convert) {
+        make_caster<std::vector<kontur::Vec3>> corners;
+        if (!corners.load(source, convert)) return false;
+        const auto& c = cast_op<std::vector<kontur::Vec3>&>(corners);
+        if (c.size() != 2)
+            throw value_error("a box has " + std::to_string(c.size()) + " corners; the lowest and the highest are needed");
+        value = {c[0], c[1]};
+        return true;
+    }
+    static handle cast(const kontur::Box3& box, return_value_policy policy, handle parent) {
+        return make_caster<std::vector<kontur::Vec3>>::cast(std::vector{box.min, box.max}, policy, parent);
+    }
+};
+
+}  // namespace pybind11::detail

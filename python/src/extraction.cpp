@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+
+namespace kontur::python {
+namespace {
+
+Keywords<TraceOptions> trace_keywords() {
+    return Keywords<TraceOptions>()
+        .field("step_mm", &TraceOptions::step_mm, "Sampling distance on a plane; 0: half the mask's smallest spacing.")
+        .field("tolerance_mm", &TraceOptions::tolerance_mm, "How far dropped points may lie off the contour.")
+        .field("min_area_mm2", &TraceOptions::min_area_mm2, "Smaller contours are dropped.")
+        .field("threads", &TraceOptions::threads, "0: the machine's.");
+}
+
+void bind_lattice(py::module_& m) {
+    py::class_<SurfaceLattice> lattice(m, "SurfaceLattice",
+                                       "Where the surface passes through a grid, and the values found there.");
+    lattice.def_property_readonly(
+        "grid", [](const SurfaceLattice& s) { return s.lattice.grid(); }, "Grid");
+    lattice.def_property_readonly(
+        "cells",
+        [](const SurfaceLattice& s) {
+            static_assert(sizeof(Index3) == 3 * sizeof(std::int64_t));
+            return owning_array<Index3, std::int64_t>(std::vector(s.cells), {static_cast<py::ssize_t>(s.cells.size()), 3});
+        },
+        "ndarray, shape (n, 3), int64: cells with corners inside and outside; the index (i, j, k) of the lowest corner.");
+    lattice.def_readonly("evaluations", &SurfaceLattice::evaluations, "int: function values computed.");
+}
+
+}  // namespace
+
+void bind_extraction(py::module_& m) {
+    bind_lattice(m);
+    define(
+        m, "track_surface", R"(Follows the surface from points on it.
+
+Parameters
+----------
+function : ImplicitFunction
+grid : Grid
+starts : array_like, shape (n, 3)
+    mm (LPS); those outside of the grid are ignored.
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+SurfaceLattice
+    For `fill` and `polygonize`.
+)",
+        [](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
+           const py::object& progress, const py::object& stop) {
+            return run({progress, stop},
+                       [&](const Progress& p) { return track_surface(function, grid, starts, threads, p); });
+        },
+        py::arg("function"), py::arg("grid"), py::arg("starts"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+    define(
+        m, "sample_everywhere", R"(Evaluates every voxel centre: slow, and finds what no start leads to.
+
+Parameters
+----------
+function : ImplicitFunction
+grid : Grid
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+SurfaceLattice
+)",
+        [](const ImplicitFunction& function, const Grid& grid, int threads, const py::object& progress,
+           const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return sample_everywhere(function, grid, threads, p); });
+        },
+        py::arg("function"), py::arg("grid"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+    define(
+        m, "fill", "The Mask of the voxels inside of the surface found.",
+        [](const SurfaceLattice& surface, int threads) { return unlocked([&] { return fill(surface, threads); }); },
+        py::arg("surface"), py::arg("threads") = 0);
+    define(
+        m, "polygonize", R"(The surface as a closed TriangleMesh with normals.
+
+Parameters
+----------
+surface : SurfaceLattice
+function : ImplicitFunction
+    The one that the surface was found with.
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+TriangleMesh
+)",
+        [](const SurfaceLattice& surface, const ImplicitFunction& function, int threads, const py::object& progress,
+           const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return polygonize(surface, function, threads, p); });
+        },
+        py::arg("surface"), py::arg("function"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+    define(
+        m, "rasterize", R"(The voxels that contours drawn on the grid's slices (constant k) enclose, even-odd.
+
+Parameters
+----------
+contours : ContourSet
+grid : Grid
+
+Returns
+-------
+Mask
+)",
+        [](const ContourSet& contours, const Grid& grid) { return unlocked([&] { return rasterize(contours, grid); }); },
+        py::arg("contours"), py::arg("grid"));
+
+    const auto tracing = trace_keywords();
+    define(
+        m, "trace", R"(Cuts a mask by planes of any orientation into closed contours.
+
+Parameters
+----------
+mask : Mask
+planes : sequence of Plane
+progress, stop : optional
+    As for `segment`.
+@options
+
+Returns
+-------
+ContourSet
+    Plane by plane; holes are marked.
+
+Examples
+--------
+>>> grid = kontur.Grid((8, 8, 8), np.eye(4))
+>>> cube = kontur.Mask(np.pad(np.ones((4, 4, 4)), 2), grid)
+>>> contours = kontur.trace(cube, [kontur.Plane([0, 0, 3.5], [0, 0, 1])])
+>>> contours.bounding_box.round(6).tolist()
+[[1.5, 1.5, 3.5], [5.5, 5.5, 3.5]]
+)",
+        [tracing](const Mask& mask, const std::vector<Plane>& planes, const py::object& progress, const py::object& stop,
+                  const py::kwargs& given) {
+            const TraceOptions options = tracing.parse("trace", given);
+            return run({progress, stop}, [&](const Progress& p) { return trace(mask, planes, options, p); });
+        },
+        py::arg("mask"), py::arg("planes"), py::kw_only(), kProgress, kStop, KeywordText(tracing));
+}
+
+}  // namespace kontur::python

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+#include "notes.h"
+
+namespace kontur::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A writer that runs without the interpreter's lock.
+template <class Value>
+auto writer(void (*write)(const fs::path&, const Value&)) {
+    return [write](const fs::path& path, const Value& value) {
+        const py::gil_scoped_release release;
+        write(path, value);
+    };
+}
+
+}  // namespace
+
+void bind_files(py::module_& m) {
+    const double tolerance = ReadContoursOptions{}.plane_tolerance_mm;
+    define(
+        m, "read_contours", R"(Contours of one object from kontur's JSON, 3D Slicer's markups or an RT structure set.
+
+Parameters
+----------
+path : path or sequence of paths
+    The files' content decides on the format; several files become one object.
+roi : str, optional
+    RT structure sets: the ROI's name or number; needed when several have contours.
+plane_tolerance_mm : float
+    For curves whose plane must be fitted.
+on_note : callable, optional
+    Called with each sentence on how the file was interpreted; when left out they are warnings of the logger 'kontur'.
+
+Returns
+-------
+ContourSet
+)",
+        [](const std::variant<fs::path, std::vector<fs::path>>& paths, const std::optional<std::string>& roi,
+           double plane_tolerance_mm, const py::object& on_note) {
+            const ReadContoursOptions options{roi, plane_tolerance_mm};
+            ReadContours read =
+                unlocked([&] { return std::visit([&](const auto& path) { return read_contours(path, options); }, paths); });
+            give_notes(read.notes, on_note);
+            return std::move(read.contours);
+        },
+        py::arg("path"), py::kw_only(), py::arg("roi") = py::none(), py::arg("plane_tolerance_mm") = tolerance, kOnNote);
+    define(m, "write_contours",
+           "Writes 3D Slicer's markups to a name ending in .mrk.json, kontur's JSON to any other .json.",
+           writer(&write_contours), py::arg("path"), py::arg("contours"));
+    define(m, "read_contour_json", "The ContourSet of kontur's own contour file.", &read_contour_json, py::arg("path"));
+    define(m, "read_planes_json", "The planes of kontur's contour file, with or without contours: list of Plane.",
+           &read_planes_json, py::arg("path"));
+    define(m, "write_contour_json", "Writes kontur's contour file; reading it gives the same numbers.",
+           writer(&write_contour_json), py::arg("path"), py::arg("contours"));
+    define(
+        m, "read_markups", "The ContourSet of the closed curves in a 3D Slicer markups file.",
+        [](const fs::path& path, double plane_tolerance_mm) { return read_markups(path, {plane_tolerance_mm}); },
+        py::arg("path"), py::arg("plane_tolerance_mm") = ReadMarkupsOptions{}.plane_tolerance_mm);
+    define(m, "write_markups", "Writes one closed curve for each contour, as 3D Slicer reads it.", writer(&write_markups),
+           py::arg("path"), py::arg("contours"));
+    define(
+        m, "read_mesh", "The TriangleMesh of an STL, PLY or OBJ file, turned to LPS where it declares RAS.",
+        [](const fs::path& path) { return unlocked([&] { return read_mesh(path); }); }, py::arg("path"));
+    define(m, "write_mesh", "Writes a mesh as .stl, .ply or .obj, in mm and LPS, whole or not at all.", writer(&write_mesh),
+           py::arg("path"), py::arg("mesh"));
+}
+
+}  // namespace kontur::python

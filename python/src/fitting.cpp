@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+
+namespace kontur::python {
+namespace {
+
+/// One member of each element as an array, shape (n, 3).
+template <class Element>
+std::vector<Vec3> column(const std::vector<Element>& elements, Vec3 Element::*member) {
+    std::vector<Vec3> values(elements.size());
+    for (std::size_t n = 0; n < values.size(); ++n) values[n] = elements[n].*member;
+    return values;
+}
+
+Keywords<PrepareOptions> prepare_keywords() {
+    return Keywords<PrepareOptions>()
+        .field("quality", &PrepareOptions::quality, "Fraction of each contour's points to keep, in (0, 1].")
+        .field("least_segments", &PrepareOptions::least_segments,
+               "Contours of fewer segments, times quality, are subdivided; 0: the paper's rule.")
+        .field("caps", &PrepareOptions::caps, "Limit the extrapolation beyond the last contours, and watch for leaks.")
+        .field("copy_shift_mm", &PrepareOptions::copy_shift_mm,
+               "> 0: coplanar contours get a copy of the first one, shifted by this.");
+}
+
+template <class Options, class Access>
+Keywords<Options>& solve_fields(Keywords<Options>& keywords, Access access) {
+    const auto to = [access](auto member) {
+        return [ access, member ](Options & options) -> auto& { return access(options).*member; };
+    };
+    return keywords.field("kernel", to(&SolveOptions::kernel), "Radial function: r^3 or r.")
+        .field("solver", to(&SolveOptions::solver), "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
+        .field("smoothing", to(&SolveOptions::smoothing), "On unit-box coordinates; 0 interpolates exactly.")
+        .field("tolerance_mm", to(&SolveOptions::tolerance_mm), "Of the iterative solver, at all constraints.")
+        .field("max_iterations", to(&SolveOptions::max_iterations), "Of the iterative solver.")
+        .field("max_memory_mb", to(&SolveOptions::max_memory_mb), "A dense matrix larger than this is refused.")
+        .field("threads", to(&SolveOptions::threads), "0: the machine's. The result does not depend on it.");
+}
+
+Keywords<SolveOptions> solve_keywords() {
+    Keywords<SolveOptions> keywords;
+    return solve_fields(keywords, [](SolveOptions& o) -> SolveOptions& { return o; });
+}
+
+Keywords<FitOptions> fit_keywords() {
+    Keywords<FitOptions> keywords;
+    keywords
+        .field("normals", &FitOptions::normals,
+               "Direction of the surface at a contour: from all contours together, or the contour's alone.")
+        .field("rounds", &FitOptions::rounds,
+               "Surface normals: how often the tilts are read from the fit and given back to it.")
+        .field("start_smoothing", &FitOptions::start_smoothing, "Smoothing of the first fit, on unit-box coordinates.")
+        .field("smoothing_factor", &FitOptions::smoothing_factor, "And its factor from round to round.")
+        .field("least_slope", &FitOptions::least_slope, "Lower bound of the cosine of the tilt.")
+        .field("early_tolerance_factor", &FitOptions::early_tolerance_factor,
+               "On tolerance_mm, in the rounds before the last.")
+        .field("cap_rounds", &FitOptions::cap_rounds, "Most further fits while caps or leak probes are exceeded.")
+        .field(
+            "normal_offset_mm", [](FitOptions& o) -> double& { return o.place.normal_offset_mm; },
+            "Length of the normal constraints.")
+        .field(
+            "merge_distance_mm", [](FitOptions& o) -> double& { return o.place.merge_distance_mm; },
+            "A constraint closer than this to an earlier one is left out.");
+    return solve_fields(keywords, [](FitOptions& o) -> SolveOptions& { return o.solve; });
+}
+
+ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> values,
+                               std::optional<std::vector<ConstraintKind>> kinds) {
+    ConstraintSet set{std::move(centers), std::move(values), {}};
+    set.kinds = kinds ? std::move(*kinds) : std::vector<ConstraintKind>(set.size(), ConstraintKind::boundary);
+    if (set.values.size() != set.size() || set.kinds.size() != set.size())
+        throw Error(ErrorKind::invalid_input, std::to_string(set.size()) + " constraints have " +
+                                                  std::to_string(set.values.size()) + " values and " +
+                                                  std::to_string(set.kinds.size()) + " kinds");
+    return set;
+}
+
+void bind_types(py::module_& m) {
+    py::class_<ContourOrientation> orientation(m, "ContourOrientation", "A contour's outward side.");
+    orientation.def_readonly("normals", &ContourOrientation::normals,
+                             "ndarray, shape (n, 3): unit, in the plane, out of the object.");
+    orientation.def_readonly("crossings", &ContourOrientation::crossings,
+                             "ndarray, shape (m, 3): mm, where the contour crosses itself.");
+
+    py::class_<PreparedContours> prepared(m, "PreparedContours", "Contours as the fit sees them.");
+    prepared.def_property_readonly(
+        "positions", [](const PreparedContours& p) { return column(p.points, &BoundaryPoint::position); },
+        "ndarray, shape (n, 3): mm.");
+    prepared.def_property_readonly(
+        "inplane_normals", [](const PreparedContours& p) { return column(p.points, &BoundaryPoint::inplane_normal); },
+        "ndarray, shape (n, 3): unit, outward, in the contour's plane.");
+    prepared.def_property_readonly(
+        "plane_normals", [](const PreparedContours& p) { return column(p.points, &BoundaryPoint::plane_normal); },
+        "ndarray, shape (n, 3): unit normals of the contours' planes.");
+    prepared.def_property_readonly(
+        "contours",
+        [](const PreparedContours& p) {
+            std::vector<std::int32_t> contours;
+            for (const BoundaryPoint& point : p.points) contours.push_back(point.contour);
+            const auto count = static_cast<py::ssize_t>(contours.size());
+            return owning_array(std::move(contours), {count});
+        },
+        "ndarray, shape (n,), int32: index of each point's contour.");
+    prepared.def_readonly("crossings", &PreparedContours::crossings,
+                          "ndarray, shape (m, 3): mm, where contours cross themselves.");
+    prepared.def_readonly("caps", &PreparedContours::caps, "list of Cap: limits beyond the last contours.");
+    prepared.def_readonly("leak_probes", &PreparedContours::leak_probes, "list of Cap: limits where a leak would show.");
+    prepared.def_readonly("coplanar", &PreparedContours::coplanar, "bool: all contours lie in one plane.");
+
+    py::class_<Cap> cap(m, "Cap", "A point that the object should not reach.");
+    cap.def_readonly("position", &Cap::position, "ndarray, shape (3,): mm.");
+    cap.def_readonly("most_mm", &Cap::most_mm, "float: f must not exceed it there.");
+    cap.def_readonly("value_mm", &Cap::value_mm, "float: prescribed if it does.");
+
+    py::class_<ConstraintSet> set(m, "ConstraintSet", R"(Where the implicit function is prescribed, and its value there.
+
+Parameters
+----------
+centers : array_like, shape (n, 3)
+    mm (LPS).
+values : array_like, shape (n,)
+    mm: 0 on the surface, negative outside.
+kinds : sequence of {'boundary', 'normal', 'interior', 'exterior', 'cap'}, optional
+    'boundary' when left out.
+)");
+    constructor(set, &constraints_from, py::arg("centers"), py::arg("values"), py::arg("kinds") = py::none());
+    set.def_readonly("centers", &ConstraintSet::centers, "ndarray, shape (n, 3): mm.");
+    set.def_property_readonly(
+        "values",
+        [](const ConstraintSet& s) { return py::array_t<double>(static_cast<py::ssize_t>(s.size()), s.values.data()); },
+        "ndarray, shape (n,): mm.");
+    set.def_readonly("kinds", &ConstraintSet::kinds, "list of str");
+    set.def("__len__", &ConstraintSet::size);
+
+    py::class_<SolveReport> report(m, "SolveReport", "What the solver did.");
+    report.def_readonly("solver", &SolveReport::solver, "str: the one that ran.");
+    report.def_readonly("centres", &SolveReport::centres, "int: number of weights.");
+    report.def_readonly("iterations", &SolveReport::iterations, "int: 0 for direct solvers.");
+    report.def_readonly("residual", &SolveReport::residual, "float: largest error at a constraint, mm.");
+    report.def_readonly("matrix_mb", &SolveReport::matrix_mb, "float: of the factorised matrix or of the preconditioner.");
+
+    py::class_<Solution> solution(m, "Solution", "A function through constraints.");
+    solution.def_readonly("function", &Solution::function, "ImplicitFunction");
+    solution.def_readonly("report", &Solution::report, "SolveReport");
+
+    py::class_<Fit> fit_type(m, "Fit", "A function fitted to contours.");
+    fit_type.def_readonly("function", &Fit::function, "ImplicitFunction");
+    fit_type.def_readonly("report", &Fit::report, "SolveReport: of the last solve.");
+    fit_type.def_readonly("solves", &Fit::solves, "int");
+    fit_type.def_readonly("iterations", &Fit::iterations, "int: over all solves.");
+    fit_type.def_readonly("merged", &Fit::merged, "int: near-duplicate constraints left out.");
+    fit_type.def_readonly("capped", &Fit::capped, "int: caps that became constraints.");
+    fit_type.def_readonly("constraints", &Fit::constraints, "int: kept.");
+    fit_type.def_readonly("tilt_change_degrees", &Fit::tilt_change_degrees, "float: mean, in the last round.");
+    fit_type.def_property_readonly(
+        "slopes",
+        [](const Fit& f) { return py::array_t<double>(static_cast<py::ssize_t>(f.slopes.size()), f.slopes.data()); },
+        "ndarray, shape (n,): cosine of the surface's tilt at each prepared point.");
+}
+
+void bind_steps(py::module_& m) {
+    define(m, "orient",
+           "The ContourOrientation of a contour: its outward side, by the even-odd rule where it crosses itself.", &orient,
+           py::arg("contour"));
+    define(
+        m, "reduce", R"(Removes the points that matter least for a contour's shape.
+
+Parameters
+----------
+contour : Contour
+quality : float
+    Fraction of the points to keep, in (0, 1].
+min_points : int
+    A contour is never reduced below this many points.
+
+Returns
+-------
+Contour
+)",
+        [](const Contour& contour, double quality, std::size_t min_points) {
+            return reduce(contour, ReduceOptions{quality, min_points});
+        },
+        py::arg("contour"), py::arg("quality") = ReduceOptions{}.quality,
+        py::arg("min_points") = ReduceOptions{}.min_points);
+    define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.", &refine,
+           py::arg("contour"), py::arg("least_segments") = 0);
+    define(m, "find_caps", "Limits to extrapolation beyond the last contours: list of Cap.", &find_caps,
+           py::arg("contours"));
+    define(m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.", &find_leak_probes,
+           py::arg("contours"));
+
+    const auto preparing = prepare_keywords();
+    define(
+        m, "prepare", R"(Reduces, refines and orients every contour.
+
+Parameters
+----------
+contours : ContourSet
+@options
+
+Returns
+-------
+PreparedContours
+)",
+        [preparing](const ContourSet& contours, const py::kwargs& given) {
+            const PrepareOptions options = preparing.parse("prepare", given);
+            return unlocked([&] { return prepare(contours, options); });
+        },
+        py::arg("contours"), py::kw_only(), KeywordText(preparing));
+    const auto fitting = fit_keywords();
+    define(
+        m, "fit", R"(Fits the implicit function to prepared contours.
+
+Parameters
+----------
+prepared : PreparedContours
+contours : ContourSet
+    Gives the interior and exterior points.
+progress, stop : optional
+    As for `segment`.
+@options
+
+Returns
+-------
+Fit
+)",
+        [fitting](const PreparedContours& prepared, const ContourSet& contours, const py::object& progress,
+                  const py::object& stop, const py::kwargs& given) {
+            const FitOptions options = fitting.parse("fit", given);
+            return run({progress, stop}, [&](const Progress& p) { return fit(prepared, contours, options, p); });
+        },
+        py::arg("prepared"), py::arg("contours"), py::kw_only(), kProgress, kStop, KeywordText(fitting));
+    const auto solving = solve_keywords();
+    define(
+        m, "solve", R"(The variational interpolant through constraints (Turk and O'Brien 2002).
+
+Parameters
+----------
+constraints : ConstraintSet
+progress, stop : optional
+    As for `segment`.
+@options
+
+Returns
+-------
+Solution
+
+Raises
+------
+SingularSystemError
+    When the centres coincide or all lie in one plane.
+
+Examples
+--------
+>>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [.2, .2, .2]])
+>>> solution = kontur.solve(kontur.ConstraintSet(corners, [0, 0, 0, 0, 1]), solver="dense")
+>>> bool(abs(solution.function(corners[4]) - 1) < 1e-9)
+True
+)",
+        [solving](const ConstraintSet& constraints, const py::object& progress, const py::object& stop,
+                  const py::kwargs& given) {
+            const SolveOptions options = solving.parse("solve", given);
+            return run({progress, stop}, [&](const Progress& p) { return solve(constraints, options, p); });
+        },
+        py::arg("constraints"), py::kw_only(), kProgress, kStop, KeywordText(solving));
+}
+
+}  // namespace
+
+void bind_fitting(py::module_& m) {
+    bind_types(m);
+    bind_steps(m);
+}
+
+}  // namespace kontur::python

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+#include "notes.h"
+
+namespace kontur::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+Keywords<ReadImageOptions> read_keywords() {
+    return Keywords<ReadImageOptions>()
+        .field("frame", &ReadImageOptions::frame, "Which frame of a 4D image, from 0.")
+        .field("prefer", &ReadImageOptions::prefer, "Which transform of a NIfTI file counts when its two differ.")
+        .field("allow_missing_geometry", &ReadImageOptions::allow_missing_geometry,
+               "Accept an image that does not say where it lies in the patient.")
+        .field("max_voxels", &ReadImageOptions::max_voxels, "Larger images are refused.")
+        .field(
+            "series_uid", [](ReadImageOptions & o) -> auto& { return o.dicom.series_uid; },
+            "Which series of a DICOM folder.")
+        .field(
+            "volume", [](ReadImageOptions & o) -> auto& { return o.dicom.volume; }, "Which volume of the series, from 1.");
+}
+
+/// Calls `read` with the options without the interpreter's lock, then gives its notes.
+template <class Read>
+auto read_with_notes(ReadImageOptions options, const py::object& on_note, const Read& read) {
+    std::vector<std::string> notes;
+    options.on_note = [&notes](std::string_view note) { notes.emplace_back(note); };
+    auto result = unlocked([&] { return read(options); });
+    give_notes(notes, on_note);
+    return result;
+}
+
+/// Between a reader's first line and what it returns.
+std::string read_help(const std::string& more_parameters = "") {
+    return R"(
+Parameters
+----------
+path : path
+    NIfTI, NRRD, MetaImage, a DICOM folder or one of its files.
+)" + more_parameters +
+           R"(on_note : callable, optional
+    Called with each sentence on what the reader decided for you; when left out they are warnings of the logger 'kontur'.
+@options
+)";
+}
+
+}  // namespace
+
+void bind_images(py::module_& m) {
+    const auto keywords = read_keywords();
+    const std::string image_help = std::string("Reads a scalar image with its exact geometry.\n") + read_help() + R"(
+Returns
+-------
+Image
+)";
+    define(
+        m, "read_image", image_help.c_str(),
+        [keywords](const fs::path& path, const py::object& on_note, const py::kwargs& given) {
+            return read_with_notes(keywords.parse("read_image", given), on_note,
+                                   [&](const ReadImageOptions& options) { return read_image(path, options); });
+        },
+        py::arg("path"), py::kw_only(), kOnNote, KeywordText(keywords));
+    const std::string grid_help = std::string("The geometry of an image file alone; reads no voxels.\n") + read_help() + R"(
+Returns
+-------
+Grid
+)";
+    define(
+        m, "read_grid", grid_help.c_str(),
+        [keywords](const fs::path& path, const py::object& on_note, const py::kwargs& given) {
+            return read_with_notes(keywords.parse("read_grid", given), on_note,
+                                   [&](const ReadImageOptions& options) { return read_grid(path, options); });
+        },
+        py::arg("path"), py::kw_only(), kOnNote, KeywordText(keywords));
+    const std::string mask_help = std::string("Reads a mask.\n") + read_help(R"(label : int, optional
+    The voxels with this value; needed when the file has several. All that are not 0 when left out.
+)") + R"(
+Returns
+-------
+Mask
+)";
+    define(
+        m, "read_mask", mask_help.c_str(),
+        [keywords](const fs::path& path, std::optional<std::int64_t> label, const py::object& on_note,
+                   const py::kwargs& given) {
+            return read_with_notes(keywords.parse("read_mask", given), on_note,
+                                   [&](const ReadImageOptions& options) { return read_mask(path, label, options); });
+        },
+        py::arg("path"), py::arg("label") = py::none(), py::kw_only(), kOnNote, KeywordText(keywords));
+
+    const auto writing =
+        Keywords<WriteMaskOptions>()
+            .field("label_value", &WriteMaskOptions::label_value, "Value inside, 1 to 65535.")
+            .field("segment_name", &WriteMaskOptions::segment_name, "For .seg.nrrd.")
+            .field("segment_color", &WriteMaskOptions::segment_color, "For .seg.nrrd: red, green, blue from 0 to 1.");
+    define(
+        m, "write_mask", R"(Writes a mask, whole or not at all.
+
+Parameters
+----------
+path : path
+    .nii, .nii.gz, .nrrd, .seg.nrrd or .mha; the name decides on the format.
+mask : Mask
+@options
+)",
+        [writing](const fs::path& path, const Mask& mask, const py::kwargs& given) {
+            const WriteMaskOptions options = writing.parse("write_mask", given);
+            const py::gil_scoped_release release;
+            write_mask(path, mask, options);
+        },
+        py::arg("path"), py::arg("mask"), py::kw_only(), KeywordText(writing));
+    define(
+        m, "write_image", "Writes an image with its sample type as .nii, .nii.gz, .nrrd, .seg.nrrd or .mha.",
+        [](const fs::path& path, const Image& image) {
+            const py::gil_scoped_release release;
+            write_image(path, image);
+        },
+        py::arg("path"), py::arg("image"));
+}
+
+}  // namespace kontur::python

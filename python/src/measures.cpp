@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+
+namespace kontur::python {
+
+void bind_measures(py::module_& m) {
+    py::class_<SurfaceDistance> distance(m, "SurfaceDistance", "Distances between the surfaces of two masks.");
+    distance.def_readonly("hausdorff_mm", &SurfaceDistance::hausdorff_mm, "float: the largest.");
+    distance.def_readonly("hausdorff95_mm", &SurfaceDistance::hausdorff95_mm,
+                          "float: the 95th percentile of each direction, the larger one.");
+    distance.def_readonly("mean_surface_distance_mm", &SurfaceDistance::mean_surface_distance_mm,
+                          "float: over both directions together.");
+
+    py::class_<Comparison> comparison(m, "Comparison", "How two masks of one grid agree.");
+    comparison.def_readonly("volume_a_ml", &Comparison::volume_a_ml, "float");
+    comparison.def_readonly("volume_b_ml", &Comparison::volume_b_ml, "float");
+    comparison.def_readonly("dice", &Comparison::dice, "float: 1 when both are empty.");
+    comparison.def_readonly("jaccard", &Comparison::jaccard, "float: 1 when both are empty.");
+    comparison.def_readonly("surface", &Comparison::surface, "SurfaceDistance, or None when a mask is empty.");
+    comparison.def("__repr__", [](const Comparison& c) { return py::str("<Comparison: Dice {:.4f}>").format(c.dice); });
+
+    define(
+        m, "compare", R"(Overlap and surface distances of two masks on one grid.
+
+Parameters
+----------
+a, b : Mask
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+Comparison
+
+Raises
+------
+InvalidInputError
+    When the grids differ, saying how.
+
+Examples
+--------
+>>> grid = kontur.Grid((8, 8, 8), np.eye(4))
+>>> a = kontur.Mask(np.pad(np.ones((4, 4, 4)), 2), grid)
+>>> b = kontur.Mask(np.roll(a.values, 1, axis=2), grid)
+>>> agreement = kontur.compare(a, b)
+>>> agreement.dice, agreement.surface.hausdorff_mm
+(0.75, 1.0)
+)",
+        [](const Mask& a, const Mask& b, int threads, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return compare(a, b, CompareOptions{threads}, p); });
+        },
+        py::arg("a"), py::arg("b"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+    define(
+        m, "component_sizes", "Voxel counts of the mask's face-connected components, largest first: list of int.",
+        [](const Mask& mask) { return unlocked([&] { return component_sizes(mask); }); }, py::arg("mask"));
+}
+
+}  // namespace kontur::python

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+
+namespace kontur::python {
+namespace {
+
+/// Raises the class of kontur.errors that the error's kind names.
+void raise(const Error& error) {
+    const py::object exception =
+        py::module_::import("kontur.errors").attr("from_kind")(std::string(name(error.kind())), error.what());
+    PyErr_SetObject(py::type::of(exception).ptr(), exception.ptr());
+}
+
+/// The names of all kinds, which the classes of kontur.errors must match.
+std::vector<std::string> error_kinds() {
+    std::vector<std::string> names;
+    for (const ErrorKind kind : {ErrorKind::invalid_input, ErrorKind::unsupported, ErrorKind::corrupt_file, ErrorKind::io,
+                                 ErrorKind::singular_system, ErrorKind::too_large, ErrorKind::cancelled})
+        names.emplace_back(name(kind));
+    return names;
+}
+
+}  // namespace
+}  // namespace kontur::python
+
+PYBIND11_MODULE(_core, m) {
+    using namespace kontur::python;
+    py::options options;
+    options.disable_function_signatures();
+    py::register_exception_translator([](std::exception_ptr pointer) {
+        try {
+            if (pointer) std::rethrow_exception(pointer);
+        } catch (const kontur::Error& error) {
+            raise(error);
+        }
+    });
+    m.attr("__version__") = KONTUR_VERSION;
+    m.def("_error_kinds", &kontur::python::error_kinds);
+    bind_grids(m);
+    bind_contours(m);
+    bind_volumes(m);
+    bind_meshes(m);
+    bind_functions(m);
+    bind_fitting(m);
+    bind_extraction(m);
+    bind_segment(m);
+    bind_measures(m);
+    bind_pictures(m);
+    bind_files(m);
+    bind_images(m);
+    bind_dicom(m);
+    bind_phantom(m);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "casters.h"
+
+namespace kontur::python {
+
+/// What the caller of a long function hands in: a callable (stage, fraction) and an object with is_set(); both may be None.
+struct Listener {
+    py::object progress;
+    py::object stop;
+};
+
+/// Runs `work` on a thread of its own without the interpreter's lock, while this thread calls `listener.progress`, looks at
+/// `listener.stop` and lets Python handle signals every 20 ms. Ctrl-C and an exception of the callback stop the work and
+/// are raised from here; `listener.stop` raises CancelledError.
+void run_work(const Listener& listener, const std::function<void(const Progress&)>& work);
+
+/// The same for work with a result.
+template <class Work>
+auto run(const Listener& listener, const Work& work) {
+    std::optional<decltype(work(Progress{}))> result;
+    run_work(listener, [&](const Progress& progress) { result.emplace(work(progress)); });
+    return std::move(*result);
+}
+
+/// For short calls: the result of `work`, computed without the interpreter's lock.
+template <class Work>
+auto unlocked(const Work& work) {
+    const py::gil_scoped_release release;
+    return work();
+}
+
+}  // namespace kontur::python

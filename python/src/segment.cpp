@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/segment.h"
+
+#include "bindings.h"
+
+namespace kontur::python {
+namespace {
+
+Keywords<SegmentOptions> segment_keywords() {
+    return Keywords<SegmentOptions>()
+        .field("kernel", &SegmentOptions::kernel, "Radial function: r^3 or r.")
+        .field("normals", &SegmentOptions::normals,
+               "Direction of the surface at a contour: from all contours together, or the contour's alone (the paper's).")
+        .field("normal_offset_mm", &SegmentOptions::normal_offset_mm,
+               "Length of the normal constraints; None: 0.3 % of the contours' box diagonal.")
+        .field("smoothing", &SegmentOptions::smoothing,
+               "On unit-box coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
+        .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
+        .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
+        .field("tolerance_mm", &SegmentOptions::tolerance_mm, "Of the iterative solver, at all constraints.")
+        .field("voxelizer", &SegmentOptions::voxelizer, "Follow the surface from the contours, or evaluate every voxel.")
+        .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
+        .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.");
+}
+
+/// A report's fields under their C++ names, as the command line's report has them.
+template <class Type>
+class ReportFields {
+public:
+    explicit ReportFields(Type& type) : type_(type) {}
+
+    template <class Member>
+    ReportFields& field(const char* name, Member member, const char* help) {
+        type_.def_readonly(name, member, help);
+        names_.append(name);
+        return *this;
+    }
+    py::tuple names() const { return py::tuple(names_); }
+
+private:
+    Type& type_;
+    py::list names_;
+};
+
+void bind_report(py::module_& m) {
+    using Report = SegmentReport;
+    py::class_<Report> type(m, "SegmentReport", "What `segment` did, and how well the surface fits.");
+    ReportFields fields(type);
+    fields.field("contours", &Report::contours, "int")
+        .field("points", &Report::points, "int: drawn points.")
+        .field("constraints", &Report::constraints, "int: placed and kept.")
+        .field("merged", &Report::merged, "int: constraints left out because others are close by.")
+        .field("capped", &Report::capped, "int: constraints that end the object beyond its last contours.")
+        .field("centres", &Report::centres, "int: weights of the implicit function.")
+        .field("kernel", &Report::kernel, "str")
+        .field("normals", &Report::normals, "str")
+        .field("normal_offset_mm", &Report::normal_offset_mm, "float: as used.")
+        .field("smoothing", &Report::smoothing, "float: as used.")
+        .field("quality", &Report::quality, "float")
+        .field("solver", &Report::solver, "str: the one that ran.")
+        .field("voxelizer", &Report::voxelizer, "str")
+        .field("solves", &Report::solves, "int")
+        .field("iterations", &Report::iterations, "int: over all solves; 0 for direct solvers.")
+        .field("residual", &Report::residual, "Residual: at all drawn points.")
+        .field("evaluations", &Report::evaluations, "int: function values computed to voxelize.")
+        .field("surface_voxels", &Report::surface_voxels, "int: lattice cells that the surface passes through.")
+        .field("mask_voxels", &Report::mask_voxels, "int")
+        .field("mask_volume_ml", &Report::mask_volume_ml, "float")
+        .field("mask_components", &Report::mask_components, "int: face-connected.")
+        .field("warnings", &Report::warnings, "list of str: choices made for you and doubts, one sentence each.");
+    type.def_property_readonly(
+        "seconds",
+        [](const Report& report) {
+            py::dict seconds;
+            for (const auto& [stage, duration] : report.seconds) seconds[py::str(stage)] = duration;
+            return seconds;
+        },
+        "dict of str to float: wall time by stage.");
+    type.def("__repr__", [names = fields.names()](const py::object& self) {
+        py::list parts;
+        for (const auto& name : names) parts.append(py::str("{}={!r}").format(name, self.attr(name)));
+        return py::str("SegmentReport({})").format(py::str(", ").attr("join")(parts));
+    });
+}
+
+}  // namespace
+
+void bind_segment(py::module_& m) {
+    bind_report(m);
+    py::class_<Segmentation> segmentation(m, "Segmentation", "What `segment` made.");
+    segmentation.def_readonly("mask", &Segmentation::mask, "Mask");
+    segmentation.def_readonly("function", &Segmentation::function, "ImplicitFunction: f > 0 inside.");
+    segmentation.def_property_readonly(
+        "mesh",
+        [](const py::object& self) -> py::object {
+            const auto& mesh = self.cast<const Segmentation&>().mesh;
+            if (!mesh) return py::none();
+            return py::cast(&*mesh, py::return_value_policy::reference_internal, self);
+        },
+        "TriangleMesh, or None when it was not asked for.");
+    segmentation.def_readonly("report", &Segmentation::report, "SegmentReport");
+
+    const auto keywords = segment_keywords();
+    define(
+        m, "segment", R"(Contours to mask (and surface) on a grid.
+
+The same bytes for any number of threads, and the same as the command line's. Other Python threads run meanwhile.
+
+Parameters
+----------
+contours : ContourSet
+grid : Grid
+    Such as `image.grid`.
+progress : callable, optional
+    Called now and then on this thread with the stage's name and its done fraction from 0 to 1. An exception that it raises
+    stops the work and is raised from here.
+stop : object with is_set(), optional
+    Such as a threading.Event, to cancel from another thread: CancelledError. Ctrl-C cancels as well: KeyboardInterrupt.
+@options
+
+Returns
+-------
+Segmentation
+
+Raises
+------
+InvalidInputError
+    For contours or options that cannot be used; the message names the contour, the number and the limit.
+SingularSystemError, TooLargeError, CancelledError
+
+Examples
+--------
+>>> case = kontur.phantom_case("kidney_radial6")
+>>> kidney = kontur.segment(case.contours, case.grid, mesh=True)
+>>> kidney.mask.values.shape == case.grid.shape
+True
+>>> kontur.topology(kidney.mesh).closed
+True
+>>> kidney.report.residual.max_mm < 0.5
+True
+)",
+        [keywords](const ContourSet& contours, const Grid& grid, const py::object& progress, const py::object& stop,
+                   const py::kwargs& given) {
+            const SegmentOptions options = keywords.parse("segment", given);
+            return run({progress, stop}, [&](const Progress& p) { return segment(contours, grid, options, p); });
+        },
+        py::arg("contours"), py::arg("grid"), py::kw_only(), kProgress, kStop, KeywordText(keywords));
+}
+
+}  // namespace kontur::python

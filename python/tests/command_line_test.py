@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What Python makes and what the command line makes are the same bytes."""
+import os
+import subprocess
+
+import kontur
+import pytest
+
+
+def command_line(*words):
+    subprocess.run([os.environ["KONTUR_CLI"], *map(str, words)], check=True, capture_output=True, timeout=400)
+
+
+@pytest.mark.parametrize(
+    "name, options, words",
+    [
+        ("kidney_radial6", {}, []),
+        ("metastasis_parallel7_hand", {"quality": 0.5}, ["--quality", "0.5"]),
+        ("self_intersecting", {"normals": "in-plane", "solver": "dense", "normal_offset_mm": 1},
+         ["--normals", "in-plane", "--solver", "dense", "--normal-offset-mm", "1"]),
+    ],
+)
+def test_the_same_bytes_as_the_command_line(tmp_path, name, options, words):
+    case = kontur.phantom_case(name)
+    kontur.write_contours(tmp_path / "contours.json", case.contours)
+    kontur.write_image(tmp_path / "image.nrrd", kontur.make_phantom_image(case.grid))
+    contours, grid = kontur.read_contours(tmp_path / "contours.json"), kontur.read_grid(tmp_path / "image.nrrd")
+    result = kontur.segment(contours, grid, mesh=True, **options)
+    for mask, mesh in (("m.nii.gz", "m.stl"), ("m.nrrd", "m.ply"), ("m.mha", "m.obj")):
+        command_line("segment", tmp_path / "contours.json", "--image", tmp_path / "image.nrrd",
+                     "--output", tmp_path / mask, "--mesh", tmp_path / mesh, *words)
+        kontur.write_mask(tmp_path / f"python_{mask}", result.mask)
+        kontur.write_mesh(tmp_path / f"python_{mesh}", result.mesh)
+        for made in (mask, mesh):
+            assert (tmp_path / f"python_{made}").read_bytes() == (tmp_path / made).read_bytes(), made
+
+
+def test_tracing_gives_the_same_bytes(tmp_path, case, kidney):
+    kontur.write_mask(tmp_path / "mask.nii.gz", kidney.mask)
+    kontur.write_contours(tmp_path / "planes.json", case.contours)
+    command_line("trace", tmp_path / "mask.nii.gz", "--planes", tmp_path / "planes.json", "--output", tmp_path / "a.json")
+    mask = kontur.read_mask(tmp_path / "mask.nii.gz")
+    planes = kontur.read_planes_json(tmp_path / "planes.json")
+    kontur.write_contours(tmp_path / "b.json", kontur.trace(mask, planes))
+    assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()

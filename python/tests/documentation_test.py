@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The examples in docstrings run, everything has a docstring, and the stubs say what the module is."""
+import doctest
+import inspect
+import pathlib
+import re
+import subprocess
+import sys
+
+import kontur
+import numpy
+import pytest
+
+NAMES = {"kontur": kontur, "np": numpy}
+
+
+def documented():
+    yield "kontur", kontur
+    for name in kontur.__all__:
+        value = getattr(kontur, name)
+        yield name, value
+        if isinstance(value, type):
+            for member, inner in vars(value).items():
+                if not member.startswith("_") and member != "kind":
+                    yield f"{name}.{member}", inner
+
+
+@pytest.mark.parametrize("name, value", documented())
+def test_docstrings_are_there_and_their_examples_run(name, value):
+    text = inspect.getdoc(value)
+    assert text, f"{name} has no docstring"
+    assert "@options" not in text
+    test = doctest.DocTestParser().get_doctest(text, dict(NAMES), name, None, None)
+    assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test).failed == 0
+
+
+@pytest.mark.parametrize("name", [name for name in kontur.__all__ if not isinstance(getattr(kontur, name), type)])
+def test_signatures_can_be_inspected_and_their_parameters_are_described(name):
+    function = getattr(kontur, name)
+    parameters = inspect.signature(function).parameters
+    text = inspect.getdoc(function)
+    if "Parameters\n-----" in text:
+        section = text.split("Parameters\n----------\n")[1].split("\n\n")[0]
+        described = [word.strip() for line in section.splitlines() if " : " in line and line[0] != " "
+                     for word in line.split(" : ")[0].split(",")]
+        described += [line.strip() for line in section.splitlines() if line in ("a, b", "path", "planes")]
+        assert sorted(parameters) == sorted(described), name
+
+
+def test_stubs_and_module_agree(tmp_path):
+    pytest.importorskip("mypy")
+    here = pathlib.Path(__file__).parent
+    result = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "kontur", "--concise", "--mypy-config-file", here / "mypy.ini"],
+        capture_output=True, text=True, cwd=tmp_path)
+    # pybind11's classes have a metaclass, and those that only the library makes an __init__ that refuses.
+    about_pybind11 = ("is inconsistent, metaclass differs", '__init__ is inconsistent, stub does not have *args argument "args"')
+    lines = [line for line in (result.stdout + result.stderr).splitlines() if not line.endswith(about_pybind11)]
+    assert lines == []
+
+
+def test_the_programs_in_the_documentation_run(tmp_path, monkeypatch):
+    root = pathlib.Path(__file__).parents[2]
+    case = kontur.phantom_case("liver_orthogonal14")
+    (tmp_path / "demo").mkdir()
+    kontur.write_contours(tmp_path / "demo" / "liver_orthogonal14.json", case.contours)
+    grid = kontur.grid_around(case.contours.bounding_box, [4, 4, 4], 20)
+    kontur.write_image(tmp_path / "demo" / "liver_ct.nii.gz", kontur.make_phantom_image(grid))
+    monkeypatch.chdir(tmp_path)
+    for page, blocks in (("README.md", 1), ("docs/python.md", 5)):
+        programs = re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.DOTALL)
+        assert len(programs) >= blocks
+        exec(compile("\n".join(programs), page, "exec"), {})
+    assert (tmp_path / "liver.nii.gz").exists() and (tmp_path / "liver.stl").exists()

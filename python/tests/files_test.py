@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Readers and writers; the formats themselves are tested in C++."""
+import logging
+
+import kontur
+import numpy
+import pytest
+
+
+@pytest.mark.parametrize("name", ["a.nii", "a.nii.gz", "a.nrrd", "a.mha"])
+def test_images_come_back(tmp_path, oblique, name):
+    image = kontur.Image(numpy.arange(60, dtype="i2").reshape(oblique.shape) - 30, oblique)
+    kontur.write_image(tmp_path / name, image)
+    back = kontur.read_image(str(tmp_path / name))
+    assert back.samples.dtype == "int16"
+    assert numpy.array_equal(back.samples, image.samples)
+    assert kontur.corner_distance_mm(back.grid, oblique) < 1e-4
+    assert kontur.read_grid(tmp_path / name) == back.grid
+
+
+def test_masks_come_back_by_label(tmp_path, oblique):
+    mask = kontur.Mask(numpy.arange(60).reshape(oblique.shape) % 3, oblique)
+    kontur.write_mask(tmp_path / "a.seg.nrrd", mask, label_value=7, segment_name="left kidney")
+    assert numpy.array_equal(kontur.read_mask(tmp_path / "a.seg.nrrd", label=7).values, mask.values)
+    assert b"Segment0_Name:=left kidney" in (tmp_path / "a.seg.nrrd").read_bytes()
+    with pytest.raises(kontur.InvalidInputError, match="no label 8"):
+        kontur.read_mask(tmp_path / "a.seg.nrrd", label=8)
+
+
+def test_contours_come_back(tmp_path, case):
+    kontur.write_contours(tmp_path / "a.json", case.contours)
+    assert kontur.read_contours(tmp_path / "a.json") == kontur.read_contour_json(tmp_path / "a.json") == case.contours
+    assert len(kontur.read_planes_json(tmp_path / "a.json")) == 6
+    kontur.write_contours(tmp_path / "a.mrk.json", case.contours)
+    curves = kontur.read_markups(tmp_path / "a.mrk.json", plane_tolerance_mm=0.01)
+    assert curves.point_count == case.contours.point_count
+    both = kontur.read_contours([tmp_path / "a.json", tmp_path / "a.mrk.json"])
+    assert len(both) == 12
+
+
+@pytest.mark.parametrize("name", ["a.stl", "a.ply", "a.obj"])
+def test_meshes_come_back(tmp_path, kidney, name):
+    kontur.write_mesh(tmp_path / name, kidney.mesh)
+    back = kontur.read_mesh(tmp_path / name)
+    assert len(back.triangles) == len(kidney.mesh.triangles)
+    assert kontur.signed_volume_mm3(back) == pytest.approx(kontur.signed_volume_mm3(kidney.mesh), rel=1e-5)
+
+
+def make_series(folder, grid):
+    """A CT series of `grid`, whose axes must be the patient's."""
+    pydicom = pytest.importorskip("pydicom")
+    for k in range(grid.size[2]):
+        meta = pydicom.dataset.FileMetaDataset()
+        meta.MediaStorageSOPClassUID = pydicom.uid.CTImageStorage
+        meta.MediaStorageSOPInstanceUID = f"1.2.3.{k + 1}"
+        meta.TransferSyntaxUID = pydicom.uid.ExplicitVRLittleEndian
+        slice_ = pydicom.dataset.FileDataset("", {}, file_meta=meta, preamble=bytes(128))
+        slice_.is_little_endian, slice_.is_implicit_VR = True, False
+        slice_.SOPClassUID, slice_.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
+        slice_.SeriesInstanceUID, slice_.StudyInstanceUID, slice_.FrameOfReferenceUID = "1.2.3", "1.2", "1.2.4"
+        slice_.Modality, slice_.SeriesDescription, slice_.PatientID = "CT", "phantom", "p"
+        slice_.Rows, slice_.Columns = grid.size[1], grid.size[0]
+        slice_.PixelSpacing = [float(grid.spacing_mm[1]), float(grid.spacing_mm[0])]
+        slice_.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
+        slice_.ImagePositionPatient = [float(x) for x in (grid.index_to_mm @ [0, 0, k, 1])[:3]]
+        slice_.SamplesPerPixel, slice_.PhotometricInterpretation = 1, "MONOCHROME2"
+        slice_.BitsAllocated = slice_.BitsStored = 16
+        slice_.HighBit, slice_.PixelRepresentation = 15, 1
+        slice_.RescaleSlope, slice_.RescaleIntercept = 1, -1024
+        slice_.PixelData = numpy.full((grid.size[1], grid.size[0]), k, "<i2").tobytes()
+        slice_.save_as(folder / f"{k}.dcm", write_like_original=False)
+
+
+def test_a_dicom_series(tmp_path):
+    grid = kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]))
+    make_series(tmp_path, grid)
+    [series] = kontur.list_dicom_series(tmp_path)
+    assert (series.modality, series.description, len(series.files), series.rows) == ("CT", "phantom", 5, 3)
+    volume = kontur.read_dicom_series(tmp_path, series_uid="1.2.3")
+    assert volume.image.grid == kontur.read_dicom_grid(tmp_path).grid == grid
+    assert volume.image.samples[:, 0, 0].tolist() == [-1024, -1023, -1022, -1021, -1020]
+    assert numpy.array_equal(kontur.read_image(tmp_path).samples, volume.image.samples)
+    with pytest.raises(kontur.InvalidInputError):
+        kontur.read_image(tmp_path, series_uid="9.9")
+
+
+def test_notes_go_to_the_caller_or_to_the_log(tmp_path, caplog):
+    make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1])))
+    (tmp_path / "readme.txt").write_text("no image")
+    notes = []
+    kontur.read_image(tmp_path, on_note=notes.append)
+    assert not caplog.records
+    with caplog.at_level(logging.WARNING, "kontur"):
+        kontur.read_image(tmp_path)
+    assert notes and [record.getMessage() for record in caplog.records] == notes
+
+
+def test_a_picture(tmp_path, case, kidney):
+    pixels = kontur.make_picture(kidney.mesh, case.contours, width_px=400, height_px=250, facts=[("Made by", "a test")])
+    assert (pixels.shape, pixels.dtype) == ((250, 400, 3), numpy.uint8)
+    assert len(numpy.unique(pixels.reshape(-1, 3), axis=0)) > 50
+    kontur.write_png(tmp_path / "a.png", pixels)
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(kontur.InvalidInputError):
+        kontur.make_picture(kidney.mesh, case.contours, width_px=10)
+
+
+def test_reslice_outline_and_window(case, kidney):
+    image = kontur.make_phantom_image(kontur.grid_around(case.contours.bounding_box, [3, 3, 3], 10), noise_hu=0)
+    centre = case.contours.bounding_box.mean(0)
+    plane = kontur.Plane(centre, [0, 0, 1], u=[1, 0, 0], v=[0, 1, 0])
+    raster = kontur.reslice(image, plane, 9, 7, pixel_mm=2, outside=-2000)
+    assert (raster.shape, raster.dtype) == ((7, 9), numpy.float32)
+    points = centre + [[2 * (c - 4), 2 * (r - 3), 0] for r in range(7) for c in range(9)]
+    assert numpy.allclose(raster.ravel(), kontur.interpolate(image, points, outside=-2000), atol=1e-3)
+    centre_hu, width_hu = kontur.suggest_window(image)
+    assert image.samples.min() < centre_hu < image.samples.max() and width_hu > 0
+    lines = kontur.outline(kidney.mesh, plane)
+    assert lines and all(closed and abs(plane.distance_to(points)).max() < 1e-9 for points, closed in lines)

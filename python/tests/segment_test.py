@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The pipeline, whole and in stages; progress, cancellation, errors."""
+import _thread
+import signal
+import threading
+import time
+
+import kontur
+import numpy
+import pytest
+
+
+def test_the_kidney(case, kidney):
+    truth = kontur.make_truth_mask(case.body, case.grid)
+    agreement = kontur.compare(kidney.mask, truth)
+    assert agreement.dice > 0.97
+    assert agreement.surface.mean_surface_distance_mm < 1
+    report = kidney.report
+    assert report.contours == len(case.contours) == 6
+    assert report.points == case.contours.point_count
+    assert report.mask_voxels == kidney.mask.values.sum()
+    assert report.mask_volume_ml == pytest.approx(kidney.mask.volume_ml)
+    assert report.mask_components == len(kontur.component_sizes(kidney.mask)) == 1
+    assert 0 < report.residual.rms_mm <= report.residual.max_mm < 0.1
+    assert set(report.seconds) == {"prepare", "fit", "voxelize", "polygonize", "measure"}
+    assert kontur.segment(case.contours, case.grid, quality=0.2).mesh is None
+
+
+def test_the_stages_make_what_segment_makes(case, kidney):
+    diagonal = numpy.linalg.norm(numpy.diff(case.contours.bounding_box, axis=0))
+    prepared = kontur.prepare(case.contours)
+    fitted = kontur.fit(prepared, case.contours, normal_offset_mm=kidney.report.normal_offset_mm,
+                        merge_distance_mm=4e-4 * diagonal, smoothing=kidney.report.smoothing)
+    starts = numpy.concatenate([contour.points for contour in case.contours.contours])
+    surface = kontur.track_surface(fitted.function, case.grid, starts)
+    assert numpy.array_equal(kontur.fill(surface).values, kidney.mask.values)
+    mesh = kontur.polygonize(surface, fitted.function)
+    assert numpy.array_equal(mesh.points, kidney.mesh.points)
+    assert numpy.array_equal(mesh.triangles, kidney.mesh.triangles)
+    assert kontur.residual(fitted.function, case.contours).max_mm == kidney.report.residual.max_mm
+
+
+def test_values_and_gradients(case, kidney):
+    points = numpy.concatenate([contour.points for contour in case.contours.contours])
+    assert abs(kidney.function(points)).max() < 0.02
+    grid_of_points = points[:12].reshape(3, 4, 3)
+    assert kidney.function.values(grid_of_points).shape == (3, 4)
+    assert kidney.function(points[0]).shape == ()
+    gradients = kidney.function.gradients(grid_of_points)
+    step = 1e-4
+    for axis in range(3):
+        shift = step * numpy.eye(3)[axis]
+        difference = (kidney.function(grid_of_points + shift) - kidney.function(grid_of_points - shift)) / (2 * step)
+        assert numpy.allclose(gradients[..., axis], difference, atol=1e-6)
+    with pytest.raises(kontur.InvalidInputError, match=r"\(\.\.\., 3\) is needed"):
+        kidney.function([1.0, 2.0])
+
+
+def test_the_function_is_the_sum_that_its_parts_say(kidney):
+    f = kidney.function
+    points = numpy.random.default_rng(3).normal(scale=20, size=(5, 3)) + f.frame_center_mm
+    unit = (points - f.frame_center_mm) / f.frame_scale_mm
+    radii = numpy.linalg.norm(unit[:, None] - f.centers, axis=2)
+    expected = radii**3 @ f.weights + f.polynomial[0] + unit @ f.polynomial[1:]
+    assert numpy.allclose(f(points), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_threads_do_not_change_a_byte(case, kidney):
+    for threads in (1, 3):
+        other = kontur.segment(case.contours, case.grid, mesh=True, threads=threads)
+        assert other.mask.values.tobytes() == kidney.mask.values.tobytes()
+        assert other.mesh.points.tobytes() == kidney.mesh.points.tobytes()
+
+
+def test_options_arrive(case):
+    report = kontur.segment(case.contours, case.grid, kernel="biharmonic", quality=0.2, smoothing=1e-3, normals="in-plane",
+                            normal_offset_mm=1, solver="dense", voxelizer="exhaustive").report
+    assert (report.kernel, report.quality, report.smoothing, report.normals, report.normal_offset_mm) == (
+        "biharmonic", 0.2, 1e-3, "in-plane", 1)
+    assert (report.solver, report.voxelizer, report.iterations) == ("dense", "exhaustive", 0)
+    assert report.evaluations == case.grid.voxel_count
+
+
+def test_wrong_options_are_refused_by_name(case):
+    with pytest.raises(TypeError, match=r"segment\(\) got an unexpected keyword argument 'qualty'"):
+        kontur.segment(case.contours, case.grid, qualty=0.5)
+    with pytest.raises(TypeError, match="quality: float is needed, not 'high'"):
+        kontur.segment(case.contours, case.grid, quality="high")
+    with pytest.raises(ValueError, match="'cubic' is none of {'triharmonic', 'biharmonic'}"):
+        kontur.segment(case.contours, case.grid, kernel="cubic")
+    with pytest.raises(kontur.InvalidInputError, match="quality"):
+        kontur.segment(case.contours, case.grid, quality=0)
+
+
+def test_progress_is_called_on_this_thread_from_0_to_1(case):
+    calls = []
+    kontur.segment(case.contours, case.grid, progress=lambda *words: calls.append((threading.get_ident(), *words)))
+    assert {thread for thread, _, _ in calls} == {threading.get_ident()}
+    assert all(isinstance(stage, str) and 0 <= fraction <= 1 for _, stage, fraction in calls)
+    assert len({stage for _, stage, _ in calls}) > 1
+
+
+# Each voxel of 100 million evaluated: minutes.
+def endless(case, **more):
+    grid = kontur.grid_around(case.contours.bounding_box, [0.15] * 3, 20)
+    return kontur.segment(case.contours, grid, voxelizer="exhaustive", **more)
+
+
+def test_an_exception_of_the_callback_stops_the_work(case):
+    class Enough(Exception):
+        pass
+
+    def progress(stage, fraction):
+        raise Enough(stage)
+
+    with pytest.raises(Enough):
+        endless(case, progress=progress)
+
+
+def test_an_event_stops_the_work(case):
+    event = threading.Event()
+    timer = threading.Timer(0.5, event.set)
+    timer.start()
+    with pytest.raises(kontur.CancelledError) as error:
+        endless(case, stop=event)
+    assert error.value.kind == "cancelled"
+
+
+def test_an_interrupt_stops_the_work(case):
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        endless(case)
+
+
+def test_a_signal_handler_may_raise(case):
+    class Alarm(Exception):
+        pass
+
+    def handler(number, frame):
+        raise Alarm
+
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(Alarm):
+            endless(case)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
+def test_other_threads_run_meanwhile(case):
+    count, event = 0, threading.Event()
+
+    def work():
+        with pytest.raises(kontur.CancelledError):
+            endless(case, stop=event)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    end = time.monotonic() + 0.5
+    while time.monotonic() < end:
+        count += 1
+    event.set()
+    thread.join()
+    assert count > 1000
+
+
+@pytest.mark.parametrize(
+    "error, builtin, kind, call",
+    [
+        (kontur.InvalidInputError, ValueError, "invalid_input", lambda path: kontur.phantom_case("none")),
+        (kontur.UnsupportedError, NotImplementedError, "unsupported", lambda path: kontur.read_mesh(path / "mesh.xyz")),
+        (kontur.CorruptFileError, ValueError, "corrupt_file", lambda path: kontur.read_image(path / "empty.nii")),
+        (kontur.FileError, OSError, "io", lambda path: kontur.read_image(path / "missing.nii")),
+        (kontur.SingularSystemError, ArithmeticError, "singular_system",
+         lambda path: kontur.solve(kontur.ConstraintSet(numpy.eye(3)[[0, 1, 2, 2, 0]] * [1, 1, 0], [0, 0, 0, 0, 1]))),
+        (kontur.TooLargeError, MemoryError, "too_large",
+         lambda path: kontur.read_image(path / "grid.nrrd", max_voxels=10)),
+    ],
+)
+def test_each_kind_of_error_is_an_exception_of_its_own(tmp_path, oblique, error, builtin, kind, call):
+    (tmp_path / "empty.nii").write_bytes(b"")
+    kontur.write_image(tmp_path / "grid.nrrd", kontur.Image(numpy.zeros(oblique.shape, "u1"), oblique))
+    with pytest.raises(error) as caught:
+        call(tmp_path)
+    assert isinstance(caught.value, builtin) and isinstance(caught.value, kontur.Error)
+    assert caught.value.kind == kind
+    assert len(str(caught.value)) > 10
+
+
+def test_one_exception_for_each_kind_of_the_library():
+    assert {error.kind for error in kontur.Error.__subclasses__()} == set(kontur._core._error_kinds())

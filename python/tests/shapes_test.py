@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Values from Python to C++ and back."""
+import copy
+import gc
+import pickle
+
+import kontur
+import numpy
+import pytest
+
+SQUARE = [[0, 0, 5], [10, 0, 5], [10, 10, 5], [0, 10, 5]]
+
+
+def test_a_grid_keeps_its_affine_in_either_frame(oblique):
+    ras = numpy.diag([-1, -1, 1, 1]) @ oblique.index_to_mm
+    assert numpy.array_equal(oblique.affine("RAS"), ras)
+    assert numpy.array_equal(oblique.affine("LPS"), oblique.index_to_mm)
+    assert kontur.Grid(oblique.size, ras, frame="RAS") == oblique
+    with pytest.raises(ValueError, match="'LPS' or 'RAS', not 'LAS'"):
+        oblique.affine("LAS")
+
+
+def test_a_grid_from_spacing_origin_and_direction(oblique):
+    direction = oblique.index_to_mm[:3, :3] / oblique.spacing_mm
+    grid = kontur.Grid.from_spacing(oblique.size, oblique.spacing_mm, oblique.index_to_mm[:3, 3], direction)
+    assert kontur.corner_distance_mm(grid, oblique) < 1e-12
+
+
+@pytest.mark.parametrize("size, affine", [((0, 1, 1), numpy.eye(4)), ((1, 1, 1), numpy.zeros((4, 4))), ((1, 1, 1), numpy.eye(3))])
+def test_a_grid_that_is_none_is_refused(size, affine):
+    with pytest.raises(kontur.InvalidInputError):
+        kontur.Grid(size, affine)
+
+
+def test_a_contour_finds_its_plane_and_does_not_change():
+    contour = kontur.Contour(SQUARE, hole=True)
+    assert contour.points.tolist() == SQUARE
+    assert (contour.closed, contour.hole, len(contour)) == (True, True, 4)
+    assert abs(contour.plane.distance_to(SQUARE)).max() < 1e-12
+    with pytest.raises(ValueError):
+        contour.points[0] = 1
+    with pytest.raises(AttributeError):
+        contour.hole = False
+    with pytest.raises(kontur.InvalidInputError, match="2 points spans no plane"):
+        kontur.Contour(SQUARE[:2])
+
+
+def test_arrays_of_a_wrong_shape_are_refused():
+    for points in ([[0, 0], [1, 0], [0, 1]], numpy.zeros((2, 3, 1)), [1, 2, 3]):
+        with pytest.raises(kontur.InvalidInputError, match=r"\(n, 3\) is needed"):
+            kontur.Contour(points)
+    with pytest.raises(ValueError, match=r"\(3,\) is needed"):
+        kontur.Plane([0, 0], [0, 0, 1])
+
+
+def test_a_plane_with_given_axes_must_be_orthonormal():
+    plane = kontur.Plane([1, 2, 3], [0, 0, 1], u=[0, 1, 0], v=[-1, 0, 0])
+    assert plane.to_uv([[1, 4, 9]]).tolist() == [[2, 0]]
+    with pytest.raises(kontur.InvalidInputError, match="not orthonormal"):
+        kontur.Plane([1, 2, 3], [0, 0, 1], u=[0, 1, 0], v=[-1, 0.1, 0])
+    with pytest.raises(kontur.InvalidInputError, match="normal that is not 0"):
+        kontur.Plane([1, 2, 3], [0, 0, 0])
+
+
+def test_the_contours_of_a_set_live_as_long_as_someone_holds_them():
+    points = kontur.ContourSet([kontur.Contour(SQUARE)], name="square").contours[0].points
+    gc.collect()
+    assert points.tolist() == SQUARE
+
+
+def test_a_masks_array_is_its_memory(oblique):
+    inside = numpy.zeros(oblique.shape, bool)
+    inside[2, 3, 4] = True
+    mask = kontur.Mask(inside, oblique)
+    values = mask.values
+    assert (values.shape, values.dtype, values.flags.c_contiguous) == ((3, 4, 5), numpy.uint8, True)
+    assert values.ravel().nonzero()[0].tolist() == [59]
+    assert numpy.shares_memory(values, mask.values)
+    values[0, 0, 0] = 1
+    del mask
+    gc.collect()
+    assert values.sum() == 2
+
+
+def test_the_masks_array_outlives_the_segmentation(case):
+    values = kontur.segment(case.contours, case.grid).mask.values
+    gc.collect()
+    assert values.sum() > 1000
+
+
+def test_whatever_is_not_zero_is_inside(oblique):
+    floats = numpy.linspace(-1, 1, 60).reshape(oblique.shape)
+    for array in (floats, floats.astype(numpy.int64), numpy.asfortranarray(floats), floats[:, ::-1]):
+        assert numpy.array_equal(kontur.Mask(array, oblique).values, array != 0)
+    with pytest.raises(kontur.InvalidInputError, match=r"\(5, 4, 3\); the grid's \(z, y, x\) is \(3, 4, 5\)"):
+        kontur.Mask(floats.T, oblique)
+
+
+@pytest.mark.parametrize(
+    "dtype, low, high, stored",
+    [
+        ("uint8", 0, 255, "uint8"),
+        ("bool", 0, 1, "uint8"),
+        ("int16", -5, 5, "int16"),
+        ("uint16", 0, 60000, "uint16"),
+        ("int32", -70000, 70000, "int32"),
+        ("float32", -1.5, 1.5, "float32"),
+        ("float64", -1.5, 1.5, "float32"),
+        ("int8", -5, 5, "int16"),
+        ("int64", 0, 200, "uint8"),
+        ("int64", -1024, 3000, "int16"),
+        ("uint32", 0, 60000, "uint16"),
+        ("int64", -70000, 70000, "int32"),
+        ("uint64", 0, 2**40, "float32"),
+        (">i2", -5, 300, "int16"),
+    ],
+)
+def test_an_image_keeps_values_of_every_type(oblique, dtype, low, high, stored):
+    samples = numpy.linspace(low, high, 60).astype(dtype).reshape(oblique.shape)
+    image = kontur.Image(samples, oblique)
+    assert image.samples.dtype == stored
+    assert numpy.array_equal(image.samples, samples.astype(stored))
+    assert numpy.array_equal(numpy.asarray(image), image.samples)
+
+
+def test_an_image_of_complex_numbers_is_refused(oblique):
+    with pytest.raises(kontur.UnsupportedError, match="complex64"):
+        kontur.Image(numpy.zeros(oblique.shape, "complex64"), oblique)
+
+
+def test_labels(oblique):
+    labels = numpy.arange(60).reshape(oblique.shape) // 20
+    image = kontur.Image(labels, oblique)
+    assert kontur.count_labels(image) == {1: 20, 2: 20}
+    assert numpy.array_equal(kontur.select_label(image, 2).values, labels == 2)
+    assert numpy.array_equal(kontur.select_nonzero(image).values, labels > 0)
+
+
+def test_interpolation_meets_the_voxels(oblique):
+    image = kontur.Image(numpy.random.default_rng(1).normal(size=oblique.shape).astype("f"), oblique)
+    centers = (oblique.index_to_mm @ [[0, 4], [0, 3], [0, 2], [1, 1]])[:3].T
+    assert numpy.allclose(kontur.interpolate(image, centers, outside=-9), image.samples[[0, 2], [0, 3], [0, 4]], atol=1e-5)
+    assert kontur.interpolate(image, [[1e3, 0, 0]], outside=-9).tolist() == [-9]
+
+
+def test_a_mesh_must_fit_together():
+    for triangles in ([[0, 1, 3]], [[0, 1, -1]], [[0, 1]]):
+        with pytest.raises(kontur.InvalidInputError):
+            kontur.TriangleMesh(numpy.eye(3), triangles)
+    with pytest.raises(kontur.InvalidInputError, match="2 normals"):
+        kontur.TriangleMesh(numpy.eye(3), [[0, 1, 2]], normals=numpy.eye(3)[:2])
+
+
+@pytest.mark.parametrize("clone", [copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))])
+def test_values_can_be_copied_and_pickled(case, kidney, clone):
+    assert clone(case.grid) == case.grid
+    assert clone(case.contours) == case.contours
+    assert numpy.array_equal(clone(kidney.mask).values, kidney.mask.values)
+    image = kontur.Image(kidney.mask.values * 1000.0, case.grid)
+    assert numpy.array_equal(clone(image).samples, image.samples)
+    for name in ("points", "triangles", "normals"):
+        assert numpy.array_equal(getattr(clone(kidney.mesh), name), getattr(kidney.mesh, name))
+    points = case.contours.contours[0].points
+    assert numpy.array_equal(clone(kidney.function)(points), kidney.function(points))

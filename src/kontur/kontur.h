@@ -52,6 +52,8 @@
 
 // All of it at once.
 #include "kontur/segment.h"
+#include "kontur/editor.h"
+#include "kontur/live_editor.h"
 
 // Judging and showing the result.
 #include "kontur/measure/compare.h"

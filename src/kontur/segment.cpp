@@ -10,16 +10,11 @@
 
 #include "kontur/base/error.h"
 #include "kontur/extract/polygonize.h"
+#include "kontur/fitting.h"
 #include "kontur/measure/components.h"
 
 namespace kontur {
 namespace {
-
-// Fractions of the diagonal of the contours' box. The offset is short enough to stay clear of the opposite wall of thin
-// structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
-constexpr double kOffsetFraction = 3e-3;
-constexpr double kMergeFraction = 4e-4;
-constexpr double kSurfaceSmoothing = 1e-5;
 
 /// Collects the wall time of consecutive stages.
 class Stopwatch {
@@ -45,43 +40,6 @@ ContourSet cleaned(ContourSet set, const Grid& grid, std::vector<std::string>& w
     check_grid(grid);
     if (const auto warning = check_contours_inside(set, grid)) warnings.push_back(*warning);
     return set;
-}
-
-FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
-    FitOptions fit;
-    fit.normals = options.normals;
-    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diagonal_mm);
-    fit.place.merge_distance_mm = kMergeFraction * diagonal_mm;
-    if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
-        throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
-                                                          fit.place.normal_offset_mm));
-    fit.solve.kernel = options.kernel;
-    fit.solve.solver = options.solver;
-    fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
-    fit.solve.tolerance_mm = options.tolerance_mm;
-    fit.solve.threads = options.threads;
-    return fit;
-}
-
-/// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
-PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
-    PrepareOptions prepare{.quality = options.quality};
-    if (options.normals == Normals::in_plane) {
-        prepare.least_segments = 0;
-        prepare.caps = false;
-        prepare.copy_shift_mm = fitting.place.normal_offset_mm;
-    }
-    return prepare;
-}
-
-/// Where the surface is known to pass: every drawn point and point of the fit, and each edge of each lobe where contours
-/// cross themselves.
-std::vector<Vec3> start_points(const ContourSet& set, const PreparedContours& prepared) {
-    std::vector<Vec3> starts = prepared.crossings;
-    starts.insert(starts.end(), prepared.between_crossings.begin(), prepared.between_crossings.end());
-    for (const BoundaryPoint& point : prepared.points) starts.push_back(point.position);
-    for (const Contour& contour : set.contours) starts.insert(starts.end(), contour.points.begin(), contour.points.end());
-    return starts;
 }
 
 SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts,
@@ -156,10 +114,10 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     Stopwatch watch(report.seconds);
 
     const ContourSet contours = cleaned(drawn, grid, report.warnings);
-    const FitOptions fitting = fit_options(options, bounding_box(contours).diagonal());
-    const PreparedContours prepared = prepare(contours, prepare_options(options, fitting));
+    const Fitting fitting = fitting_for(contours, options);
+    const PreparedContours prepared = prepare(contours, fitting.prepare);
     watch.lap("prepare");
-    const Fit fitted = fit(prepared, contours, fitting, progress);
+    const Fit fitted = fit(prepared, contours, fitting.fit, progress);
     result.function = fitted.function;
     watch.lap("fit");
     const SurfaceLattice surface = find_surface(result.function, grid, start_points(contours, prepared), options, progress);
@@ -174,7 +132,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.points = point_count(contours);
     report.quality = options.quality;
     report.voxelizer = options.voxelizer;
-    describe_fit(prepared, fitted, fitting, report);
+    describe_fit(prepared, fitted, fitting.fit, report);
     report.residual = residual(result.function, contours, options.threads);
     describe_crossings(contours, grid, report);
     describe_mask(surface, result.mask, report);

@@ -16,18 +16,7 @@ namespace {
 constexpr double kRadius = 20;
 const Vec3 kCenter{20, -30, 100};
 
-/// Circles of a ball in two planes of each main direction.
-ContourSet ball_contours() {
-    ContourSet set;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double at : {-7.0, 9.0}) {
-            Vec3 normal{}, origin = kCenter;
-            normal[axis] = 1;
-            origin[axis] += at;
-            set.contours.push_back(test::circle(make_plane(origin, normal), std::sqrt(kRadius * kRadius - at * at), 60));
-        }
-    return set;
-}
+using test::ball_contours;
 
 Grid ball_grid() { return test::grid_about(kCenter, {26, 27, 28}, 2); }
 

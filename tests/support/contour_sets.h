@@ -25,4 +25,18 @@ inline ContourSet three_circles() {
     return set;
 }
 
+/// Circles of a ball of radius 20 about (20, -30, 100) in two planes of each main direction.
+inline ContourSet ball_contours() {
+    constexpr double kRadius = 20;
+    ContourSet set;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double at : {-7.0, 9.0}) {
+            Vec3 normal{}, origin{20, -30, 100};
+            normal[axis] = 1;
+            origin[axis] += at;
+            set.contours.push_back(circle(make_plane(origin, normal), std::sqrt(kRadius * kRadius - at * at), 60));
+        }
+    return set;
+}
+
 }  // namespace kontur::test

@@ -15,10 +15,25 @@ double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slop
     return inplane > 0 ? inplane / std::hypot(inplane, tilt) : 1.0;
 }
 
+using Indices = std::vector<std::size_t>;
+
+template <class T>
+std::vector<T> pick(const std::vector<T>& from, const Indices& indices) {
+    std::vector<T> picked;
+    picked.reserve(indices.size());
+    for (const std::size_t i : indices) picked.push_back(from[i]);
+    return picked;
+}
+
 /// Every few of the points, evenly along the contours, about `most` in all; short contours keep more of theirs.
-std::vector<BoundaryPoint> thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
+Indices thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
     constexpr double kLeastPerContour = 24;
-    if (points.size() <= most) return points;
+    Indices kept;
+    if (points.size() <= most) {
+        kept.resize(points.size());
+        std::iota(kept.begin(), kept.end(), std::size_t{0});
+        return kept;
+    }
     const auto step_to = [&](std::size_t i) {
         const bool follows = i > 0 && points[i].contour == points[i - 1].contour;
         return follows ? distance(points[i].position, points[i - 1].position) : 0.0;
@@ -27,13 +42,12 @@ std::vector<BoundaryPoint> thin(const std::vector<BoundaryPoint>& points, std::s
     for (std::size_t i = 0; i < points.size(); ++i) lengths[static_cast<std::size_t>(points[i].contour)] += step_to(i);
     const double step = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(most);
 
-    std::vector<BoundaryPoint> kept;
     double since = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         since += step_to(i);
         const double own_step = std::min(step, lengths[static_cast<std::size_t>(points[i].contour)] / kLeastPerContour);
         if (i > 0 && points[i].contour == points[i - 1].contour && since < own_step) continue;
-        kept.push_back(points[i]);
+        kept.push_back(i);
         since = 0;
     }
     return kept;
@@ -99,7 +113,7 @@ private:
 class Fitter {
 public:
     Fitter(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress)
-        : set_(set), options_(options), progress_(progress), caps_(contours) {}
+        : all_(contours.points), set_(set), options_(options), progress_(progress), caps_(contours) {}
 
     /// Solves for points with these slopes; true if the function exceeds caps that it did not exceed before.
     bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes,
@@ -118,33 +132,43 @@ public:
     }
 
     /// Finds the tilts of the surface from a part of the points.
-    void find_slopes(const std::vector<BoundaryPoint>& all) {
-        const std::vector<BoundaryPoint> points = thin(all, options_.tilt_points);
-        // The weight of the contours against smoothness is to be that of the whole fit.
-        const double share = static_cast<double>(points.size()) / static_cast<double>(all.size());
+    void find_slopes() {
+        const Indices part = thin(all_, options_.tilt_points);
+        const std::vector<BoundaryPoint> points = pick(all_, part);
+        std::vector<double> slopes = pick(result_.slopes, part);
         SolveOptions solving = options_.solve;
         solving.tolerance_mm *= options_.early_tolerance_factor;
         double smoothing = options_.start_smoothing;
-        std::vector<double> slopes(points.size(), 1.0);
         for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
-            solving.smoothing = share * std::max(smoothing, options_.solve.smoothing);
+            solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
             solve_for(points, slopes, solving);
             std::vector<double> next = read_slopes(result_.function, points, options_);
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
         }
-        result_.slopes = read_slopes(result_.function, all, options_);
+        result_.slopes = read_slopes(result_.function, all_, options_);
     }
 
-    Fit run(const std::vector<BoundaryPoint>& points) {
-        result_.slopes.assign(points.size(), 1.0);
-        if (finds_slopes()) find_slopes(points);
-        for (int more = 0; solve_for(points, result_.slopes, options_.solve) && more < options_.cap_rounds;) ++more;
+    Fit run() {
+        result_.slopes = options_.start_slopes;
+        result_.slopes.resize(all_.size(), 1.0);
+        if (finds_slopes()) find_slopes();
+        const Indices kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
+        const std::vector<BoundaryPoint> points = pick(all_, kept);
+        const std::vector<double> slopes = pick(result_.slopes, kept);
+        SolveOptions solving = options_.solve;
+        solving.smoothing *= share(points);
+        for (int more = 0; solve_for(points, slopes, solving) && more < options_.cap_rounds;) ++more;
         result_.capped = caps_.count();
         return std::move(result_);
     }
 
 private:
+    /// By which smoothing is reduced so that fewer points weigh as much against smoothness as all would.
+    double share(const std::vector<BoundaryPoint>& part) const {
+        return static_cast<double>(part.size()) / static_cast<double>(all_.size());
+    }
+
     bool finds_slopes() const { return options_.normals == Normals::surface && options_.rounds > 0; }
 
     /// Of the whole progress, half belongs to the tilts: there are more solves, but smaller ones.
@@ -159,6 +183,7 @@ private:
             progress_.stop};
     }
 
+    const std::vector<BoundaryPoint>& all_;
     const ContourSet& set_;
     const FitOptions& options_;
     const Progress& progress_;
@@ -171,7 +196,7 @@ private:
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
 Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress) {
-    return Fitter(contours, set, options, progress).run(contours.points);
+    return Fitter(contours, set, options, progress).run();
 }
 
 }  // namespace kontur

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/editor.h"
+
+#include <algorithm>
+
+#include "kontur/extract/preview.h"
+#include "kontur/fitting.h"
+
+namespace kontur {
+namespace {
+
+// A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
+constexpr double kPreviewTolerance = 50;  // times that of the refined surface
+constexpr double kSpacingFraction = 1.0 / 150;
+
+/// The contours as `segment` sees them.
+ContourSet cleaned(ContourSet contours) {
+    drop_duplicate_points(contours);
+    check_contours(contours);
+    return contours;
+}
+
+bool same_drawing(const Contour& a, const Contour& b) {
+    return a.points == b.points && a.plane.origin == b.plane.origin && a.plane.normal == b.plane.normal &&
+           a.closed == b.closed;
+}
+
+EditedSurface surface_of(const Fit& fit, const ContourSet& contours, const PreparedContours& prepared, double spacing_mm,
+                         int threads, const Progress& progress) {
+    EditedSurface surface;
+    surface.function = fit.function;
+    surface.solves = fit.solves;
+    surface.spacing_mm = spacing_mm;
+    surface.mesh = preview_surface(surface.function, start_points(contours, prepared), {spacing_mm, threads}, progress);
+    return surface;
+}
+
+}  // namespace
+
+double Editor::preview_spacing(const ContourSet& contours) const {
+    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm
+                                           : kSpacingFraction * bounding_box(contours).diagonal();
+}
+
+/// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.
+std::vector<double> Editor::known_slopes(const ContourSet& contours, const PreparedContours& prepared) const {
+    std::vector<double> slopes(prepared.points.size(), 1.0);
+    bool any = false;
+    auto point = prepared.points.begin();
+    for (std::size_t c = 0; c < contours.contours.size(); ++c) {
+        const auto end = std::find_if(point, prepared.points.end(),
+                                      [&](const BoundaryPoint& p) { return p.contour != static_cast<std::int32_t>(c); });
+        const auto known = std::find_if(known_.begin(), known_.end(),
+                                        [&](const Known& k) { return same_drawing(k.contour, contours.contours[c]); });
+        if (known != known_.end() && static_cast<std::ptrdiff_t>(known->slopes.size()) == end - point) {
+            std::copy(known->slopes.begin(), known->slopes.end(), slopes.begin() + (point - prepared.points.begin()));
+            any = true;
+        }
+        point = end;
+    }
+    return any ? slopes : std::vector<double>();
+}
+
+void Editor::remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes) {
+    known_.clear();
+    for (const Contour& contour : contours.contours) known_.push_back({contour, {}});
+    for (std::size_t i = 0; i < prepared.points.size(); ++i)
+        known_[static_cast<std::size_t>(prepared.points[i].contour)].slopes.push_back(slopes[i]);
+}
+
+EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress) {
+    if (drawn.contours.empty()) return {};
+    const ContourSet contours = cleaned(drawn);
+    Fitting fitting = fitting_for(contours, options_.segment);
+    const PreparedContours prepared = prepare(contours, fitting.prepare);
+    fitting.fit.most_points = options_.preview_points;
+    fitting.fit.tilt_points = options_.preview_points;
+    fitting.fit.solve.tolerance_mm *= kPreviewTolerance;
+    fitting.fit.early_tolerance_factor = 2;
+    fitting.fit.start_slopes = known_slopes(contours, prepared);
+    if (!fitting.fit.start_slopes.empty()) fitting.fit.rounds = std::min(fitting.fit.rounds, 1);
+    const Fit fitted = fit(prepared, contours, fitting.fit, progress);
+    EditedSurface surface =
+        surface_of(fitted, contours, prepared, preview_spacing(contours), options_.segment.threads, progress);
+    remember(contours, prepared, fitted.slopes);
+    return surface;
+}
+
+EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) const {
+    EditedSurface surface;
+    surface.refined = true;
+    if (drawn.contours.empty()) return surface;
+    const ContourSet contours = cleaned(drawn);
+    const Fitting fitting = fitting_for(contours, options_.segment);
+    const PreparedContours prepared = prepare(contours, fitting.prepare);
+    const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 2;
+    surface = surface_of(fit(prepared, contours, fitting.fit, progress), contours, prepared, spacing_mm,
+                         options_.segment.threads, progress);
+    surface.refined = true;
+    surface.residual = residual(surface.function, contours, options_.segment.threads);
+    return surface;
+}
+
+}  // namespace kontur

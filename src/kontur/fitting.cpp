@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/fitting.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+namespace {
+
+// Fractions of the diagonal of the contours' box. The offset is short enough to stay clear of the opposite wall of thin
+// structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
+constexpr double kOffsetFraction = 3e-3;
+constexpr double kMergeFraction = 4e-4;
+constexpr double kSurfaceSmoothing = 1e-5;
+
+FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
+    FitOptions fit;
+    fit.normals = options.normals;
+    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diagonal_mm);
+    fit.place.merge_distance_mm = kMergeFraction * diagonal_mm;
+    if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
+        throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
+                                                          fit.place.normal_offset_mm));
+    fit.solve.kernel = options.kernel;
+    fit.solve.solver = options.solver;
+    fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
+    fit.solve.tolerance_mm = options.tolerance_mm;
+    fit.solve.threads = options.threads;
+    return fit;
+}
+
+/// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
+PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
+    PrepareOptions prepare{.quality = options.quality};
+    if (options.normals == Normals::in_plane) {
+        prepare.least_segments = 0;
+        prepare.caps = false;
+        prepare.copy_shift_mm = fitting.place.normal_offset_mm;
+    }
+    return prepare;
+}
+
+}  // namespace
+
+Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
+    const FitOptions fit = fit_options(options, bounding_box(contours).diagonal());
+    return {prepare_options(options, fit), fit};
+}
+
+std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared) {
+    std::vector<Vec3> starts = prepared.crossings;
+    starts.insert(starts.end(), prepared.between_crossings.begin(), prepared.between_crossings.end());
+    for (const BoundaryPoint& point : prepared.points) starts.push_back(point.position);
+    for (const Contour& contour : contours.contours)
+        starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+    return starts;
+}
+
+}  // namespace kontur

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kontur/field/fit.h"
+#include "kontur/segment.h"
+
+namespace kontur {
+
+/// The options of `segment` spelled out for its first stages.
+struct Fitting {
+    PrepareOptions prepare;
+    FitOptions fit;
+};
+
+/// Lengths that are not given follow the contours' size. Throws Error(invalid_input) when the normal offset is not above 0.
+Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options);
+
+/// Where the surface is known to pass: every drawn point and point of the fit, and each edge of each lobe where contours
+/// cross themselves.
+std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared);
+
+}  // namespace kontur

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/live_editor.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+
+struct LiveEditor::Worker {
+    struct Edit {
+        std::uint64_t number;
+        ContourSet contours;
+    };
+
+    Editor editor;
+    Listener listener;
+    std::mutex mutex;  // guards all below
+    std::condition_variable changed;
+    std::uint64_t newest = 0;    ///< number of edits so far
+    std::uint64_t answered = 0;  ///< the newest that is done with
+    std::optional<Edit> pending;
+    std::stop_source refining{std::nostopstate};
+    bool closing = false;
+    std::jthread thread;  // last: starts when all else is there
+
+    Worker(EditorOptions options, Listener to)
+        : editor(std::move(options)),
+          listener(std::move(to)),
+          thread([this](std::stop_token closed) { run(std::move(closed)); }) {}
+
+    ~Worker() {
+        const std::lock_guard lock(mutex);
+        closing = true;
+        refining.request_stop();
+        changed.notify_all();
+    }
+
+    void run(const std::stop_token& closed) {
+        while (const std::optional<Edit> edit = next()) {
+            answer(*edit, closed);
+            const std::lock_guard lock(mutex);
+            answered = edit->number;
+            changed.notify_all();
+        }
+    }
+
+    std::optional<Edit> next() {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [&] { return closing || pending; });
+        if (closing) return std::nullopt;
+        return std::exchange(pending, std::nullopt);
+    }
+
+    void answer(const Edit& edit, const std::stop_token& closed) {
+        EditorUpdate update;
+        update.edit = edit.number;
+        try {
+            update.surface = editor.preview(edit.contours, progress_of(edit, closed));
+            update.kind = EditorUpdate::Kind::preview;
+            listener(update);
+            const std::stop_token stop = start_refining();
+            if (stop.stop_requested()) return;
+            update.surface = editor.refine(edit.contours, progress_of(edit, stop));
+            update.kind = EditorUpdate::Kind::refined;
+        } catch (const std::exception& error) {
+            const auto* known = dynamic_cast<const Error*>(&error);
+            if (known && known->kind() == ErrorKind::cancelled) return;
+            update = {};
+            update.edit = edit.number;
+            update.kind = EditorUpdate::Kind::problem;
+            update.problem = error.what();
+        }
+        listener(update);
+    }
+
+    /// A token that the next edit stops; stopped already if that edit has come.
+    std::stop_token start_refining() {
+        const std::lock_guard lock(mutex);
+        refining = std::stop_source();
+        if (pending || closing) refining.request_stop();
+        return refining.get_token();
+    }
+
+    Progress progress_of(const Edit& edit, std::stop_token stop) {
+        return {[this, number = edit.number](std::string_view stage, double done) {
+                    EditorUpdate update;
+                    update.edit = number;
+                    update.stage = stage;
+                    update.done = done;
+                    listener(update);
+                },
+                std::move(stop)};
+    }
+};
+
+LiveEditor::LiveEditor(EditorOptions options, Listener listener)
+    : worker_(std::make_unique<Worker>(std::move(options), std::move(listener))) {}
+
+LiveEditor::~LiveEditor() = default;
+
+std::uint64_t LiveEditor::edit(ContourSet contours) {
+    const std::lock_guard lock(worker_->mutex);
+    worker_->pending = {++worker_->newest, std::move(contours)};
+    worker_->refining.request_stop();
+    worker_->changed.notify_all();
+    return worker_->newest;
+}
+
+void LiveEditor::wait() {
+    std::unique_lock lock(worker_->mutex);
+    worker_->changed.wait(lock, [&] { return worker_->answered == worker_->newest; });
+}
+
+}  // namespace kontur

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/editor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "kontur/phantom/cases.h"
+#include "kontur/phantom/drawing.h"
+#include "support/coarse_grid.h"
+#include "support/contour_sets.h"
+#include "support/expect_error.h"
+#include "support/random.h"
+
+namespace kontur {
+namespace {
+
+void expect_same_function(const ImplicitFunction& a, const ImplicitFunction& b) {
+    EXPECT_EQ(a.centers().x, b.centers().x);
+    EXPECT_EQ(a.centers().y, b.centers().y);
+    EXPECT_EQ(a.centers().z, b.centers().z);
+    EXPECT_TRUE(std::ranges::equal(a.weights(), b.weights()));
+    EXPECT_EQ(a.polynomial(), b.polynomial());
+}
+
+/// Distances of the mesh's points from the zero level of the function, to first order.
+std::vector<double> distances(const TriangleMesh& mesh, const ImplicitFunction& function) {
+    std::vector<double> values(mesh.points.size());
+    std::vector<Vec3> gradients(mesh.points.size());
+    function.values(mesh.points, values);
+    function.gradients(mesh.points, gradients);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::abs(values[i]) / std::max(norm(gradients[i]), 0.1);
+    std::ranges::sort(values);
+    return values;
+}
+
+/// A contour of the body in a plane of any direction near its middle.
+Contour random_section(const Body& body, std::mt19937& random) {
+    std::normal_distribution<double> direction;
+    std::uniform_real_distribution<double> part(-0.25, 0.25);
+    const Vec3 size = body.bounds().size();
+    for (;;) {
+        const Vec3 origin =
+            body.bounds().center() + Vec3{part(random) * size.x, part(random) * size.y, part(random) * size.z};
+        const Plane plane = make_plane(origin, normalized({direction(random), direction(random), direction(random)}));
+        const ContourSet sections = draw_sections(body, {&plane, 1}, 150);
+        if (!sections.contours.empty()) return sections.contours.front();
+    }
+}
+
+/// Adds, removes or replaces one contour.
+void edit_at_random(ContourSet& set, const Body& body, std::mt19937& random) {
+    const auto some = std::uniform_int_distribution<std::size_t>(0, set.contours.size() - 1)(random);
+    const auto at = set.contours.begin() + static_cast<std::ptrdiff_t>(some);
+    const int what = std::uniform_int_distribution<int>(0, 2)(random);
+    if (what == 0 && set.contours.size() > 5) {
+        set.contours.erase(at);
+    } else if (what == 1) {
+        *at = random_section(body, random);
+    } else {
+        set.contours.insert(at, random_section(body, random));
+    }
+}
+
+TEST(Editor, RefinesToTheFunctionOfSegmentAfterAnyEdits) {
+    std::mt19937 random = test::random_of_this_test();
+    const PhantomCase c = phantom_case("metastasis_parallel7");
+    const Grid small_grid = test::coarse(c.grid, 6);
+    ContourSet set = c.contours;
+    Editor editor({.segment = {}, .preview_spacing_mm = 2, .refined_spacing_mm = 4});
+    for (int edit = 0; edit < 4; ++edit) {
+        edit_at_random(set, *c.body, random);
+        editor.preview(set);
+        const EditedSurface refined = editor.refine(set);
+        EXPECT_TRUE(refined.refined);
+        EXPECT_LT(refined.residual.max_mm, 0.2);
+        expect_same_function(refined.function, segment(set, small_grid).function);
+    }
+}
+
+TEST(Editor, PreviewsWithinHalfAMillimetreOverRandomEdits) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const char* name : {"metastasis_parallel7_hand", "kidney_radial6"}) {
+        const PhantomCase c = phantom_case(name);
+        ContourSet set = c.contours;
+        Editor editor({.segment = {}, .preview_spacing_mm = 1, .refined_spacing_mm = 4});
+        for (int edit = 0; edit < 6; ++edit) {
+            edit_at_random(set, *c.body, random);
+            const EditedSurface preview = editor.preview(set);
+            EXPECT_FALSE(preview.refined);
+            ASSERT_FALSE(preview.mesh.points.empty());
+            const std::vector<double> off = distances(preview.mesh, editor.refine(set).function);
+            EXPECT_LT(off[off.size() * 98 / 100], 0.5) << name << ", edit " << edit << ", worst " << off.back();
+        }
+    }
+}
+
+TEST(Editor, PreviewsAPartOfThePointsAndKeepsTheTilts) {
+    const PhantomCase c = phantom_case("liver_orthogonal14");
+    Editor editor;
+    EXPECT_EQ(editor.preview(c.contours).solves, 4);
+    ContourSet set = c.contours;
+    set.contours.pop_back();
+    const EditedSurface second = editor.preview(set);
+    EXPECT_EQ(second.solves, 2);
+    EXPECT_LT(second.function.centers().size(), 2600u);
+    EXPECT_GT(second.function.centers().size(), 1500u);
+}
+
+TEST(Editor, SpacingsFollowTheContoursUnlessGiven) {
+    const ContourSet ball = test::ball_contours();
+    Editor editor;
+    const EditedSurface preview = editor.preview(ball), refined = editor.refine(ball);
+    EXPECT_DOUBLE_EQ(preview.spacing_mm, bounding_box(ball).diagonal() / 150);
+    EXPECT_DOUBLE_EQ(refined.spacing_mm, preview.spacing_mm / 2);
+    EXPECT_GT(refined.mesh.triangles.size(), 3 * preview.mesh.triangles.size());
+    Editor fixed({.segment = {}, .preview_spacing_mm = 3, .refined_spacing_mm = 2});
+    EXPECT_EQ(fixed.preview(ball).spacing_mm, 3);
+    EXPECT_EQ(fixed.refine(ball).spacing_mm, 2);
+}
+
+TEST(Editor, NoContoursGiveNoSurface) {
+    Editor editor;
+    EXPECT_TRUE(editor.preview({}).mesh.points.empty());
+    EXPECT_TRUE(editor.refine({}).mesh.points.empty());
+    EXPECT_TRUE(editor.refine({}).refined);
+}
+
+TEST(Editor, GoesOnAfterContoursThatCannotBeFitted) {
+    ContourSet bad = test::ball_contours();
+    bad.contours[2].points.resize(2);
+    Editor editor;
+    editor.preview(test::ball_contours());
+    EXPECT_KONTUR_ERROR(editor.preview(bad), ErrorKind::invalid_input, "contour 3 has 2 points");
+    EXPECT_EQ(editor.preview(test::ball_contours()).solves, 2) << "the tilts of the last good edit are still known";
+}
+
+}  // namespace
+}  // namespace kontur

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/live_editor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "kontur/phantom/cases.h"
+#include "support/contour_sets.h"
+
+namespace kontur {
+namespace {
+
+using Kind = EditorUpdate::Kind;
+
+/// Keeps the updates; can be read while the editor works.
+class Log {
+public:
+    LiveEditor::Listener listener() {
+        return [this](const EditorUpdate& update) {
+            const std::lock_guard lock(mutex_);
+            if (update.kind != Kind::progress) updates_.push_back(update);
+        };
+    }
+    std::vector<EditorUpdate> updates() const {
+        const std::lock_guard lock(mutex_);
+        return updates_;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::vector<EditorUpdate> updates_;
+};
+
+TEST(LiveEditor, PreviewsAndThenRefinesAnEdit) {
+    Log log;
+    LiveEditor editor({}, log.listener());
+    EXPECT_EQ(editor.edit(test::ball_contours()), 1u);
+    editor.wait();
+    const std::vector<EditorUpdate> updates = log.updates();
+    ASSERT_EQ(updates.size(), 2u);
+    EXPECT_EQ(updates[0].kind, Kind::preview);
+    EXPECT_EQ(updates[1].kind, Kind::refined);
+    EXPECT_EQ(updates[1].edit, 1u);
+    EXPECT_TRUE(updates[1].surface.refined);
+    EXPECT_TRUE(std::ranges::equal(updates[1].surface.function.weights(),
+                                   Editor().refine(test::ball_contours()).function.weights()));
+}
+
+TEST(LiveEditor, AnswersTheNewestOfManyEdits) {
+    Log log;
+    LiveEditor editor({}, log.listener());
+    ContourSet set = test::ball_contours();
+    constexpr std::uint64_t kEdits = 40;
+    for (std::uint64_t edit = 1; edit <= kEdits; ++edit) {
+        for (Vec3& p : set.contours[0].points) p += 0.01 * set.contours[0].plane.u;
+        EXPECT_EQ(editor.edit(set), edit);
+    }
+    editor.wait();
+    const std::vector<EditorUpdate> updates = log.updates();
+    ASSERT_FALSE(updates.empty());
+    EXPECT_EQ(updates.back().kind, Kind::refined);
+    EXPECT_EQ(updates.back().edit, kEdits);
+    EXPECT_TRUE(std::ranges::equal(updates.back().surface.function.weights(), Editor().refine(set).function.weights()));
+    EXPECT_TRUE(std::ranges::is_sorted(updates, {}, &EditorUpdate::edit)) << "no answer is overtaken by an older one";
+}
+
+TEST(LiveEditor, ReportsAProblemAndGoesOn) {
+    Log log;
+    LiveEditor editor({}, log.listener());
+    ContourSet bad = test::ball_contours();
+    bad.contours[1].points.resize(2);
+    editor.edit(bad);
+    editor.wait();
+    ASSERT_EQ(log.updates().size(), 1u);
+    EXPECT_EQ(log.updates()[0].kind, Kind::problem);
+    EXPECT_NE(log.updates()[0].problem.find("contour 2 has 2 points"), std::string::npos) << log.updates()[0].problem;
+    editor.edit(test::ball_contours());
+    editor.wait();
+    EXPECT_EQ(log.updates().back().kind, Kind::refined);
+    editor.edit({});
+    editor.wait();
+    EXPECT_TRUE(log.updates().back().surface.mesh.points.empty());
+}
+
+TEST(LiveEditor, IsDestroyedWhileItWorks) {
+    const PhantomCase c = phantom_case("liver_parallel14");
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        Log log;
+        LiveEditor editor({}, log.listener());
+        editor.edit(c.contours);
+        if (repeat > 0) std::this_thread::sleep_for(std::chrono::milliseconds(30 * repeat));
+    }
+}
+
+TEST(LiveEditor, WaitingForNothingReturns) {
+    LiveEditor editor({}, [](const EditorUpdate&) {});
+    editor.wait();
+}
+
+}  // namespace
+}  // namespace kontur

@@ -124,8 +124,11 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
         ->type_name("MM")
         ->capture_default_str();
     add_choice<Voxelizer>(sub, "--voxelizer", o.voxelizer,
-                          {{"tracked", Voxelizer::tracked}, {"exhaustive", Voxelizer::exhaustive}},
-                          "Follow the surface from the contours, or evaluate every voxel");
+                          {{"adaptive", Voxelizer::adaptive},
+                           {"tracked", Voxelizer::tracked},
+                           {"exhaustive", Voxelizer::exhaustive}},
+                          "Follow the surface from the contours, computing values where needed or at every voxel it "
+                          "passes; or compute all voxels");
     sub.add_option("--threads", o.threads, "Threads; 0: as many as the machine has")->type_name("N")->capture_default_str();
 }
 

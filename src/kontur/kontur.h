@@ -32,6 +32,7 @@
 // Contours become a function.
 #include "kontur/field/caps.h"
 #include "kontur/field/constraints.h"
+#include "kontur/field/fast_function.h"
 #include "kontur/field/fit.h"
 #include "kontur/field/implicit_function.h"
 #include "kontur/field/kernel.h"
@@ -42,6 +43,7 @@
 #include "kontur/field/solve.h"
 
 // The function becomes voxels or triangles; a mask becomes contours.
+#include "kontur/extract/adaptive.h"
 #include "kontur/extract/polygonize.h"
 #include "kontur/extract/preview.h"
 #include "kontur/extract/rasterize.h"

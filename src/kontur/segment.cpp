@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "kontur/base/error.h"
+#include "kontur/extract/adaptive.h"
 #include "kontur/extract/polygonize.h"
 #include "kontur/fitting.h"
 #include "kontur/measure/components.h"
@@ -44,8 +45,14 @@ ContourSet cleaned(ContourSet set, const Grid& grid, std::vector<std::string>& w
 
 SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts,
                             const SegmentOptions& options, const Progress& progress) {
-    if (options.voxelizer == Voxelizer::exhaustive) return sample_everywhere(function, grid, options.threads, progress);
-    return track_surface(function, grid, starts, options.threads, progress);
+    switch (options.voxelizer) {
+        case Voxelizer::exhaustive:
+            return sample_everywhere(function, grid, options.threads, progress);
+        case Voxelizer::tracked:
+            return track_surface(function, grid, starts, options.threads, progress);
+        default:
+            return track_surface_adaptively(function, grid, starts, options.threads, progress);
+    }
 }
 
 /// A sentence on the worst crossing, if it is worse than both a voxel and 1 % of the contours' box.

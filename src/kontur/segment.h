@@ -28,7 +28,7 @@ struct SegmentOptions {
     double quality = 1.0;             ///< fraction of each contour's points that the fit uses, in (0, 1]
     Solver solver = Solver::automatic;
     double tolerance_mm = 1e-3;  ///< of the iterative solver, at all constraints
-    Voxelizer voxelizer = Voxelizer::tracked;
+    Voxelizer voxelizer = Voxelizer::adaptive;
     bool mesh = false;  ///< also make the surface
     int threads = 0;    ///< 0: the machine's
 };
@@ -46,7 +46,7 @@ struct SegmentReport {
     double smoothing = 0;
     double quality = 1;
     Solver solver = Solver::automatic;
-    Voxelizer voxelizer = Voxelizer::tracked;
+    Voxelizer voxelizer = Voxelizer::adaptive;
     int solves = 0;
     int iterations = 0;               ///< over all solves; 0 for direct solvers
     Residual residual;                ///< at all drawn points

@@ -42,6 +42,14 @@ public:
     /// Marks a cell; true if it was not marked before.
     bool mark_cell(const Index3& c);
 
+    /// Marks a point of the grid; true if it was not marked before. Independent of the cells' marks.
+    bool mark_point(const Index3& p) {
+        auto bit = block(p).marked_points[within(p)];
+        if (bit) return false;
+        bit = true;
+        return true;
+    }
+
     /// The values at the 8 corners; corner n is displaced by bit 0 of n along i, bit 1 along j, bit 2 along k.
     std::array<double, 8> corners(const Index3& c) const;
 
@@ -50,7 +58,7 @@ public:
 private:
     struct Block {
         std::array<double, 512> values;
-        std::bitset<512> marked_cells;
+        std::bitset<512> marked_cells, marked_points;
         Block() { values.fill(kUnknown); }
     };
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kontur/extract/tracker.h"
+
 namespace kontur {
 namespace {
 
@@ -21,8 +23,7 @@ constexpr Face kFaces[6] = {{0b01010101u, {-1, 0, 0}}, {0b10101010u, {1, 0, 0}},
 
 class Tracker {
 public:
-    Tracker(const ImplicitFunction& function, const Grid& grid, int threads)
-        : function_(function), surface_{Lattice(grid), {}, 0}, threads_(threads) {}
+    Tracker(Lattice known, const EvaluatePoints& evaluate) : evaluate_(evaluate), surface_{std::move(known), {}, 0} {}
 
     /// Evaluates the cells' corners and returns the cells that the surface passes through.
     std::vector<Index3> keep_mixed(std::vector<Index3> cells) {
@@ -77,15 +78,28 @@ private:
         points.reserve(wanted.size());
         for (const Index3& p : wanted) points.push_back(surface_.lattice.grid().center_mm(p.i, p.j, p.k));
         std::vector<double> values(points.size());
-        function_.values(points, values, threads_);
+        evaluate_(points, values);
         for (std::size_t i = 0; i < wanted.size(); ++i) surface_.lattice.set_value(wanted[i], values[i]);
         surface_.evaluations += static_cast<std::int64_t>(points.size());
     }
 
-    const ImplicitFunction& function_;
+    const EvaluatePoints& evaluate_;
     SurfaceLattice surface_;
-    int threads_;
 };
+
+// Between two looks at the stop token; about 10 ms on two cores.
+constexpr std::size_t kKernelValuesPerBatch = 80'000'000;
+
+void evaluate_in_batches(const ImplicitFunction& function, std::span<const Vec3> points, std::span<double> values,
+                         int threads, const Progress& progress) {
+    const std::size_t centers = std::max<std::size_t>(function.centers().size(), 1);
+    const std::size_t batch = std::max<std::size_t>(kKernelValuesPerBatch / centers, 256);
+    for (std::size_t begin = 0; begin < points.size(); begin += batch) {
+        progress.check();
+        const std::size_t count = std::min(batch, points.size() - begin);
+        function.values(points.subspan(begin, count), values.subspan(begin, count), threads);
+    }
+}
 
 /// The cells that contain the points, and the 26 around each.
 std::vector<Index3> cells_around(const Grid& grid, std::span<const Vec3> points) {
@@ -106,11 +120,10 @@ std::vector<Index3> cells_around(const Grid& grid, std::span<const Vec3> points)
 
 }  // namespace
 
-SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std::span<const Vec3> starts,
                              const Progress& progress) {
-    Tracker tracker(function, grid, threads);
-    progress.report("voxelize", 0);
-
+    const Grid grid = known.grid();
+    Tracker tracker(std::move(known), evaluate);
     // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
     // contour they are cells that the walk visits anyway.
     std::vector<Index3> front = tracker.keep_mixed(tracker.unseen(cells_around(grid, starts)));
@@ -119,6 +132,17 @@ SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid,
         front = tracker.keep_mixed(tracker.advance(front));
     }
     return tracker.finish();
+}
+
+SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+                             const Progress& progress) {
+    progress.report("voxelize", 0);
+    return track_surface(
+        Lattice(grid),
+        [&](std::span<const Vec3> points, std::span<double> values) {
+            evaluate_in_batches(function, points, values, threads, progress);
+        },
+        starts, progress);
 }
 
 SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& grid, int threads, const Progress& progress) {
@@ -130,7 +154,7 @@ SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& g
         for (std::int64_t j = 0; j < grid.size.j; ++j)
             for (std::int64_t i = 0; i < grid.size.i; ++i)
                 points[static_cast<std::size_t>(i + grid.size.i * j)] = grid.center_mm(i, j, k);
-        function.values(points, values, threads);
+        evaluate_in_batches(function, points, values, threads, progress);
         for (std::int64_t j = 0; j < grid.size.j; ++j)
             for (std::int64_t i = 0; i < grid.size.i; ++i)
                 surface.lattice.set_value({i, j, k}, values[static_cast<std::size_t>(i + grid.size.i * j)]);

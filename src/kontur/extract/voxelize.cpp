@@ -24,7 +24,17 @@ void mark_cuts(const SurfaceLattice& surface, Mask& mask) {
 
 }  // namespace
 
-std::string_view name(Voxelizer voxelizer) noexcept { return voxelizer == Voxelizer::tracked ? "tracked" : "exhaustive"; }
+std::string_view name(Voxelizer voxelizer) noexcept {
+    switch (voxelizer) {
+        case Voxelizer::adaptive:
+            return "adaptive";
+        case Voxelizer::tracked:
+            return "tracked";
+        case Voxelizer::exhaustive:
+            return "exhaustive";
+    }
+    return "?";
+}
 
 Mask fill(const SurfaceLattice& surface, int threads) {
     const Grid& grid = surface.lattice.grid();

@@ -7,7 +7,8 @@
 namespace kontur {
 
 enum class Voxelizer {
-    tracked,     ///< follow the surface from the contours, then fill
+    adaptive,    ///< follow the surface from the contours on a coarse lattice, refine where the sign is in doubt, fill
+    tracked,     ///< follow the surface from the contours voxel by voxel, fill: the paper's
     exhaustive,  ///< evaluate every voxel: the oracle; keeps sheets and bubbles that no contour touches
 };
 std::string_view name(Voxelizer voxelizer) noexcept;

@@ -22,7 +22,8 @@ struct FastOptions {
 /// cost more than it saves (few centres or few points) the values are ImplicitFunction's own. Each call compares some of its
 /// values with those; if one misses the tolerance, that call and all later ones are answered by direct sums. Keeps what it
 /// computed for later calls; memory grows with the volume that the points fill. Not for use from several threads at once,
-/// and not after a call that threw. Same bytes for any number of threads.
+/// and not after a call that threw. Same bytes for any number of threads (of one
+/// processor type; direct sums: of any).
 class FastFunction {
 public:
     explicit FastFunction(const ImplicitFunction& function, const FastOptions& options = {});

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/extract/adaptive.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "kontur/base/parallel.h"
+#include "kontur/extract/coarse_band.h"
+#include "kontur/extract/cubic_cells.h"
+#include "kontur/field/fast_function.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kStride = 4;  ///< along the axis with the smallest spacing; 3 and 5 need more values
+// Smaller objects have fewer corners on their surface than the coarse lattice needs nodes.
+constexpr double kLeastExtentVoxels = 20;
+
+// A value in doubt is smaller than these fractions of the coarse spacing; f is least smooth at its centres.
+constexpr double kDoubtAtCentres = 0.047, kDoubtBesideCentres = 0.016, kDoubtElsewhere = 0.006;
+// ... and smaller than the interpolation's errors found in the cell, or half of those in a neighbour, times this.
+constexpr double kDoubtPerError = 2;
+constexpr int kPasses = 4;
+// Coarse cells without a change of sign are looked into when a corner is this close, in coarse spacings: the surface can
+// bulge through a face.
+constexpr double kBulge = 0.45;
+
+// Error of the fast function in voxels; values below what it is found to be are computed by the direct sum.
+constexpr double kFastTolerance = 0.02;
+
+/// The stride that brings each axis close to the same coarse spacing in mm.
+Index3 strides(const Grid& grid) {
+    const Vec3 spacing = grid.spacing_mm();
+    const double target = kStride * std::min({spacing.x, spacing.y, spacing.z});
+    Index3 stride;
+    for (int axis = 0; axis < 3; ++axis) stride[axis] = std::max<std::int64_t>(1, std::llround(target / spacing[axis]));
+    return stride;
+}
+
+double smallest_spacing(const Grid& grid) {
+    const Vec3 spacing = grid.spacing_mm();
+    return std::min({spacing.x, spacing.y, spacing.z});
+}
+
+bool is_usable(const Vec3& index) {
+    return std::abs(index.x) < 1e15 && std::abs(index.y) < 1e15 && std::abs(index.z) < 1e15;  // false for NaN
+}
+
+std::vector<Vec3> to_index(const Grid& grid, std::span<const Vec3> points_mm) {
+    const Affine3 mm_to_index = grid.index_to_mm.inverse();
+    std::vector<Vec3> result;
+    for (const Vec3& p : points_mm)
+        if (const Vec3 index = mm_to_index.apply(p); is_usable(index)) result.push_back(index);
+    return result;
+}
+
+std::vector<Vec3> centers_mm(const ImplicitFunction& function) {
+    std::vector<Vec3> result;
+    for (std::size_t i = 0; i < function.centers().size(); ++i)
+        result.push_back(function.frame().center + function.frame().scale * function.centers()[i]);
+    return result;
+}
+
+/// Values computed for a surface through the starts, about: an ellipsoid that fills their box has so many voxels.
+std::int64_t expected_values(const Grid& grid, std::span<const Vec3> starts) {
+    Box3 box;
+    for (const Vec3& p : to_index(grid, starts)) box.extend(p);
+    const Vec3 half = box.size() / 2;
+    return std::llround(4.0 / 3 * M_PI * (half.x * half.y + half.y * half.z + half.z * half.x));
+}
+
+/// Whether the starts spread over too few voxels, or the grid has too few, for a coarse lattice to save values.
+bool is_small(const Grid& grid, std::span<const Vec3> starts) {
+    Box3 box;
+    for (const Vec3& p : to_index(grid, starts)) box.extend(p);
+    const Vec3 size = box.size();
+    std::array<double, 3> extents;
+    for (int axis = 0; axis < 3; ++axis)
+        extents[static_cast<std::size_t>(axis)] = std::min(size[axis], static_cast<double>(grid.size[axis]));
+    std::sort(extents.begin(), extents.end());
+    return extents[1] < kLeastExtentVoxels;
+}
+
+std::uint64_t key(const Index3& c) {
+    constexpr std::int64_t bias = 2;
+    return static_cast<std::uint64_t>((c.i + bias) | (c.j + bias) << 21 | (c.k + bias) << 42);
+}
+
+class AdaptiveTracker {
+public:
+    AdaptiveTracker(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+                    const Progress& progress)
+        : grid_(grid),
+          starts_(starts),
+          threads_(threads),
+          progress_(progress),
+          fast_(function, {.tolerance_mm = kFastTolerance * smallest_spacing(grid),
+                           .expected_points = expected_values(grid, starts),
+                           .threads = threads}),
+          coarse_(grid, strides(grid)),
+          fine_(grid) {
+        const Vec3 spacing = grid.spacing_mm();
+        for (int axis = 0; axis < 3; ++axis)
+            if (coarse_.stride()[axis] > 1)
+                coarse_spacing_mm_ =
+                    std::max(coarse_spacing_mm_, spacing[axis] * static_cast<double>(coarse_.stride()[axis]));
+    }
+
+    SurfaceLattice run() {
+        find_band();
+        interpolate_band();
+        progress_.report("voxelize", 0.4);
+        doubt_near_centres();
+        doubt_at_starts();
+        for (int pass = 0; pass < kPasses && resolve_doubts(); ++pass) spread_errors();
+        progress_.report("voxelize", 0.8);
+        SurfaceLattice surface = track_surface(
+            std::move(fine_),
+            [this](std::span<const Vec3> points, std::span<double> values) { evaluate_signs(points, values); }, starts_,
+            progress_);
+        surface.evaluations = evaluations_;
+        return surface;
+    }
+
+private:
+    struct BandCell {
+        Index3 cell;
+        double doubt_mm = 0;     ///< smaller values are to be computed
+        double resolved_mm = 0;  ///< ... and have been, up to this
+        double error_mm = 0;     ///< largest found
+    };
+
+    void find_band() {
+        std::vector<Index3> starts;
+        for (const Vec3& index : to_index(grid_, starts_)) starts.push_back(coarse_.cell_at(index));
+        const auto evaluate = [this](std::span<const Vec3> points, std::span<double> values) {
+            fast_.values(points, values, progress_);
+        };
+        for (const Index3& cell :
+             flood_coarse_cells(coarse_, evaluate, starts, kBulge * coarse_spacing_mm_, evaluations_, progress_)) {
+            numbers_.emplace(key(cell), band_.size());
+            band_.push_back({cell, kDoubtElsewhere * coarse_spacing_mm_});
+        }
+    }
+
+    void interpolate_band() {
+        constexpr std::size_t batch = 1024;
+        std::vector<std::vector<double>> values(batch);
+        for (std::size_t first = 0; first < band_.size(); first += batch) {
+            const std::size_t count = std::min(batch, band_.size() - first);
+            parallel_for(static_cast<std::int64_t>(count), 32, threads_, [&](std::int64_t begin, std::int64_t end) {
+                for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c)
+                    values[c] = interpolate_cell(coarse_, band_[first + c].cell);
+            });
+            for (std::size_t c = 0; c < count; ++c) {
+                std::size_t next = 0;
+                for_each_point(band_[first + c].cell, [&](const Index3& p, bool is_inner) {
+                    const double value = values[c][next++];
+                    if (is_inner && std::isnan(fine_.value(p))) fine_.set_value(p, value);
+                });
+            }
+        }
+    }
+
+    void doubt_near_centres() {
+        for (const Vec3& index : to_index(grid_, centers_mm(fast_.exact()))) {
+            const Index3 cell = coarse_.cell_at(index);
+            for_each_neighbour(cell, [&](BandCell& near) {
+                const double fraction = near.cell == cell ? kDoubtAtCentres : kDoubtBesideCentres;
+                near.doubt_mm = std::max(near.doubt_mm, fraction * coarse_spacing_mm_);
+            });
+        }
+    }
+
+    /// f is 0 at the starts, so the interpolant's value there is its error.
+    void doubt_at_starts() {
+        for (const Vec3& index : to_index(grid_, starts_)) {
+            const Index3 cell = coarse_.cell_at(index);
+            const auto found = numbers_.find(key(cell));
+            if (!coarse_.is_cell(cell) || found == numbers_.end()) continue;
+            Vec3 fraction;
+            for (int axis = 0; axis < 3; ++axis)
+                fraction[axis] = index[axis] / static_cast<double>(coarse_.stride()[axis]) - static_cast<double>(cell[axis]);
+            BandCell& band = band_[found->second];
+            band.error_mm = std::max(band.error_mm, std::abs(interpolate_in_cell(coarse_, cell, fraction)));
+        }
+        spread_errors();
+    }
+
+    void spread_errors() {
+        std::vector<double> errors;
+        for (const BandCell& band : band_) errors.push_back(band.error_mm);
+        for (std::size_t b = 0; b < band_.size(); ++b) {
+            band_[b].doubt_mm = std::max(band_[b].doubt_mm, kDoubtPerError * errors[b]);
+            // A neighbour has at least this much doubt already.
+            if (kDoubtPerError / 2 * errors[b] <= kDoubtElsewhere * coarse_spacing_mm_) continue;
+            for_each_neighbour(band_[b].cell, [&](BandCell& near) {
+                near.doubt_mm = std::max(near.doubt_mm, kDoubtPerError / 2 * errors[b]);
+            });
+        }
+    }
+
+    /// Computes the values in doubt that have not been; true if there were any.
+    bool resolve_doubts() {
+        std::vector<Index3> points;
+        std::vector<std::size_t> cells;
+        for (std::size_t b = 0; b < band_.size(); ++b) {
+            if (band_[b].doubt_mm <= band_[b].resolved_mm) continue;
+            band_[b].resolved_mm = band_[b].doubt_mm;
+            for_each_point(band_[b].cell, [&](const Index3& p, bool is_inner) {
+                if (!is_inner || is_node(p) || !(std::abs(fine_.value(p)) < band_[b].doubt_mm) || !fine_.mark_point(p))
+                    return;
+                points.push_back(p);
+                cells.push_back(b);
+            });
+        }
+        std::vector<Vec3> positions;
+        positions.reserve(points.size());
+        for (const Index3& p : points) positions.push_back(grid_.center_mm(p.i, p.j, p.k));
+        std::vector<double> values(points.size());
+        evaluate_signs(positions, values);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            BandCell& band = band_[cells[i]];
+            band.error_mm = std::max(band.error_mm, std::abs(values[i] - fine_.value(points[i])));
+            fine_.set_value(points[i], values[i]);
+        }
+        return !points.empty();
+    }
+
+    /// Values with the right sign: where the fast function is in doubt, the direct sum.
+    void evaluate_signs(std::span<const Vec3> points, std::span<double> values) {
+        fast_.values(points, values, progress_);
+        evaluations_ += static_cast<std::int64_t>(points.size());
+        if (fast_.is_direct()) return;
+        std::vector<std::size_t> unsure;
+        std::vector<Vec3> positions;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (std::abs(values[i]) <= fast_.error_mm()) {
+                unsure.push_back(i);
+                positions.push_back(points[i]);
+            }
+        std::vector<double> exact(positions.size());
+        fast_.exact().values(positions, exact, threads_);
+        for (std::size_t u = 0; u < unsure.size(); ++u) values[unsure[u]] = exact[u];
+        evaluations_ += static_cast<std::int64_t>(positions.size());
+    }
+
+    bool is_node(const Index3& p) const {
+        return p.i % coarse_.stride().i == 0 && p.j % coarse_.stride().j == 0 && p.k % coarse_.stride().k == 0;
+    }
+
+    /// Calls visit(point, whether it is in the grid) for the points of a coarse cell and its faces, i fastest.
+    template <typename Visit>
+    void for_each_point(const Index3& cell, const Visit& visit) const {
+        const Index3& s = coarse_.stride();
+        for (std::int64_t k = cell.k * s.k; k <= (cell.k + 1) * s.k; ++k)
+            for (std::int64_t j = cell.j * s.j; j <= (cell.j + 1) * s.j; ++j)
+                for (std::int64_t i = cell.i * s.i; i <= (cell.i + 1) * s.i; ++i)
+                    visit(Index3{i, j, k}, fine_.in_grid({i, j, k}));
+    }
+
+    /// Calls visit(band cell) for a coarse cell and the 26 around it, as far as they are in the band.
+    template <typename Visit>
+    void for_each_neighbour(const Index3& cell, const Visit& visit) {
+        for (std::int64_t k = -1; k <= 1; ++k)
+            for (std::int64_t j = -1; j <= 1; ++j)
+                for (std::int64_t i = -1; i <= 1; ++i) {
+                    const Index3 c{cell.i + i, cell.j + j, cell.k + k};
+                    if (!coarse_.is_cell(c)) continue;
+                    if (const auto found = numbers_.find(key(c)); found != numbers_.end()) visit(band_[found->second]);
+                }
+    }
+
+    const Grid& grid_;
+    std::span<const Vec3> starts_;
+    int threads_;
+    const Progress& progress_;
+    FastFunction fast_;
+    CoarseLattice coarse_;
+    Lattice fine_;
+    double coarse_spacing_mm_ = 0;
+    std::vector<BandCell> band_;
+    std::unordered_map<std::uint64_t, std::size_t> numbers_;  ///< coarse cell -> band_
+    std::int64_t evaluations_ = 0;
+};
+
+}  // namespace
+
+SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
+                                        int threads, const Progress& progress) {
+    check_grid(grid);
+    if (is_small(grid, starts)) return track_surface(function, grid, starts, threads, progress);
+    progress.report("voxelize", 0);
+    return AdaptiveTracker(function, grid, starts, threads, progress).run();
+}
+
+}  // namespace kontur

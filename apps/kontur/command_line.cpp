@@ -233,6 +233,23 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+void add_open(CLI::App& app, Invocation& invocation) {
+    Binder<OpenCommand> bind(app, invocation, "open", "Draw and see the surface follow, in the browser",
+                             "kontur open ct.nii.gz contours.json");
+    OpenCommand& c = *bind.command;
+    bind.sub->add_option("FILES", c.files, "An image or DICOM folder, contours, a project (.kontur); nothing: a phantom")
+        ->type_name("");
+    bind.option("--project", c.project, "FILE",
+                "Project to keep the work in [beside the contours, else in your data folder]");
+    bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    bind.defaulted("--port", c.server.port, "N", "Port on 127.0.0.1; 0: any free one");
+    bind.option("--token", c.server.token, "TEXT", "Secret of the address [random]");
+    bind.defaulted("--timeout", c.server.idle_timeout_s, "S", "End after so many seconds without an open page; 0: never");
+    bind.flag("--no-browser", c.no_browser, "Only print the address");
+    add_read_options(*bind.sub, c.image.options);
+    add_series_options(*bind.sub, c.image.options.dicom);
+}
+
 }  // namespace
 
 Invocation parse_command_line(int argc, const char* const* argv) {
@@ -248,6 +265,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_inspect(app, invocation);
     add_convert(app, invocation);
     add_phantom(app, invocation);
+    add_open(app, invocation);
 
     try {
         app.parse(argc, argv);

@@ -16,6 +16,7 @@
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/segment.h"
+#include "viewer/server_options.h"
 
 // One struct for each command, with its words and options and their defaults, and the function that runs it: it reads, calls
 // the library and writes. What it writes appears whole or not at all. All of them throw kontur::Error.
@@ -87,5 +88,16 @@ struct ConvertCommand {
     WriteRtstructOptions write_rtstruct;
 };
 void run(const ConvertCommand& command, Console& console);
+
+/// The application in the browser.
+struct OpenCommand {
+    std::vector<std::filesystem::path> files;  ///< an image, contours, a project; none: the phantom
+    ImageInput image;                          ///< how to read it; the path comes from `files`
+    ReadContoursOptions read;
+    std::filesystem::path project;  ///< empty: the one among `files`, beside the contours, or in the user's data folder
+    viewer::ServerOptions server;
+    bool no_browser = false;
+};
+void run(const OpenCommand& command, Console& console);
 
 }  // namespace kontur::app

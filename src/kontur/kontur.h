@@ -19,6 +19,7 @@
 #include "kontur/shape/rgb_image.h"
 #include "kontur/shape/section.h"
 #include "kontur/shape/self_contacts.h"
+#include "kontur/shape/spline.h"
 #include "kontur/shape/volume.h"
 
 // Files to shapes.
@@ -60,6 +61,7 @@
 // Judging and showing the result.
 #include "kontur/measure/compare.h"
 #include "kontur/measure/components.h"
+#include "kontur/view/livewire.h"
 #include "kontur/view/outline.h"
 #include "kontur/view/picture.h"
 #include "kontur/view/reslice.h"

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <fcntl.h>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <stop_token>
+
+#include "commands.h"
+#include "kontur/base/error.h"
+#include "viewer/image_identity.h"
+#include "viewer/server.h"
+#include "viewer/session.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPhantom = "phantom";
+constexpr const char* kPhantomScan = "abdomen";
+constexpr const char* kProjectExtension = ".kontur";
+
+/// The command's words by what they name.
+struct Words {
+    fs::path image, contours, project;
+};
+
+Words sorted(const std::vector<fs::path>& files) {
+    Words words;
+    const auto put = [](fs::path& place, const fs::path& file, const char* what) {
+        if (!place.empty())
+            throw Error(ErrorKind::invalid_input, fmt::format("{} and {} are both {}; one at a time can be opened",
+                                                              place.string(), file.string(), what));
+        place = file;
+    };
+    for (const fs::path& file : files) {
+        std::error_code ignored;
+        if (!fs::exists(file, ignored))
+            throw Error(ErrorKind::io, fmt::format("cannot read {}: it does not exist", file.string()));
+        if (has_extension(file, kProjectExtension)) put(words.project, file, "projects");
+        else if (input_kind(file) == FileKind::contours) put(words.contours, file, "contours");
+        else put(words.image, file, "images");
+    }
+    return words;
+}
+
+Image phantom_image(const Progress& progress) {
+    const std::vector<PhantomVolume> scans = phantom_volumes();
+    const auto scan =
+        std::find_if(scans.begin(), scans.end(), [](const PhantomVolume& v) { return v.name == kPhantomScan; });
+    return make_phantom_image(scan->grid, {}, progress);
+}
+
+viewer::OpenedImage open_image(const ImageInput& input, const Progress& progress) {
+    viewer::OpenedImage opened;
+    if (input.path == kPhantom) {
+        opened.image = std::make_shared<const Image>(phantom_image(progress));
+        opened.title = "Phantom: upper abdomen";
+        opened.reference.path = kPhantom;
+    } else {
+        ReadImageOptions options = input.options;
+        options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
+        opened.image = std::make_shared<const Image>(read_image(input.path, options, progress));
+        opened.title = fs::absolute(input.path).lexically_normal().filename().string();
+        opened.reference.path = fs::absolute(input.path).lexically_normal().string();
+    }
+    opened.reference.fingerprint = viewer::fingerprint(*opened.image);
+    return opened;
+}
+
+/// Where the user's programs keep what he did not place himself (the XDG base directory specification).
+fs::path data_folder() {
+    const char* xdg = std::getenv("XDG_DATA_HOME");
+    const char* home = std::getenv("HOME");
+    if (!xdg && !home)
+        throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
+    const fs::path folder =
+        (xdg && fs::path(xdg).is_absolute() ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw Error(ErrorKind::io, fmt::format("cannot make {}: {}; give --project", folder.string(), error.message()));
+    return folder;
+}
+
+std::string bare_name(const fs::path& path) {
+    const std::string name = path.filename().string();
+    for (const char* extension : {".mrk.json", ".nii.gz", ".seg.nrrd"})
+        if (has_extension(path, extension)) return name.substr(0, name.size() - std::string_view(extension).size());
+    return path.stem().string();
+}
+
+fs::path project_path(const OpenCommand& command, const Words& words, const viewer::OpenedImage& image) {
+    if (!command.project.empty()) return command.project;
+    if (!words.project.empty()) return words.project;
+    if (!words.contours.empty()) {
+        const fs::path folder = fs::absolute(words.contours).parent_path();
+        if (access(folder.c_str(), W_OK) == 0) return folder / (bare_name(words.contours) + kProjectExtension);
+    }
+    const std::string& fingerprint = image.reference.fingerprint;
+    const std::string name = bare_name(words.contours.empty() ? fs::path(image.reference.path) : words.contours);
+    return data_folder() / fmt::format("{}-{}{}", name, fingerprint.substr(fingerprint.size() - 8), kProjectExtension);
+}
+
+/// A new project starts with the contours of the file, or with a structure to draw.
+void fill(viewer::Session& session, const OpenCommand& command, const Words& words, Console& console) {
+    if (!session.is_new()) {
+        if (!words.contours.empty())
+            console.warn(fmt::format("{} holds the work on these contours from before; they were not read again",
+                                     session.project_path().string()));
+        return;
+    }
+    ContourSet set;
+    if (!words.contours.empty()) {
+        ReadContours read = read_contours(words.contours, command.read);
+        check_contours(read.contours);
+        console.note(read.notes);
+        set = std::move(read.contours);
+        if (set.name.empty()) set.name = bare_name(words.contours);
+    }
+    session.add_structures(words.contours.empty() ? "New structure" : "Import contours", {set});
+}
+
+/// Best effort, and only where there is a screen: without one xdg-open starts a browser in the terminal.
+void open_browser(const std::string& address) {
+    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+    std::string program = "xdg-open", argument = address;
+    char* words[] = {program.data(), argument.data(), nullptr};
+    posix_spawn_file_actions_t silent;
+    posix_spawn_file_actions_init(&silent);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    posix_spawnp(&child, program.c_str(), &silent, nullptr, words, environ);
+    posix_spawn_file_actions_destroy(&silent);
+}
+
+}  // namespace
+
+void run(const OpenCommand& command, Console& console) {
+    const Progress progress = console.progress();
+    const Words words = sorted(command.files);
+    ImageInput input = command.image;
+    input.path = words.image;
+    if (input.path.empty() && !words.project.empty()) input.path = viewer::image_of_project(words.project).path;
+    if (input.path.empty()) input.path = kPhantom;
+
+    viewer::OpenedImage image = open_image(input, progress);
+    console.note(image.notes);
+    const fs::path project = project_path(command, words, image);
+    viewer::Session session(std::move(image), project);
+    fill(session, command, words, console);
+
+    viewer::Server server(session, command.server);
+    console.print(
+        fmt::format("{}\nproject {}; every edit is saved at once, Ctrl+C ends\n", server.address(), project.string()));
+    std::fflush(stdout);
+    if (!command.no_browser) open_browser(server.address());
+    const std::stop_callback stop(progress.stop, [&] { server.stop(); });
+    server.run();
+}
+
+}  // namespace kontur::app

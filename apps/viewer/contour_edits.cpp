@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/contour_edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "kontur/base/error.h"
+
+namespace kontur::viewer {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
+
+/// `contour` with the line of this sketch instead of its own.
+DrawnContour redrawn(const DrawnContour& contour, const std::vector<SketchPoint>& sketch, SliceEdges& edges,
+                     const SketchOptions& options = {}) {
+    DrawnContour result = draw_contour(sketch, contour.plane, edges, options);
+    result.id = contour.id;
+    result.structure = contour.structure;
+    result.hole = contour.hole;
+    result.visible = contour.visible;
+    return result;
+}
+
+void check_index(const DrawnContour& contour, std::size_t index) {
+    if (index >= contour.control.size())
+        refuse(fmt::format("the contour has {} control points; number {} is none of them", contour.control.size(), index));
+}
+
+/// The control point whose stretch the line's point belongs to.
+std::size_t stretch_of(const DrawnContour& contour, std::size_t point) {
+    const auto after = std::upper_bound(contour.control.begin(), contour.control.end(), point,
+                                        [](std::size_t p, const ControlPoint& c) { return p < c.index; });
+    return static_cast<std::size_t>(after - contour.control.begin()) - 1;
+}
+
+/// A sketch's stretches that the curve or the image decides are made anew where a control point next to them changed: a
+/// spline's from two before to one after, a wire's or a line's on both sides.
+void forget_paths_at(std::vector<SketchPoint>& sketch, std::size_t index) {
+    const auto count = static_cast<std::ptrdiff_t>(sketch.size());
+    for (const std::ptrdiff_t step : {-2, -1, 0, 1}) {
+        const auto at = (static_cast<std::ptrdiff_t>(index) + step + 2 * count) % count;
+        SketchPoint& point = sketch[static_cast<std::size_t>(at)];
+        const bool touches = step == -1 || step == 0;
+        if (point.kind == Stretch::spline || (touches && point.kind != Stretch::free)) point.path.reset();
+    }
+}
+
+/// Moves a free stretch's end by `by`, and its other points with it, less and less towards the other end.
+void bend(std::vector<Vec3>& path, const Vec3& by, bool at_start) {
+    const auto count = static_cast<double>(path.size() + 1);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const double along = static_cast<double>(i + 1) / count;
+        path[i] += (at_start ? 1 - along : along) * by;
+    }
+}
+
+/// Length of the closed line from its first point to each point; one more entry for the whole.
+std::vector<double> arc_lengths(const std::vector<Vec3>& points) {
+    std::vector<double> lengths{0};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        lengths.push_back(lengths.back() + distance(points[i], points[(i + 1) % points.size()]));
+    return lengths;
+}
+
+/// The contour with a control point at the line's point `point`; nothing else changes. Returns its number.
+std::size_t split_at(DrawnContour& contour, std::size_t point) {
+    const std::size_t stretch = stretch_of(contour, point);
+    if (contour.control[stretch].index == point) return stretch;
+    contour.control.insert(contour.control.begin() + static_cast<std::ptrdiff_t>(stretch) + 1,
+                           {contour.points[point], contour.control[stretch].kind, point});
+    return stretch + 1;
+}
+
+DrawnContour moved(DrawnContour contour, const Vec3& by) {
+    for (Vec3& p : contour.points) p += by;
+    for (ControlPoint& c : contour.control) c.at += by;
+    return contour;
+}
+
+}  // namespace
+
+DrawnContour draw_contour(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
+                          const SketchOptions& options) {
+    Drawing drawing = draw(sketch, plane, edges, options);
+    DrawnContour contour;
+    contour.plane = plane;
+    contour.control = std::move(drawing.control);
+    contour.points = std::move(drawing.points);
+    if (contour.points.size() < 3 || !(width_mm(contour.points) > ContourCheckOptions{}.line_tolerance_mm))
+        refuse("a contour needs at least three points that do not lie on one line");
+    return contour;
+}
+
+DrawnContour move_point(const DrawnContour& contour, std::size_t index, const Vec3& to, SliceEdges& edges,
+                        const SketchOptions& options) {
+    check_index(contour, index);
+    std::vector<SketchPoint> sketch = sketch_of(contour);
+    const std::size_t count = sketch.size();
+    if (count == 1) return pull(contour, contour.control[0].at, to, {}, edges);
+    SketchPoint& point = sketch[index];
+    const Vec3 by = to - point.at;
+    point.at = to;
+    SketchPoint& before = sketch[(index + count - 1) % count];
+    if (point.kind == Stretch::free) bend(*point.path, by, true);
+    if (before.kind == Stretch::free) bend(*before.path, by, false);
+    forget_paths_at(sketch, index);
+    SketchOptions snapping = options;
+    snapping.snap = options.snap && (point.kind == Stretch::wire || before.kind == Stretch::wire);
+    // Only the moved point may jump to an edge; its neighbours lie where the user left them.
+    if (snapping.snap) sketch[index].at = edges.snap(contour.plane, to, options.snap_radius_mm);
+    snapping.snap = false;
+    return redrawn(contour, sketch, edges, snapping);
+}
+
+DrawnContour insert_point(const DrawnContour& contour, const Vec3& at, SliceEdges& edges) {
+    const std::size_t nearest = nearest_point(contour.points, at);
+    DrawnContour split = contour;
+    const std::size_t before = split.control.size(), index = split_at(split, nearest);
+    if (split.control.size() == before) refuse("there is a control point at this place already");
+    std::vector<SketchPoint> sketch = sketch_of(split);
+    if (sketch[index].kind == Stretch::free) return split;
+    sketch[index].at = at;
+    forget_paths_at(sketch, index);
+    return redrawn(contour, sketch, edges, {.snap = false});
+}
+
+DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceEdges& edges) {
+    check_index(contour, index);
+    std::vector<SketchPoint> sketch = sketch_of(contour);
+    const bool is_free = kind_name(contour) == "freehand";
+    if (sketch.size() <= (is_free ? 1u : 3u))
+        refuse(fmt::format("the contour has {} control points, which it needs; delete the contour instead", sketch.size()));
+    const std::size_t count = sketch.size(), before = (index + count - 1) % count;
+    if (sketch[before].kind == Stretch::free || sketch[index].kind == Stretch::free) {
+        // A free stretch is kept as it was drawn, so the point only stops being one to drag.
+        sketch[before].kind = Stretch::free;
+        sketch[before].path->push_back(sketch[index].at);
+        sketch[before].path->insert(sketch[before].path->end(), sketch[index].path->begin(), sketch[index].path->end());
+        sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(index));
+    } else {
+        sketch[before].path.reset();
+        forget_paths_at(sketch, index);
+        sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(index));
+    }
+    return redrawn(contour, sketch, edges, {.snap = false});
+}
+
+DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to, std::optional<double> radius_mm,
+                  SliceEdges& edges) {
+    const std::vector<double> at = arc_lengths(contour.points);
+    const double whole = at.back(), radius = radius_mm.value_or(whole / 8);
+    if (!(radius > 0)) refuse(fmt::format("the radius of a pull is {:g} mm; more than 0 is needed", radius));
+    const std::size_t grabbed = nearest_point(contour.points, from);
+    const Vec3 by = to - from;
+    DrawnContour bent = contour;
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+        const double direct = std::abs(at[i] - at[grabbed]), away = std::min(direct, whole - direct) / radius;
+        if (away >= 1) continue;
+        const double weight = (1 - away * away) * (1 - away * away);
+        bent.points[i] += weight * by;
+        bent.control[stretch_of(contour, i)].kind = Stretch::free;
+    }
+    for (ControlPoint& c : bent.control) c.at = bent.points[c.index];
+    return redrawn(contour, sketch_of(bent), edges, {.snap = false});
+}
+
+DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges) {
+    if (path.size() < 2) refuse("the new part of a contour has fewer than 2 points");
+    const std::vector<double> at = arc_lengths(contour.points);
+    std::size_t first = nearest_point(contour.points, path.front()), last = nearest_point(contour.points, path.back());
+    if (first == last) refuse("the new part of a contour starts and ends at the same place of it");
+    std::vector<Vec3> part = path;
+    const double forward = last > first ? at[last] - at[first] : at.back() - at[first] + at[last];
+    if (forward > at.back() / 2) {
+        std::swap(first, last);
+        std::reverse(part.begin(), part.end());
+    }
+    // The line from `last` onwards to `first` stays, then the new part leads back.
+    DrawnContour split = contour;
+    split_at(split, first);
+    const std::size_t start = split_at(split, last);
+    std::vector<SketchPoint> sketch = sketch_of(split);
+    std::rotate(sketch.begin(), sketch.begin() + static_cast<std::ptrdiff_t>(start), sketch.end());
+    const auto replaced =
+        std::find_if(sketch.begin() + 1, sketch.end(), [&](const SketchPoint& p) { return p.at == contour.points[first]; });
+    sketch.erase(std::next(replaced), sketch.end());
+    sketch.back().kind = Stretch::free;
+    sketch.back().path = thinned(part, 0.1);
+    return redrawn(contour, sketch, edges, {.snap = false});
+}
+
+DrawnContour translate(const DrawnContour& contour, const Vec3& by) {
+    return moved(contour, by - dot(by, contour.plane.normal) * contour.plane.normal);
+}
+
+DrawnContour offset(const DrawnContour& contour, double offset_mm) {
+    const Vec3 by = offset_mm * contour.plane.normal;
+    DrawnContour copy = moved(contour, by);
+    copy.plane.origin += by;
+    return copy;
+}
+
+std::size_t nearest_point(const std::vector<Vec3>& points, const Vec3& p) {
+    const auto nearest = std::min_element(points.begin(), points.end(),
+                                          [&](const Vec3& a, const Vec3& b) { return distance(a, p) < distance(b, p); });
+    return static_cast<std::size_t>(nearest - points.begin());
+}
+
+}  // namespace kontur::viewer

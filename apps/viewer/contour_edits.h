@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "viewer/model.h"
+#include "viewer/sketch.h"
+
+// What can be done to a contour: each function returns the changed contour, with the id of the old one, and throws
+// Error(invalid_input) for what cannot be done.
+
+namespace kontur::viewer {
+
+/// Makes a contour of a closed sketch. It needs three points that do not lie on one line.
+DrawnContour draw_contour(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
+                          const SketchOptions& options = {});
+
+/// Moves a control point; the stretches that depend on it are made anew, free ones bend with it.
+DrawnContour move_point(const DrawnContour& contour, std::size_t index, const Vec3& to, SliceEdges& edges,
+                        const SketchOptions& options);
+
+/// A further control point: at `at` on a spline, wire or straight stretch, on the line's nearest point of a free one.
+DrawnContour insert_point(const DrawnContour& contour, const Vec3& at, SliceEdges& edges);
+
+/// Joins the two stretches at a control point. The last three control points cannot be deleted, nor the only one.
+DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceEdges& edges);
+
+/// Moves the line's point nearest to `from` by `to - from`, and its neighbours along the line within the radius less and
+/// less. Stretches that it bends become free.
+DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to, std::optional<double> radius_mm,
+                  SliceEdges& edges);
+
+/// Replaces the shorter part of the line between the points nearest to the path's two ends by the path.
+DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges);
+
+/// Moves all of it within its plane; what of `by` leads out of it is left out.
+DrawnContour translate(const DrawnContour& contour, const Vec3& by);
+
+/// The same line in the parallel plane at this distance along the normal.
+DrawnContour offset(const DrawnContour& contour, double offset_mm);
+
+/// The line's point nearest to `p`.
+std::size_t nearest_point(const std::vector<Vec3>& points, const Vec3& p);
+
+}  // namespace kontur::viewer

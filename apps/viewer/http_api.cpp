@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/http_api.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "kontur/base/error.h"
+#include "viewer/model_json.h"
+#include "viewer/page.h"
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kLargestBody = 64 << 10, kLargestImport = 512 << 20;
+constexpr std::size_t kMostViews = 64;
+
+int status_of(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::invalid_input:
+            return 400;
+        case ErrorKind::unsupported:
+            return 415;
+        case ErrorKind::corrupt_file:
+        case ErrorKind::singular_system:
+            return 422;
+        case ErrorKind::too_large:
+            return 413;
+        case ErrorKind::cancelled:
+            return 409;
+        case ErrorKind::io:
+            break;
+    }
+    return 500;
+}
+
+HttpReply not_found() { return error_reply(404, "not_found", "there is nothing at this address"); }
+
+HttpReply binary(std::string bytes) { return {200, "application/octet-stream", std::move(bytes), {}}; }
+
+template <class Make>
+HttpReply guarded(Make make) {
+    try {
+        return make();
+    } catch (const json::exception&) {
+        return error_reply(400, "invalid_input", "the request is no JSON that kontur understands");
+    } catch (const Error& error) {
+        return error_reply(status_of(error.kind()), std::string(name(error.kind())), error.what());
+    } catch (const std::bad_alloc&) {
+        return error_reply(413, "too_large", "there is not enough memory for this");
+    } catch (const std::exception& error) {
+        return error_reply(500, "internal", error.what());
+    }
+}
+
+std::optional<Id> whole_number(const std::string& text) {
+    Id number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+HttpReply page_file(const std::string& path) {
+    const PageFile* file = find_page_file(path == "/" ? "/index.html" : path);
+    if (!file) return not_found();
+    return {200, std::string(file->content_type), std::string(file->gzip), {{"Content-Encoding", "gzip"}}};
+}
+
+std::string view_of_slice(const std::string& body) {
+    const json request = json::parse(body, nullptr, false);
+    if (!request.is_object() || !request.contains("view") || !request["view"].is_string()) return {};
+    return request["view"].get<std::string>().substr(0, 64);
+}
+
+/// The known extension that a file name ends with. Nothing else of the name is used.
+std::string known_extension(const std::string& name, std::initializer_list<const char*> known) {
+    std::string list;
+    for (const char* extension : known) {
+        if (name.ends_with(extension)) return extension;
+        list += (list.empty() ? "" : ", ") + std::string(extension);
+    }
+    throw Error(ErrorKind::unsupported, fmt::format("only files that end with {} can be imported here", list));
+}
+
+Session::TraceRequest trace_request(const Target& target) {
+    Session::TraceRequest request;
+    if (const auto planes = target.parameter("planes")) {
+        const auto count = whole_number(*planes);
+        if (!count || *count < 1 || *count > 200)
+            throw Error(ErrorKind::invalid_input, "'planes' is not a whole number from 1 to 200");
+        request.planes = static_cast<int>(*count);
+    }
+    if (const auto axes = target.parameter("axes")) {
+        const auto has = [&](const char* axis) { return axes->find(axis) != std::string::npos; };
+        request.axial = has("axial"), request.sagittal = has("sagittal"), request.coronal = has("coronal");
+        if (!request.axial && !request.sagittal && !request.coronal)
+            throw Error(ErrorKind::invalid_input, "'axes' names none of axial, sagittal and coronal");
+    }
+    return request;
+}
+
+}  // namespace
+
+HttpReply error_reply(int status, const std::string& kind, const std::string& message) {
+    return {status, "application/json", to_text({{"error", {{"kind", kind}, {"message", message}}}}) + "\n", {}};
+}
+
+std::vector<std::pair<std::string, std::string>> security_headers(const std::string& host) {
+    return {
+        {"Content-Security-Policy", "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws://" + host +
+                                        "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'; object-src 'none'"},
+        {"X-Content-Type-Options", "nosniff"},
+        {"Referrer-Policy", "no-referrer"},
+        {"Cross-Origin-Opener-Policy", "same-origin"},
+        {"Cross-Origin-Resource-Policy", "same-origin"},
+        {"Cache-Control", "no-store"}};
+}
+
+std::uint64_t HttpApi::body_limit(std::string_view target) {
+    return target.starts_with("/api/import/") ? kLargestImport : kLargestBody;
+}
+
+std::function<HttpReply()> HttpApi::prepare(HttpRequest request) {
+    if (request.method != "POST" || request.target != "/api/slice")
+        return [this, request = std::move(request)] { return handle(request); };
+    const std::string view = view_of_slice(request.body);
+    std::uint64_t ticket = 0;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (newest_slice_.size() >= kMostViews && !newest_slice_.contains(view)) newest_slice_.clear();
+        ticket = newest_slice_[view] = ++next_ticket_;
+    }
+    return [this, request = std::move(request), view, ticket] { return slice(request, ticket, view); };
+}
+
+HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view) {
+    return guarded([&] {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (const auto newest = newest_slice_.find(view); newest != newest_slice_.end() && newest->second > ticket)
+                throw Error(ErrorKind::cancelled, "a later slice of this view was asked for");
+        }
+        return binary(session_.slice(request.body));
+    });
+}
+
+HttpReply HttpApi::handle(const HttpRequest& request) {
+    return guarded([&]() -> HttpReply {
+        const std::optional<Target> target = parse_target(request.target);
+        if (!target) return error_reply(400, "invalid_input", "the address is malformed");
+        if (target->path.starts_with("/api/")) return api(request, *target);
+        return request.method == "GET" ? page_file(target->path) : not_found();
+    });
+}
+
+HttpReply HttpApi::api(const HttpRequest& request, const Target& target) {
+    const bool get = request.method == "GET";
+    const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
+    if (get && below("/api/mesh/")) {
+        const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
+        if (!id || !session_.has_surface(*id)) return not_found();
+        return binary(session_.mesh(*id));
+    }
+    if (get && below("/api/export/")) return exported(target);
+    if (!get && below("/api/import/")) return import(request, target);
+    return not_found();
+}
+
+HttpReply HttpApi::exported(const Target& target) {
+    std::optional<Id> structure;
+    if (const auto text = target.parameter("structure")) {
+        structure = whole_number(*text);
+        if (!structure) throw Error(ErrorKind::invalid_input, "'structure' is not a whole number");
+    }
+    Download download = session_.exported(target.path.substr(std::string_view("/api/export/").size()), structure);
+    return {200,
+            download.content_type,
+            std::move(download.bytes),
+            {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", download.file_name)}}};
+}
+
+HttpReply HttpApi::import(const HttpRequest& request, const Target& target) {
+    const std::string file = target.parameter("name").value_or("");
+    std::vector<Id> ids;
+    if (target.path == "/api/import/contours")
+        ids = session_.import_contours(request.body, known_extension(file, {".mrk.json", ".json", ".dcm"}));
+    else if (target.path == "/api/import/mask")
+        ids = session_.import_mask(request.body, known_extension(file, {".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".mha"}),
+                                   trace_request(target));
+    else return not_found();
+    return {200, "application/json", to_text({{"structures", ids}}), {}};
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "viewer/access.h"
+#include "viewer/session.h"
+
+namespace kontur::viewer {
+
+struct HttpRequest {
+    std::string method;
+    std::string target;
+    std::string body;
+};
+
+struct HttpReply {
+    int status = 200;
+    std::string content_type;
+    std::string body;
+    std::vector<std::pair<std::string, std::string>> headers;  ///< besides those that every reply has
+};
+
+/// HTTP requests, already admitted by `refusal`, to replies. Safe for concurrent use; never throws.
+class HttpApi {
+public:
+    explicit HttpApi(Session& session) : session_(session) {}
+
+    /// Largest body in bytes of a request to this target.
+    static std::uint64_t body_limit(std::string_view target);
+
+    /// To be called when a request has come, before it waits for its turn: of the slices asked for one view, only the
+    /// latest is made. Returns what handles it.
+    std::function<HttpReply()> prepare(HttpRequest request);
+
+private:
+    HttpReply handle(const HttpRequest& request);
+    HttpReply api(const HttpRequest& request, const Target& target);
+    HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view);
+    HttpReply exported(const Target& target);
+    HttpReply import(const HttpRequest& request, const Target& target);
+
+    Session& session_;
+    std::mutex mutex_;
+    std::map<std::string, std::uint64_t> newest_slice_;  ///< by view
+    std::uint64_t next_ticket_ = 0;
+};
+
+/// `{"error": {"kind", "message"}}` with the kind's status.
+HttpReply error_reply(int status, const std::string& kind, const std::string& message);
+
+/// Headers of every reply that the browser enforces (docs/viewer-protocol.md).
+std::vector<std::pair<std::string, std::string>> security_headers(const std::string& host);
+
+}  // namespace kontur::viewer

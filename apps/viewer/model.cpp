@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kontur/base/error.h"
+
+namespace kontur::viewer {
+namespace {
+
+bool all_of_kind(const DrawnContour& contour, Stretch kind) {
+    return std::all_of(contour.control.begin(), contour.control.end(),
+                       [&](const ControlPoint& c) { return c.kind == kind; });
+}
+
+}  // namespace
+
+std::string_view name(Stretch kind) noexcept {
+    switch (kind) {
+        case Stretch::line:
+            return "line";
+        case Stretch::spline:
+            return "spline";
+        case Stretch::wire:
+            return "wire";
+        case Stretch::free:
+            break;
+    }
+    return "free";
+}
+
+std::string_view kind_name(const DrawnContour& contour) noexcept {
+    if (all_of_kind(contour, Stretch::free)) return "freehand";
+    if (all_of_kind(contour, Stretch::spline)) return "spline";
+    if (all_of_kind(contour, Stretch::wire)) return "livewire";
+    return "mixed";
+}
+
+DrawnContour as_drawn(const Contour& contour) {
+    DrawnContour drawn;
+    drawn.plane = contour.plane;
+    drawn.points = contour.points;
+    drawn.hole = contour.hole;
+    if (!drawn.points.empty()) drawn.control.push_back({drawn.points.front(), Stretch::free, 0});
+    return drawn;
+}
+
+ContourSet contour_set(const State& state, Id structure) {
+    ContourSet set;
+    set.name = structure_of(state, structure).name;
+    for (const auto& [id, contour] : state.contours)
+        if (contour->structure == structure) set.contours.push_back({contour->plane, contour->points, true, contour->hole});
+    return set;
+}
+
+const Structure& structure_of(const State& state, Id id) {
+    const auto found = state.structures.find(id);
+    if (found == state.structures.end())
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no structure with the id {}", id));
+    return found->second;
+}
+
+const DrawnContour& contour_of(const State& state, Id id) {
+    const auto found = state.contours.find(id);
+    if (found == state.contours.end())
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no contour with the id {}", id));
+    return *found->second;
+}
+
+}  // namespace kontur::viewer

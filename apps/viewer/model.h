@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kontur/shape/contour.h"
+
+// What a project holds: structures and the contours drawn for them.
+
+namespace kontur::viewer {
+
+/// Of a structure or contour; never used twice in one project.
+using Id = std::int64_t;
+
+/// How the line from one control point to the next was made.
+enum class Stretch { free, line, spline, wire };
+std::string_view name(Stretch kind) noexcept;
+
+/// A point to drag.
+struct ControlPoint {
+    Vec3 at;
+    Stretch kind = Stretch::free;  ///< of the line to the next control point; the last one's leads to the first
+    std::size_t index = 0;         ///< where that line starts in the contour's points; `points[index] == at`
+
+    friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
+};
+
+struct DrawnContour {
+    Id id = 0;
+    Id structure = 0;
+    Plane plane;
+    std::vector<ControlPoint> control;  ///< at least one, by growing index, the first at index 0
+    std::vector<Vec3> points;           ///< the closed polygon in mm, on the plane
+    bool hole = false;
+    bool visible = true;
+
+    friend bool operator==(const DrawnContour&, const DrawnContour&) = default;
+};
+
+/// "freehand", "spline", "livewire" when all stretches are of that kind, else "mixed".
+std::string_view kind_name(const DrawnContour& contour) noexcept;
+
+/// A contour of a file, or drawn by others: one free stretch.
+DrawnContour as_drawn(const Contour& contour);
+
+struct Structure {
+    Id id = 0;
+    std::string name;
+    std::string color = "#e8b04a";  ///< "#rrggbb"
+    bool visible = true;
+
+    friend bool operator==(const Structure&, const Structure&) = default;
+};
+
+/// All of a project at one moment. Contours are shared between moments, so a copy is cheap.
+struct State {
+    std::map<Id, Structure> structures;
+    std::map<Id, std::shared_ptr<const DrawnContour>> contours;
+};
+
+/// The structure's contours as the library takes them, in the order they were made.
+ContourSet contour_set(const State& state, Id structure);
+
+/// Throws Error(invalid_input) naming the id when there is none.
+const Structure& structure_of(const State& state, Id id);
+const DrawnContour& contour_of(const State& state, Id id);
+
+}  // namespace kontur::viewer

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/model_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "kontur/base/error.h"
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kFarthest_mm = 1e6;
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
+
+Vec3 vec3_from(const json& value, const char* key) {
+    if (!value.is_array() || value.size() != 3) refuse(fmt::format("'{}' is not [x, y, z]", key));
+    Vec3 v;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!value[static_cast<std::size_t>(axis)].is_number()) refuse(fmt::format("'{}' is not [x, y, z]", key));
+        v[axis] = value[static_cast<std::size_t>(axis)].get<double>();
+        if (!(std::abs(v[axis]) <= kFarthest_mm))
+            refuse(fmt::format("'{}' has the coordinate {}; the limit is {:g} mm", key, v[axis], kFarthest_mm));
+    }
+    return v;
+}
+
+Vec3 unit_vector(const Members& members, const char* key) {
+    const Vec3 v = members.point(key);
+    if (!(std::abs(norm(v) - 1) <= 1e-3)) refuse(fmt::format("'{}' has length {:g}; 1 is needed", key, norm(v)));
+    // What is a unit vector already keeps its last bits, so that a contour is the same after any number of trips.
+    return std::abs(norm(v) - 1) <= 1e-12 ? v : normalized(v);
+}
+
+void make_orthonormal(Plane& plane) {
+    const double skew = std::max(
+        {std::abs(dot(plane.u, plane.normal)), std::abs(dot(plane.v, plane.normal)), std::abs(dot(plane.u, plane.v))});
+    if (skew <= 1e-12) return;
+    if (!(skew <= 1e-3))
+        refuse(fmt::format("the axes of a plane are not perpendicular: a cosine is {:.2g}; the limit is 0.001", skew));
+    plane.u = normalized(plane.u - dot(plane.u, plane.normal) * plane.normal);
+    const Vec3 v = cross(plane.normal, plane.u);
+    plane.v = dot(v, plane.v) < 0 ? -v : v;
+}
+
+}  // namespace
+
+std::string to_text(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json to_json(const Vec3& v) { return json::array({v.x, v.y, v.z}); }
+
+json to_json(const std::vector<Vec3>& points) {
+    json array = json::array();
+    for (const Vec3& p : points) array.push_back(to_json(p));
+    return array;
+}
+
+json to_json(const Plane& plane) {
+    return {{"origin", to_json(plane.origin)},
+            {"u", to_json(plane.u)},
+            {"v", to_json(plane.v)},
+            {"normal", to_json(plane.normal)}};
+}
+
+json to_json(const Structure& s) { return {{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}}; }
+
+json to_json(const ControlPoint& c) { return {{"at", to_json(c.at)}, {"kind", name(c.kind)}, {"index", c.index}}; }
+
+json to_json(const DrawnContour& c) {
+    json control = json::array();
+    for (const ControlPoint& point : c.control) control.push_back(to_json(point));
+    return {{"id", c.id},
+            {"structure", c.structure},
+            {"kind", kind_name(c)},
+            {"plane", to_json(c.plane)},
+            {"control", std::move(control)},
+            {"points", to_json(c.points)},
+            {"hole", c.hole},
+            {"visible", c.visible}};
+}
+
+Members::Members(const json& object) : object_(object) {
+    if (!object.is_object()) refuse("the message is no JSON object");
+}
+
+bool Members::has(const char* key) const { return object_.contains(key) && !object_[key].is_null(); }
+
+const json& Members::at(const char* key) const {
+    if (!has(key)) refuse(fmt::format("'{}' is missing", key));
+    return object_[key];
+}
+
+double Members::number(const char* key) const {
+    const json& value = at(key);
+    if (!value.is_number()) refuse(fmt::format("'{}' is not a number", key));
+    const double number = value.get<double>();
+    if (!std::isfinite(number)) refuse(fmt::format("'{}' is not finite", key));
+    return number;
+}
+
+double Members::number_or(const char* key, double fallback) const { return has(key) ? number(key) : fallback; }
+
+std::int64_t Members::integer(const char* key, std::int64_t least, std::int64_t most) const {
+    const json& value = at(key);
+    // An unsigned number beyond int64 would wrap; comparing it as a double keeps it out.
+    if (!value.is_number_integer() || value.get<double>() < static_cast<double>(least) ||
+        value.get<double>() > static_cast<double>(most))
+        refuse(fmt::format("'{}' is not a whole number from {} to {}", key, least, most));
+    return value.get<std::int64_t>();
+}
+
+Id Members::id(const char* key) const { return integer(key, 1, kLargestId); }
+
+bool Members::flag(const char* key) const {
+    if (!at(key).is_boolean()) refuse(fmt::format("'{}' is neither true nor false", key));
+    return at(key).get<bool>();
+}
+
+bool Members::flag_or(const char* key, bool fallback) const { return has(key) ? flag(key) : fallback; }
+
+std::string Members::text(const char* key, std::size_t most) const {
+    if (!at(key).is_string()) refuse(fmt::format("'{}' is not a text", key));
+    std::string text = at(key).get<std::string>();
+    if (text.size() > most) refuse(fmt::format("'{}' has {} bytes; the limit is {}", key, text.size(), most));
+    return text;
+}
+
+Vec3 Members::point(const char* key) const { return vec3_from(at(key), key); }
+
+std::vector<Vec3> Members::points(const char* key) const {
+    const json& array = at(key);
+    if (!array.is_array()) refuse(fmt::format("'{}' is not an array of points", key));
+    if (array.size() > kMostPoints)
+        refuse(fmt::format("'{}' has {} points; the limit is {}", key, array.size(), kMostPoints));
+    std::vector<Vec3> points;
+    points.reserve(array.size());
+    for (const json& item : array) points.push_back(vec3_from(item, key));
+    return points;
+}
+
+Plane Members::plane(const char* key) const {
+    const Members members(at(key));
+    Plane plane{members.point("origin"), unit_vector(members, "normal"), unit_vector(members, "u"),
+                unit_vector(members, "v")};
+    make_orthonormal(plane);
+    return plane;
+}
+
+Stretch Members::stretch(const char* key) const {
+    const std::string word = text(key, 16);
+    for (const Stretch kind : {Stretch::free, Stretch::line, Stretch::spline, Stretch::wire})
+        if (word == name(kind)) return kind;
+    refuse(fmt::format("'{}' is none of free, line, spline and wire", key));
+}
+
+std::string Members::color(const char* key) const {
+    const std::string color = text(key, 7);
+    const auto is_hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
+    if (color.size() != 7 || color[0] != '#' || !std::all_of(color.begin() + 1, color.end(), is_hex))
+        refuse(fmt::format("'{}' is no colour like #e8b04a", key));
+    return color;
+}
+
+Structure structure_from_json(const json& value) {
+    const Members m(value);
+    return {m.id("id"), m.text("name", 200), m.color("color"), m.flag("visible")};
+}
+
+DrawnContour contour_from_json(const json& value) {
+    const Members m(value);
+    DrawnContour c;
+    c.id = m.id("id");
+    c.structure = m.id("structure");
+    c.plane = m.plane("plane");
+    c.points = m.points("points");
+    c.hole = m.flag("hole");
+    c.visible = m.flag("visible");
+    if (!m.at("control").is_array() || m.at("control").empty()) refuse("a contour has no control points");
+    for (const json& item : m.at("control")) {
+        const Members point(item);
+        const auto last = static_cast<std::int64_t>(c.points.size()) - 1;
+        const std::int64_t least = c.control.empty() ? 0 : static_cast<std::int64_t>(c.control.back().index) + 1;
+        c.control.push_back({point.point("at"), point.stretch("kind"),
+                             static_cast<std::size_t>(point.integer("index", least, c.control.empty() ? 0 : last))});
+    }
+    return c;
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "viewer/model.h"
+
+// The model as JSON, the same in project files and in messages to the page (docs/viewer-protocol.md). Reading refuses what
+// is missing, of another type, not finite or beyond a limit by Error(invalid_input), which names the member.
+
+namespace kontur::viewer {
+
+constexpr Id kLargestId = Id{1} << 53;        ///< JavaScript's whole numbers end here
+constexpr std::size_t kMostPoints = 100'000;  ///< of one contour
+
+/// In one line; bytes that are no UTF-8 (names from files) become replacement characters.
+std::string to_text(const nlohmann::json& value);
+
+nlohmann::json to_json(const Vec3& v);
+nlohmann::json to_json(const std::vector<Vec3>& points);
+nlohmann::json to_json(const Plane& plane);
+nlohmann::json to_json(const Structure& structure);
+nlohmann::json to_json(const ControlPoint& point);
+nlohmann::json to_json(const DrawnContour& contour);
+
+Structure structure_from_json(const nlohmann::json& value);
+DrawnContour contour_from_json(const nlohmann::json& value);
+
+/// Typed access to the members of one object.
+class Members {
+public:
+    explicit Members(const nlohmann::json& object);
+
+    bool has(const char* key) const;
+    const nlohmann::json& at(const char* key) const;
+    double number(const char* key) const;
+    double number_or(const char* key, double fallback) const;
+    /// A whole number between the two.
+    std::int64_t integer(const char* key, std::int64_t least, std::int64_t most) const;
+    Id id(const char* key) const;
+    bool flag(const char* key) const;
+    bool flag_or(const char* key, bool fallback) const;
+    /// At most `most` bytes of UTF-8 (nlohmann's parser has checked that it is).
+    std::string text(const char* key, std::size_t most) const;
+    Vec3 point(const char* key) const;
+    std::vector<Vec3> points(const char* key) const;
+    /// An orthonormal plane; cosines up to 1e-3 off are corrected.
+    Plane plane(const char* key) const;
+    Stretch stretch(const char* key) const;
+    std::string color(const char* key) const;
+
+private:
+    const nlohmann::json& object_;
+};
+
+}  // namespace kontur::viewer

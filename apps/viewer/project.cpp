@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/project.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kontur/base/error.h"
+#include "viewer/model_json.h"
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kApplicationId = 0x6b6f6e74;  // "kont"
+constexpr int kVersion = 1;
+
+constexpr const char* kSchema =
+    "CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE structure (id INTEGER PRIMARY KEY, data TEXT NOT NULL);"
+    "CREATE TABLE contour (id INTEGER PRIMARY KEY, data TEXT NOT NULL);"
+    "CREATE TABLE history (number INTEGER PRIMARY KEY, label TEXT NOT NULL, time TEXT NOT NULL, changes TEXT NOT NULL);";
+
+Structure row_from(const json& value, const Structure*) { return structure_from_json(value); }
+DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value); }
+
+template <class Row>
+json to_json(const std::vector<Change<Row>>& changes) {
+    json array = json::array();
+    for (const Change<Row>& change : changes) {
+        json item{{"id", change.id}};
+        if (change.before) item["before"] = viewer::to_json(*change.before);
+        if (change.after) item["after"] = viewer::to_json(*change.after);
+        array.push_back(std::move(item));
+    }
+    return array;
+}
+
+template <class Row>
+std::vector<Change<Row>> changes_from(const json& array) {
+    std::vector<Change<Row>> changes;
+    for (const json& item : array) {
+        Change<Row> change;
+        change.id = Members(item).id("id");
+        if (item.contains("before")) change.before = row_from(item["before"], static_cast<Row*>(nullptr));
+        if (item.contains("after")) change.after = row_from(item["after"], static_cast<Row*>(nullptr));
+        changes.push_back(std::move(change));
+    }
+    return changes;
+}
+
+template <class Row>
+void turn_back(std::vector<Change<Row>>& changes) {
+    for (Change<Row>& change : changes) std::swap(change.before, change.after);
+}
+
+/// `body()`, with everything that JSON or our own checks find wrong told as damage of the file.
+template <class Body>
+auto reading(const Database& database, Body body) {
+    const auto damaged = [&](const char* reason) {
+        return Error(ErrorKind::corrupt_file, fmt::format("{} is damaged: {}", database.path().string(), reason));
+    };
+    try {
+        return body();
+    } catch (const json::exception& error) {
+        throw damaged(error.what());
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::invalid_input) throw damaged(error.what());
+        throw;
+    }
+}
+
+template <class Row>
+void write_rows(Database& database, const std::vector<Change<Row>>& changes, const char* set, const char* remove) {
+    for (const Change<Row>& change : changes) {
+        if (change.after) Query(database, set).bind(change.id).bind(to_text(viewer::to_json(*change.after))).finish();
+        else Query(database, remove).bind(change.id).finish();
+    }
+}
+
+void check_format(Database& database) {
+    if (database.number("PRAGMA application_id") != kApplicationId)
+        throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", database.path().string()));
+    if (const std::int64_t version = database.number("PRAGMA user_version"); version != kVersion)
+        throw Error(ErrorKind::unsupported,
+                    fmt::format("{} was written by a newer kontur: its version is {}, {} is supported",
+                                database.path().string(), version, kVersion));
+}
+
+bool is_empty(Database& database) { return database.number("SELECT count(*) FROM sqlite_schema") == 0; }
+
+}  // namespace
+
+Project::Project(const std::filesystem::path& path, const ImageReference& image) : database_(path) {
+    if (is_empty(database_)) create(image);
+    else check_format(database_);
+    load();
+}
+
+void Project::create(const ImageReference& image) {
+    Transaction transaction(database_);
+    database_.run(
+        fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; {}", kApplicationId, kVersion, kSchema).c_str());
+    save_setting("position", "0");
+    save_setting("next_id", "1");
+    save_setting("page", "null");
+    save_image(image);
+    transaction.commit();
+    is_new_ = true;
+}
+
+void Project::load() {
+    reading(database_, [&] {
+        image_ = {setting("image_path"), setting("image_fingerprint")};
+        const json numbers{{"position", json::parse(setting("position"))}, {"next_id", json::parse(setting("next_id"))}};
+        position_ = Members(numbers).integer("position", 0, kLargestId - 1);
+        next_id_ = Members(numbers).id("next_id");
+        for (Query rows(database_, "SELECT data FROM structure"); rows.next();) {
+            const Structure structure = structure_from_json(json::parse(rows.text(0)));
+            state_.structures[structure.id] = structure;
+        }
+        for (Query rows(database_, "SELECT data FROM contour"); rows.next();) {
+            auto contour = std::make_shared<const DrawnContour>(contour_from_json(json::parse(rows.text(0))));
+            structure_of(state_, contour->structure);
+            state_.contours[contour->id] = std::move(contour);
+        }
+    });
+}
+
+std::string Project::setting(std::string_view key) {
+    Query query(database_, "SELECT value FROM setting WHERE key = ?1");
+    return query.bind(key).next() ? query.text(0) : std::string();
+}
+
+void Project::save_setting(std::string_view key, std::string_view value) {
+    Query(database_, "INSERT OR REPLACE INTO setting VALUES (?1, ?2)").bind(key).bind(value).finish();
+}
+
+void Project::save_image(const ImageReference& image) {
+    save_setting("image_path", image.path);
+    save_setting("image_fingerprint", image.fingerprint);
+    image_ = image;
+}
+
+std::string Project::page_state() { return setting("page"); }
+void Project::save_page_state(std::string_view text) { save_setting("page", text); }
+
+void Project::commit(const Commit& commit) {
+    const json changes{{"structures", to_json(commit.structures)}, {"contours", to_json(commit.contours)}};
+    Transaction transaction(database_);
+    Query(database_, "DELETE FROM history WHERE number > ?1").bind(position_).finish();
+    Query(database_, "INSERT INTO history VALUES (?1, ?2, datetime('now'), ?3)")
+        .bind(position_ + 1)
+        .bind(commit.label)
+        .bind(to_text(changes))
+        .finish();
+    store(commit, position_ + 1);
+    transaction.commit();
+    ++position_;
+    apply(commit);
+}
+
+std::optional<Commit> Project::undo() {
+    std::optional<Commit> commit = step(position_);
+    if (!commit) return std::nullopt;
+    turn_back(commit->structures);
+    turn_back(commit->contours);
+    Transaction transaction(database_);
+    store(*commit, position_ - 1);
+    transaction.commit();
+    --position_;
+    apply(*commit);
+    return commit;
+}
+
+std::optional<Commit> Project::redo() {
+    std::optional<Commit> commit = step(position_ + 1);
+    if (!commit) return std::nullopt;
+    Transaction transaction(database_);
+    store(*commit, position_ + 1);
+    transaction.commit();
+    ++position_;
+    apply(*commit);
+    return commit;
+}
+
+std::optional<std::string> Project::label(std::int64_t number) {
+    Query query(database_, "SELECT label FROM history WHERE number = ?1");
+    if (!query.bind(number).next()) return std::nullopt;
+    return query.text(0);
+}
+
+std::optional<std::string> Project::undo_label() { return label(position_); }
+std::optional<std::string> Project::redo_label() { return label(position_ + 1); }
+
+std::optional<Commit> Project::step(std::int64_t number) {
+    Query query(database_, "SELECT label, changes FROM history WHERE number = ?1");
+    if (!query.bind(number).next()) return std::nullopt;
+    return reading(database_, [&] {
+        const json changes = json::parse(query.text(1));
+        return Commit{query.text(0), changes_from<Structure>(changes.at("structures")),
+                      changes_from<DrawnContour>(changes.at("contours"))};
+    });
+}
+
+void Project::store(const Commit& commit, std::int64_t new_position) {
+    write_rows(database_, commit.structures, "INSERT OR REPLACE INTO structure VALUES (?1, ?2)",
+               "DELETE FROM structure WHERE id = ?1");
+    write_rows(database_, commit.contours, "INSERT OR REPLACE INTO contour VALUES (?1, ?2)",
+               "DELETE FROM contour WHERE id = ?1");
+    save_setting("position", std::to_string(new_position));
+    save_setting("next_id", std::to_string(next_id_));
+}
+
+void Project::apply(const Commit& commit) {
+    for (const auto& change : commit.structures) {
+        if (change.after) state_.structures[change.id] = *change.after;
+        else state_.structures.erase(change.id);
+    }
+    for (const auto& change : commit.contours) {
+        if (change.after) state_.contours[change.id] = std::make_shared<const DrawnContour>(*change.after);
+        else state_.contours.erase(change.id);
+    }
+}
+
+ImageReference image_of_project(const std::filesystem::path& path) {
+    if (!std::filesystem::is_regular_file(path) || std::filesystem::file_size(path) == 0)
+        throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", path.string()));
+    return Project(path, {}).image();
+}
+
+}  // namespace kontur::viewer

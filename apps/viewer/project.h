@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viewer/database.h"
+#include "viewer/model.h"
+
+namespace kontur::viewer {
+
+/// One row before and after an edit; `before` is empty for what the edit made, `after` for what it removed.
+template <class Row>
+struct Change {
+    Id id = 0;
+    std::optional<Row> before, after;
+};
+
+/// One step of the history.
+struct Commit {
+    std::string label;  ///< what the user did, as in "Undo: LABEL"
+    std::vector<Change<Structure>> structures;
+    std::vector<Change<DrawnContour>> contours;
+
+    bool is_empty() const { return structures.empty() && contours.empty(); }
+};
+
+/// Which image a project belongs to.
+struct ImageReference {
+    std::string path;         ///< where it was, or "phantom"
+    std::string fingerprint;  ///< of its geometry and voxels
+};
+
+/// A project file: the present state, every step that led there and every step that was undone, and the image's name. What
+/// a call has stored when it returns survives the loss of the process. Only the present state is in memory, so a long
+/// history costs nothing. Not safe for concurrent use.
+class Project {
+public:
+    /// Opens the file, or creates it for `image`. Throws Error(io) when another process has it open or it cannot be
+    /// written, Error(corrupt_file) when it is no project or damaged, Error(unsupported) for one of a newer kontur.
+    Project(const std::filesystem::path& path, const ImageReference& image);
+
+    const std::filesystem::path& path() const { return database_.path(); }
+    const State& state() const { return state_; }
+    const ImageReference& image() const { return image_; }
+    /// Whether the constructor made the file.
+    bool is_new() const { return is_new_; }
+
+    /// An id for the next structure or contour.
+    Id new_id() { return next_id_++; }
+
+    /// Stores the step, drops what was undone before, and makes `after` present. Nothing changes when it throws.
+    void commit(const Commit& commit);
+    /// Goes back or forward one step and returns what that changed, `before` and `after` in the direction of the move;
+    /// nothing at the end of the history.
+    std::optional<Commit> undo();
+    std::optional<Commit> redo();
+    /// What undo and redo would do; empty at the end of the history.
+    std::optional<std::string> undo_label();
+    std::optional<std::string> redo_label();
+
+    /// The page's own settings: a JSON text that nobody here looks into. Not part of the history.
+    std::string page_state();
+    void save_page_state(std::string_view json);
+    void save_image(const ImageReference& image);
+
+    /// A copy as a new file; the target must not exist.
+    void copy_to(const std::filesystem::path& target) { database_.copy_to(target); }
+
+private:
+    void create(const ImageReference& image);
+    void load();
+    std::string setting(std::string_view key);
+    void save_setting(std::string_view key, std::string_view value);
+    std::optional<std::string> label(std::int64_t number);
+    std::optional<Commit> step(std::int64_t number);
+    void store(const Commit& commit, std::int64_t new_position);
+    void apply(const Commit& commit);
+
+    Database database_;
+    ImageReference image_;
+    State state_;
+    std::int64_t position_ = 0;  ///< number of the last step that counts
+    Id next_id_ = 1;
+    bool is_new_ = false;
+};
+
+/// Which image an existing project was drawn on. Throws as the constructor does.
+ImageReference image_of_project(const std::filesystem::path& path);
+
+}  // namespace kontur::viewer

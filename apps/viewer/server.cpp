@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/server.h"
+
+#include <fmt/format.h>
+
+#include <utility>  // before Asio 1.18, which uses std::exchange without including it
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <set>
+
+#include "kontur/base/error.h"
+#include "viewer/access.h"
+#include "viewer/http_api.h"
+
+// The one file that includes Boost.Beast, which is slow to compile. All of its objects live on one network thread; what
+// takes time runs on thread pools and posts its result back.
+
+namespace kontur::viewer {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLargestHeader = 8 << 10;
+constexpr std::size_t kLargestMessage = 4 << 20;
+constexpr std::size_t kMostUnsentBytes = 64 << 20;  ///< a page that takes less of what it is told is cut off
+constexpr std::size_t kBytesPerSecond = 1 << 20;    ///< least speed of long bodies
+constexpr std::size_t kMostDrained = 1 << 20;
+constexpr int kWorkers = 4;
+constexpr const char* kSocket = "/api/socket";
+
+std::string text(beast::string_view view) { return {view.data(), view.size()}; }
+
+class PageSocket;
+
+}  // namespace
+
+/// What all connections share.
+struct ServerCore {
+    ServerCore(Session& its_session, const ServerOptions& its_options)
+        : session(its_session), api(its_session), options(its_options), last_use(Clock::now()), acceptor(io), clock(io) {}
+
+    Session& session;
+    HttpApi api;
+    ServerOptions options;
+    Access access;
+    std::set<PageSocket*> sockets;
+    int connections = 0;
+    Clock::time_point last_use;
+    asio::io_context io{1};  ///< destroyed before what the connections refer to in their destructors
+    tcp::acceptor acceptor;
+    asio::steady_timer clock;
+    asio::thread_pool calls{1};        ///< messages of the pages, in order
+    asio::thread_pool work{kWorkers};  ///< slices, meshes, files
+
+    void accept();
+    void tick();
+    void broadcast(const std::string& message);
+    void stop();
+};
+
+namespace {
+
+/// Counts a connection for as long as it lives.
+class Slot {
+public:
+    explicit Slot(ServerCore& core) : core_(&core) { ++core.connections; }
+    Slot(Slot&& other) noexcept : core_(std::exchange(other.core_, nullptr)) {}
+    Slot& operator=(Slot&&) = delete;
+    ~Slot() {
+        if (core_) --core_->connections;
+    }
+
+private:
+    ServerCore* core_;
+};
+
+/// One open page: messages in, one at a time, and replies and events out.
+class PageSocket : public std::enable_shared_from_this<PageSocket> {
+public:
+    PageSocket(ServerCore& core, Slot slot, tcp::socket socket)
+        : core_(core), slot_(std::move(slot)), stream_(std::move(socket)), buffer_(kLargestMessage) {}
+    ~PageSocket() { core_.sockets.erase(this); }
+
+    void accept(const http::request<http::string_body>& request) {
+        stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), std::chrono::seconds(60), true});
+        stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+            response.set(http::field::sec_websocket_protocol, "kontur");
+            response.set(http::field::server, "kontur");
+        }));
+        stream_.read_message_max(kLargestMessage);
+        stream_.auto_fragment(false);
+        stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+            if (!error) self->greet();
+        });
+    }
+
+    /// Events wait until the page has been greeted.
+    void tell(const std::shared_ptr<const std::string>& message) {
+        if (is_greeted_) send(message);
+        else held_back_.push_back(message);
+    }
+
+private:
+    void greet() {
+        core_.sockets.insert(this);
+        asio::post(core_.calls, [self = shared_from_this()] {
+            auto greeting = std::make_shared<const std::string>(self->core_.session.greeting());
+            asio::post(self->core_.io, [self, greeting] {
+                self->is_greeted_ = true;
+                self->send(greeting);
+                for (const auto& message : self->held_back_) self->send(message);
+                self->held_back_.clear();
+                self->read();
+            });
+        });
+    }
+
+    void read() {
+        if (is_closing_) return;
+        stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+            self->core_.last_use = Clock::now();
+            if (!error) self->take();
+            else self->core_.sockets.erase(self.get());
+        });
+    }
+
+    /// The next message is read only when this one is answered, so a flood waits in the sender's socket.
+    void take() {
+        if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
+        asio::post(core_.calls, [self = shared_from_this(), message = beast::buffers_to_string(buffer_.data())] {
+            auto reply = std::make_shared<const std::string>(self->core_.session.call(message));
+            asio::post(self->core_.io, [self, reply] {
+                self->send(reply);
+                self->read();
+            });
+        });
+        buffer_.consume(buffer_.size());
+    }
+
+    void send(const std::shared_ptr<const std::string>& message) {
+        if (is_closing_) return;
+        unsent_bytes_ += message->size();
+        if (unsent_bytes_ > kMostUnsentBytes) return cut_off();
+        unsent_.push_back(message);
+        if (unsent_.size() == 1) write();
+    }
+
+    void write() {
+        stream_.text(true);
+        stream_.async_write(asio::buffer(*unsent_.front()),
+                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                                if (error) return self->cut_off();
+                                self->unsent_bytes_ -= self->unsent_.front()->size();
+                                self->unsent_.pop_front();
+                                if (!self->unsent_.empty()) self->write();
+                            });
+    }
+
+    void close(websocket::close_code reason) {
+        is_closing_ = true;
+        core_.sockets.erase(this);
+        stream_.async_close(reason, [self = shared_from_this()](beast::error_code) {});
+    }
+
+    void cut_off() {
+        is_closing_ = true;
+        core_.sockets.erase(this);
+        beast::error_code ignored;
+        stream_.next_layer().socket().close(ignored);
+    }
+
+    ServerCore& core_;
+    Slot slot_;
+    websocket::stream<beast::tcp_stream> stream_;
+    beast::flat_buffer buffer_;
+    bool is_greeted_ = false, is_closing_ = false;
+    std::vector<std::shared_ptr<const std::string>> held_back_;
+    std::deque<std::shared_ptr<const std::string>> unsent_;
+    std::size_t unsent_bytes_ = 0;
+};
+
+/// One HTTP connection: a request at a time; becomes a PageSocket by an upgrade.
+class Connection : public std::enable_shared_from_this<Connection> {
+public:
+    Connection(ServerCore& core, tcp::socket socket)
+        : core_(core), slot_(core), stream_(std::move(socket)), buffer_(128 << 10) {}
+
+    void wait_for_request(std::chrono::seconds patience) {
+        parser_.emplace();
+        parser_->header_limit(kLargestHeader);
+        // Checked again, by target, once the header is known; the parser would refuse imports by its own limit.
+        parser_->body_limit(HttpApi::body_limit("/api/import/"));
+        stream_.expires_after(patience);
+        http::async_read_header(stream_, buffer_, *parser_,
+                                [self = shared_from_this()](beast::error_code error, std::size_t) {
+                                    self->core_.last_use = Clock::now();
+                                    if (error) self->refuse_header(error);
+                                    else self->check_header();
+                                });
+    }
+
+private:
+    using Request = http::request<http::string_body>;
+
+    static std::vector<std::string> values(const Request& request, http::field field) {
+        std::vector<std::string> found;
+        const auto range = request.equal_range(field);
+        for (auto it = range.first; it != range.second; ++it) found.push_back(text(it->value()));
+        return found;
+    }
+
+    static RequestHead head_of(const Request& request) {
+        return {text(request.method_string()),
+                text(request.target()),
+                values(request, http::field::host),
+                values(request, http::field::origin),
+                values(request, http::field::authorization),
+                values(request, http::field::sec_websocket_protocol),
+                websocket::is_upgrade(request)};
+    }
+
+    void refuse_header(beast::error_code error) {
+        if (error == http::error::header_limit || error == http::error::buffer_overflow)
+            return finish_with(error_reply(431, "too_large", "the request's header is larger than 8 KiB"));
+        if (error == http::error::body_limit)
+            return finish_with(error_reply(413, "too_large", "the request's body is too large"));
+        const bool is_malformed = error.category() == http::make_error_code(http::error::bad_method).category();
+        if (is_malformed && error != http::error::end_of_stream && error != http::error::partial_message)
+            return finish_with(error_reply(400, "invalid_input", "this is no HTTP request"));
+        end();
+    }
+
+    void check_header() {
+        const Request& request = parser_->get();
+        const RequestHead head = head_of(request);
+        if (const auto refused = refusal(head, core_.access))
+            return finish_with(error_reply(refused->status, refused->kind, refused->message));
+        host_ = head.host.front();
+        const bool is_socket = head.target == kSocket;
+        if (head.is_upgrade != is_socket)
+            return finish_with(error_reply(404, "not_found", "there is nothing at this address"));
+        if (is_socket) return upgrade();
+
+        const std::uint64_t limit = HttpApi::body_limit(head.target), length = parser_->content_length().value_or(0);
+        if (length > limit)
+            return finish_with(error_reply(413, "too_large",
+                                           fmt::format("the request's body has {} bytes; the limit is {}", length, limit)));
+        parser_->body_limit(limit);
+        stream_.expires_after(
+            std::chrono::seconds(core_.options.request_timeout_s + static_cast<long>(length / kBytesPerSecond)));
+        http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+            if (error) self->refuse_header(error);
+            else self->work();
+        });
+    }
+
+    void upgrade() {
+        stream_.expires_never();
+        const auto socket = std::make_shared<PageSocket>(core_, std::move(slot_), stream_.release_socket());
+        socket->accept(parser_->get());
+    }
+
+    void work() {
+        Request request = parser_->release();
+        keep_alive_ = request.keep_alive();
+        auto make = core_.api.prepare({text(request.method_string()), text(request.target()), std::move(request.body())});
+        asio::post(core_.work, [self = shared_from_this(), make = std::move(make)] {
+            auto reply = std::make_shared<HttpReply>(make());
+            asio::post(self->core_.io, [self, reply] { self->reply(std::move(*reply)); });
+        });
+    }
+
+    void finish_with(HttpReply refusal) {
+        keep_alive_ = false;
+        reply(std::move(refusal));
+    }
+
+    void reply(HttpReply reply) {
+        core_.last_use = Clock::now();
+        response_ = {};
+        response_.version(11);
+        response_.result(static_cast<unsigned>(reply.status));
+        response_.set(http::field::server, "kontur");
+        response_.set(http::field::content_type, reply.content_type);
+        for (const auto& [key, value] : security_headers(host_)) response_.set(key, value);
+        for (const auto& [key, value] : reply.headers) response_.set(key, value);
+        response_.keep_alive(keep_alive_);
+        const std::size_t size = reply.body.size();
+        response_.body() = std::move(reply.body);
+        response_.prepare_payload();
+        stream_.expires_after(
+            std::chrono::seconds(core_.options.reply_timeout_s + static_cast<long>(size / kBytesPerSecond)));
+        http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+            if (error) return;
+            if (self->keep_alive_) self->wait_for_request(std::chrono::seconds(self->core_.options.keep_alive_s));
+            else self->end();
+        });
+    }
+
+    /// Closes without a reset, which would take the reply from a client that is still sending.
+    void end() {
+        beast::error_code ignored;
+        stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+        stream_.expires_after(std::chrono::seconds(2));
+        drain();
+    }
+
+    void drain() {
+        buffer_.consume(buffer_.size());
+        stream_.async_read_some(buffer_.prepare(64 << 10),
+                                [self = shared_from_this()](beast::error_code error, std::size_t count) {
+                                    self->drained_ += count;
+                                    if (!error && self->drained_ < kMostDrained) self->drain();
+                                });
+    }
+
+    ServerCore& core_;
+    Slot slot_;
+    beast::tcp_stream stream_;
+    beast::flat_buffer buffer_;
+    std::optional<http::request_parser<http::string_body>> parser_;
+    http::response<http::string_body> response_;
+    std::string host_ = "127.0.0.1";
+    bool keep_alive_ = false;
+    std::size_t drained_ = 0;
+};
+
+}  // namespace
+
+void ServerCore::accept() {
+    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+        if (!acceptor.is_open()) return;
+        if (!error && connections < options.most_connections) {
+            beast::error_code ignored;
+            socket.set_option(tcp::no_delay(true), ignored);
+            std::make_shared<Connection>(*this, std::move(socket))
+                ->wait_for_request(std::chrono::seconds(options.request_timeout_s));
+        }
+        accept();
+    });
+}
+
+void ServerCore::tick() {
+    clock.expires_after(std::chrono::milliseconds(250));
+    clock.async_wait([this](beast::error_code error) {
+        if (error) return;
+        if (!sockets.empty()) last_use = Clock::now();
+        if (options.idle_timeout_s > 0 && Clock::now() - last_use > std::chrono::seconds(options.idle_timeout_s)) stop();
+        else tick();
+    });
+}
+
+void ServerCore::broadcast(const std::string& message) {
+    asio::post(io, [this, shared = std::make_shared<const std::string>(message)] {
+        const std::set<PageSocket*> now = sockets;  // telling one may remove it
+        for (PageSocket* socket : now) socket->tell(shared);
+    });
+}
+
+void ServerCore::stop() {
+    beast::error_code ignored;
+    acceptor.close(ignored);
+    io.stop();
+}
+
+Server::Server(Session& session, const ServerOptions& options) : core_(std::make_unique<ServerCore>(session, options)) {
+    core_->access.token = options.token.empty() ? random_token() : options.token;
+    const tcp::endpoint endpoint(asio::ip::address_v4::loopback(), options.port);
+    beast::error_code error;
+    core_->acceptor.open(endpoint.protocol(), error);
+    if (!error) core_->acceptor.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) core_->acceptor.bind(endpoint, error);
+    if (!error) core_->acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error) throw Error(ErrorKind::io, fmt::format("cannot listen on 127.0.0.1:{}: {}", options.port, error.message()));
+    core_->access.port = core_->acceptor.local_endpoint().port();
+    session.on_event([core = core_.get()](const std::string& message) { core->broadcast(message); });
+}
+
+Server::~Server() {
+    core_->session.on_event({});
+    for (asio::thread_pool* pool : {&core_->calls, &core_->work}) {
+        pool->stop();  // what waits is dropped, what runs is finished
+        pool->join();
+    }
+}
+
+std::string Server::address() const {
+    return fmt::format("http://127.0.0.1:{}/#{}", core_->access.port, core_->access.token);
+}
+
+void Server::run() {
+    core_->accept();
+    core_->tick();
+    core_->io.run();
+}
+
+void Server::stop() {
+    asio::post(core_->io, [core = core_.get()] { core->stop(); });
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "kontur/base/error.h"
+#include "viewer/contour_edits.h"
+#include "viewer/model_json.h"
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostControlPoints = 10'000;
+constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kLargestPageState = 64 << 10;
+
+/// Told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
+constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7"};
+
+json error_json(std::string_view kind, std::string_view message) {
+    return {{"kind", std::string(kind)}, {"message", std::string(message)}};
+}
+
+double snap_radius_mm(const Members& m) {
+    // Eight screen pixels are what a hand aims with.
+    return m.has("mm_per_pixel") ? 8 * std::clamp(m.number("mm_per_pixel"), 1e-3, 100.0) : SketchOptions{}.snap_radius_mm;
+}
+
+SketchPoint sketch_point(const json& item) {
+    const Members m(item);
+    SketchPoint point{m.point("at"), m.stretch("kind"), {}};
+    if (!m.has("path")) return point;
+    std::vector<Vec3> line = m.points("path");
+    line.insert(line.begin(), point.at);
+    line = thinned(line, 0.1);
+    point.path.emplace(line.begin() + 1, line.end());
+    return point;
+}
+
+std::vector<SketchPoint> sketch_from(const Members& m) {
+    const json& array = m.at("control");
+    if (!array.is_array() || array.empty() || array.size() > kMostControlPoints)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("'control' is no array of 1 to {} control points", kMostControlPoints));
+    std::vector<SketchPoint> sketch;
+    for (const json& item : array) sketch.push_back(sketch_point(item));
+    return sketch;
+}
+
+std::vector<Id> ids_from(const Members& m) {
+    const json& array = m.at("ids");
+    if (!array.is_array()) throw Error(ErrorKind::invalid_input, "'ids' is no array");
+    std::set<Id> ids;
+    for (const json& item : array) ids.insert(Members(json{{"ids", item}}).id("ids"));
+    return {ids.begin(), ids.end()};
+}
+
+Commit one_contour(const std::string& label, const State& state, const DrawnContour& after) {
+    Change<DrawnContour> change{after.id, {}, after};
+    if (const auto before = state.contours.find(after.id); before != state.contours.end()) change.before = *before->second;
+    return {label, {}, {change}};
+}
+
+Change<DrawnContour> removal(const DrawnContour& contour) { return {contour.id, contour, {}}; }
+
+template <class Row>
+json changes_json(const std::vector<Change<Row>>& changes) {
+    json set = json::array(), removed = json::array();
+    for (const Change<Row>& change : changes) {
+        if (change.after) set.push_back(to_json(*change.after));
+        else removed.push_back(change.id);
+    }
+    return {{"set", std::move(set)}, {"removed", std::move(removed)}};
+}
+
+json view_json(const View& view) {
+    return {{"plane", to_json(view.plane)},
+            {"step_mm", view.step_mm},
+            {"width_mm", view.width_mm},
+            {"height_mm", view.height_mm},
+            {"range_mm", {view.from_mm, view.to_mm}}};
+}
+
+json views_json(const Grid& grid) {
+    return {{"axial", view_json(view_of(grid, SliceKind::axial))},
+            {"sagittal", view_json(view_of(grid, SliceKind::sagittal))},
+            {"coronal", view_json(view_of(grid, SliceKind::coronal))},
+            {"oblique", view_json(oblique_view(grid))}};
+}
+
+json corners_json(const Grid& grid) {
+    json corners = json::array();
+    for (const Vec3& corner : outer_corners(grid)) corners.push_back(to_json(corner));
+    return corners;
+}
+
+/// Whether both ask the same of the surface.
+bool same_surface(const DrawnContour& a, const DrawnContour& b) {
+    return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure;
+}
+
+std::string free_name(const State& state) {
+    for (std::size_t number = state.structures.size() + 1;; ++number) {
+        std::string name = fmt::format("Structure {}", number);
+        const bool taken = std::any_of(state.structures.begin(), state.structures.end(),
+                                       [&](const auto& item) { return item.second.name == name; });
+        if (!taken) return name;
+    }
+}
+
+std::string next_color(const State& state) {
+    std::array<int, kColors.size()> uses{};
+    for (const auto& [id, structure] : state.structures)
+        for (std::size_t i = 0; i < kColors.size(); ++i) uses[i] += structure.color == kColors[i];
+    return kColors[static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin())];
+}
+
+}  // namespace
+
+Session::Session(OpenedImage opened, const std::filesystem::path& project)
+    : image_(std::move(opened.image)),
+      title_(std::move(opened.title)),
+      notes_(std::move(opened.notes)),
+      mm_to_index_(image_->grid.index_to_mm.inverse()),
+      presets_(window_presets(*image_)),
+      window_(suggest_window(*image_)),
+      range_(value_range(*image_)),
+      edges_(image_),
+      project_(project, opened.reference),
+      surfaces_({[this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
+                 [this](const std::string& text) {
+                     tell({{"event", "status"}, {"text", text}, {"fraction", nullptr}});
+                 }}) {
+    if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
+    if (project_.image().path != opened.reference.path) project_.save_image(opened.reference);
+    for (const auto& [id, structure] : project_.state().structures) follow(id);
+}
+
+Session::~Session() = default;
+
+State Session::state() const {
+    const std::scoped_lock lock(mutex_);
+    return project_.state();
+}
+
+void Session::on_event(std::function<void(const std::string&)> listener) {
+    const std::scoped_lock lock(listener_mutex_);
+    listener_ = std::move(listener);
+}
+
+void Session::tell(const json& event) {
+    const std::scoped_lock lock(listener_mutex_);
+    if (listener_) listener_(to_text(event));
+}
+
+void Session::notice(std::string_view level, const std::string& text) {
+    tell({{"event", "notice"}, {"level", std::string(level)}, {"text", text}});
+}
+
+std::string Session::greeting() {
+    const std::scoped_lock lock(mutex_);
+    json structures = json::array(), contours = json::array(), surfaces = json::array(), presets = json::array();
+    for (const auto& [id, structure] : project_.state().structures) structures.push_back(to_json(structure));
+    for (const auto& [id, contour] : project_.state().contours) contours.push_back(to_json(*contour));
+    for (const auto& [id, surface] : surfaces_.all())
+        if (project_.state().structures.contains(id)) surfaces.push_back(surface_event(*surface));
+    for (const WindowPreset& preset : presets_)
+        presets.push_back({{"name", preset.name}, {"center", preset.window.center}, {"width", preset.window.width}});
+    const Grid& grid = image_->grid;
+    return to_text({{"event", "session"},
+                    {"version", KONTUR_VERSION},
+                    {"title", title_},
+                    {"project", project_.path().filename().string()},
+                    {"image",
+                     {{"size", {grid.size.i, grid.size.j, grid.size.k}},
+                      {"spacing_mm", to_json(grid.spacing_mm())},
+                      {"corners", corners_json(grid)},
+                      {"center", to_json(grid.bounds_mm().center())},
+                      {"unit", looks_like_ct(*image_) ? "HU" : ""},
+                      {"range", {range_.first, range_.second}},
+                      {"notes", notes_}}},
+                    {"window", {{"center", window_.center}, {"width", window_.width}}},
+                    {"presets", presets},
+                    {"views", views_json(grid)},
+                    {"structures", structures},
+                    {"contours", contours},
+                    {"surfaces", surfaces},
+                    {"history", history()},
+                    {"page", json::parse(project_.page_state(), nullptr, false)}});
+}
+
+json Session::surface_event(const Surface& surface) const {
+    json event{{"event", "surface"},
+               {"structure", surface.structure},
+               {"revision", surface.revision},
+               {"stage", std::string(name(surface.stage))},
+               {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
+               {"warnings", surface.warnings}};
+    if (surface.stage != SurfaceStage::refined) return event;
+    event["volume_ml"] = surface.volume_ml;
+    event["residual"] = {{"max_mm", surface.residual.max_mm},
+                         {"rms_mm", surface.residual.rms_mm},
+                         {"contour", surface.worst_contour},
+                         {"at", to_json(surface.worst_at)}};
+    event["conflicts"] = json::array();
+    return event;
+}
+
+json Session::history() {
+    const auto label = [](const std::optional<std::string>& text) { return text ? json(*text) : json(nullptr); };
+    return {{"undo", label(project_.undo_label())}, {"redo", label(project_.redo_label())}};
+}
+
+std::string Session::call(std::string_view message) {
+    json seq = nullptr;
+    const auto failed = [&](std::string_view kind, std::string_view sentence) {
+        return to_text({{"seq", seq}, {"error", error_json(kind, sentence)}});
+    };
+    try {
+        const json request = json::parse(message);
+        const Members m(request);
+        if (m.has("seq") && m.at("seq").is_number_integer()) seq = m.at("seq");
+        const auto found = calls().find(m.text("call", 64));
+        if (found == calls().end())
+            return failed(name(ErrorKind::invalid_input), fmt::format("there is no call '{}'", m.text("call", 64)));
+        const std::scoped_lock lock(mutex_);
+        return to_text({{"seq", seq}, {"result", (this->*found->second)(m)}});
+    } catch (const json::exception&) {
+        return failed(name(ErrorKind::invalid_input), "the message is no JSON that kontur understands");
+    } catch (const Error& error) {
+        return failed(name(error.kind()), error.what());
+    } catch (const std::bad_alloc&) {
+        return failed(name(ErrorKind::too_large), "there is not enough memory for this");
+    } catch (const std::exception& error) {
+        return failed("internal", error.what());
+    }
+}
+
+const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
+    static const std::map<std::string, Call, std::less<>> table{
+        {"path", &Session::path},
+        {"contour.add", &Session::add_contour},
+        {"contour.move_point", &Session::move_control_point},
+        {"contour.insert_point", &Session::insert_control_point},
+        {"contour.delete_point", &Session::delete_control_point},
+        {"contour.pull", &Session::pull_contour},
+        {"contour.redraw", &Session::redraw_contour},
+        {"contour.translate", &Session::translate_contour},
+        {"contour.copy", &Session::copy_contour},
+        {"contour.set", &Session::set_contour},
+        {"contour.remove", &Session::remove_contours},
+        {"structure.add", &Session::add_structure},
+        {"structure.set", &Session::set_structure},
+        {"structure.remove", &Session::remove_structure},
+        {"draft.drop", &Session::drop_draft},
+        {"undo", &Session::undo},
+        {"redo", &Session::redo},
+        {"value", &Session::value},
+        {"page.save", &Session::save_page},
+        {"ping", &Session::ping},
+    };
+    return table;
+}
+
+json Session::path(const Members& m) {
+    const Members plane(m.at("plane"));
+    SketchOptions options;
+    options.closed = m.flag_or("closed", false);
+    options.snap = m.flag_or("snap", true);
+    options.snap_radius_mm = snap_radius_mm(plane);
+    const Drawing drawing = draw(sketch_from(m), m.plane("plane"), edges_, options);
+    json control = json::array();
+    for (const ControlPoint& c : drawing.control) control.push_back(to_json(c));
+    return {{"points", to_json(drawing.points)}, {"control", std::move(control)}};
+}
+
+json Session::put(const std::string& label, DrawnContour contour, const Members& m) {
+    if (m.flag_or("draft", false)) {
+        const Id before = draft_ ? draft_->structure : 0;
+        draft_ = contour;
+        if (before != 0 && before != contour.structure) follow(before);
+        follow(contour.structure);
+    } else {
+        if (contour.id == 0) contour.id = project_.new_id();
+        commit(one_contour(label, project_.state(), contour));
+    }
+    return {{"contour", to_json(contour)}};
+}
+
+json Session::add_contour(const Members& m) {
+    SketchOptions options;
+    // The page sends control points that `path` has snapped already.
+    options.snap = false;
+    DrawnContour contour = draw_contour(sketch_from(m), m.plane("plane"), edges_, options);
+    contour.structure = structure_of(project_.state(), m.id("structure")).id;
+    contour.hole = m.flag_or("hole", false);
+    return put("Draw a contour", std::move(contour), m);
+}
+
+json Session::move_control_point(const Members& m) {
+    SketchOptions options;
+    options.snap_radius_mm = snap_radius_mm(m);
+    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
+    return put("Move a point", move_point(contour, index, m.point("to"), edges_, options), m);
+}
+
+json Session::insert_control_point(const Members& m) {
+    return put("Insert a point", insert_point(contour_of(project_.state(), m.id("id")), m.point("at"), edges_), m);
+}
+
+json Session::delete_control_point(const Members& m) {
+    const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
+    return put("Delete a point", delete_point(contour_of(project_.state(), m.id("id")), index, edges_), m);
+}
+
+json Session::pull_contour(const Members& m) {
+    std::optional<double> radius;
+    if (m.has("radius_mm")) radius = m.number("radius_mm");
+    return put("Bend a contour",
+               pull(contour_of(project_.state(), m.id("id")), m.point("from"), m.point("to"), radius, edges_), m);
+}
+
+json Session::redraw_contour(const Members& m) {
+    return put("Redraw a part", redraw(contour_of(project_.state(), m.id("id")), m.points("path"), edges_), m);
+}
+
+json Session::translate_contour(const Members& m) {
+    return put("Move a contour", translate(contour_of(project_.state(), m.id("id")), m.point("by")), m);
+}
+
+json Session::copy_contour(const Members& m) {
+    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    double offset_mm = 0;
+    if (m.has("plane")) {
+        const Plane target = m.plane("plane");
+        if (std::abs(dot(target.normal, contour.plane.normal)) < 1 - 1e-6)
+            throw Error(ErrorKind::invalid_input, "a contour can only be copied to a parallel slice");
+        offset_mm = contour.plane.distance_to(target.origin);
+    } else {
+        offset_mm = m.number("offset_mm");
+    }
+    DrawnContour copy = offset(contour, offset_mm);
+    copy.id = 0;
+    return put("Copy a contour", std::move(copy), m);
+}
+
+json Session::set_contour(const Members& m) {
+    DrawnContour contour = contour_of(project_.state(), m.id("id"));
+    if (m.has("structure")) contour.structure = structure_of(project_.state(), m.id("structure")).id;
+    contour.hole = m.flag_or("hole", contour.hole);
+    contour.visible = m.flag_or("visible", contour.visible);
+    return put(m.has("visible") ? "Show or hide a contour" : "Change a contour", std::move(contour), m);
+}
+
+json Session::remove_contours(const Members& m) {
+    Commit removed;
+    for (const Id id : ids_from(m)) removed.contours.push_back(removal(contour_of(project_.state(), id)));
+    removed.label =
+        removed.contours.size() == 1 ? "Delete a contour" : fmt::format("Delete {} contours", removed.contours.size());
+    commit(removed);
+    return json::object();
+}
+
+json Session::add_structure(const Members& m) {
+    Structure structure;
+    structure.name = m.has("name") ? m.text("name", kLongestName) : free_name(project_.state());
+    structure.color = m.has("color") ? m.color("color") : next_color(project_.state());
+    structure.id = project_.new_id();
+    commit({"Add " + structure.name, {{structure.id, {}, structure}}, {}});
+    return {{"structure", to_json(structure)}};
+}
+
+json Session::set_structure(const Members& m) {
+    const Structure before = structure_of(project_.state(), m.id("id"));
+    Structure after = before;
+    if (m.has("name")) after.name = m.text("name", kLongestName);
+    if (m.has("color")) after.color = m.color("color");
+    after.visible = m.flag_or("visible", after.visible);
+    std::string label = "Show or hide " + after.name;
+    if (after.color != before.color) label = "Colour " + after.name;
+    if (after.name != before.name) label = "Rename " + before.name;
+    commit({label, {{after.id, before, after}}, {}});
+    return {{"structure", to_json(after)}};
+}
+
+json Session::remove_structure(const Members& m) {
+    const Structure structure = structure_of(project_.state(), m.id("id"));
+    Commit removed{"Delete " + structure.name, {{structure.id, structure, {}}}, {}};
+    for (const auto& [id, contour] : project_.state().contours)
+        if (contour->structure == structure.id) removed.contours.push_back(removal(*contour));
+    commit(removed);
+    return json::object();
+}
+
+json Session::drop_draft(const Members&) {
+    clear_draft();
+    return json::object();
+}
+
+json Session::undo(const Members&) {
+    clear_draft();
+    return moved(project_.undo());
+}
+
+json Session::redo(const Members&) {
+    clear_draft();
+    return moved(project_.redo());
+}
+
+json Session::moved(const std::optional<Commit>& step) {
+    if (!step) return {{"label", nullptr}};
+    announce(*step);
+    return {{"label", step->label}};
+}
+
+json Session::value(const Members& m) {
+    const double value = interpolate(*image_, mm_to_index_, m.point("at"), std::numeric_limits<double>::quiet_NaN());
+    return {{"value", std::isfinite(value) ? json(value) : json(nullptr)}};
+}
+
+json Session::save_page(const Members& m) {
+    const std::string state = to_text(m.at("state"));
+    if (state.size() > kLargestPageState)
+        throw Error(ErrorKind::too_large,
+                    fmt::format("'state' has {} bytes; the limit is {}", state.size(), kLargestPageState));
+    project_.save_page_state(state);
+    return json::object();
+}
+
+json Session::ping(const Members&) { return json::object(); }
+
+std::vector<Id> Session::add_structures(const std::string& label, const std::vector<ContourSet>& sets) {
+    const std::scoped_lock lock(mutex_);
+    Commit added{label, {}, {}};
+    std::vector<Id> ids;
+    State state = project_.state();
+    for (const ContourSet& set : sets) {
+        Structure structure{project_.new_id(), set.name.substr(0, kLongestName), next_color(state), true};
+        if (structure.name.empty()) structure.name = free_name(state);
+        state.structures[structure.id] = structure;
+        added.structures.push_back({structure.id, {}, structure});
+        ids.push_back(structure.id);
+        for (const Contour& contour : set.contours) {
+            DrawnContour drawn = as_drawn(contour);
+            drawn.id = project_.new_id();
+            drawn.structure = structure.id;
+            added.contours.push_back({drawn.id, {}, std::move(drawn)});
+        }
+    }
+    commit(added);
+    return ids;
+}
+
+void Session::commit(const Commit& commit) {
+    clear_draft();
+    if (commit.is_empty()) return;
+    project_.commit(commit);
+    announce(commit);
+}
+
+void Session::announce(const Commit& commit) {
+    tell({{"event", "changed"},
+          {"structures", changes_json(commit.structures)},
+          {"contours", changes_json(commit.contours)},
+          {"history", history()}});
+    follow_surfaces(commit);
+}
+
+void Session::follow_surfaces(const Commit& commit) {
+    std::set<Id> touched;
+    for (const auto& change : commit.structures)
+        if (!change.before || !change.after) touched.insert(change.id);
+    for (const auto& change : commit.contours) {
+        if (change.before && change.after && same_surface(*change.before, *change.after)) continue;
+        for (const auto& side : {change.before, change.after})
+            if (side) touched.insert(side->structure);
+    }
+    for (const Id id : touched) follow(id);
+}
+
+void Session::follow(Id structure) {
+    SurfaceTask task;
+    task.structure = structure;
+    const State& state = project_.state();
+    const auto add = [&](const DrawnContour& contour) {
+        if (contour.structure != structure) return;
+        task.set.contours.push_back({contour.plane, contour.points, true, contour.hole});
+        task.ids.push_back(contour.id);
+    };
+    for (const auto& [id, contour] : state.contours)
+        if (!draft_ || draft_->id != id) add(*contour);
+    if (draft_) add(*draft_);
+    if (const auto found = state.structures.find(structure); found != state.structures.end())
+        task.set.name = found->second.name;
+    surfaces_.follow(std::move(task));
+}
+
+void Session::clear_draft() {
+    if (!draft_) return;
+    const Id structure = draft_->structure;
+    draft_.reset();
+    follow(structure);
+}
+
+}  // namespace kontur::viewer

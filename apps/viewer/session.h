@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kontur/shape/volume.h"
+#include "viewer/project.h"
+#include "viewer/sketch.h"
+#include "viewer/slice_edges.h"
+#include "viewer/surfaces.h"
+#include "viewer/views.h"
+
+namespace kontur::viewer {
+
+class Members;
+
+/// An image ready to work on.
+struct OpenedImage {
+    std::shared_ptr<const Image> image;
+    std::string title;
+    ImageReference reference;
+    std::vector<std::string> notes;  ///< what had to be decided on reading
+};
+
+/// A name and the bytes of a file to download.
+struct Download {
+    std::string file_name;
+    std::string content_type;
+    std::string bytes;
+};
+
+/// Everything behind the page: the image, the project, the surfaces. Speaks the messages of docs/viewer-protocol.md and
+/// knows nothing of the network. Safe for concurrent use; edits are carried out one after the other.
+class Session {
+public:
+    Session(OpenedImage image, const std::filesystem::path& project);
+    ~Session();
+
+    /// Whom to tell events, from any thread. An empty function: nobody.
+    void on_event(std::function<void(const std::string& message)> listener);
+
+    /// The `session` event for a page that has just come.
+    std::string greeting();
+    /// Carries out one message of a page and returns the reply. Never throws.
+    std::string call(std::string_view message);
+
+    // Replies to HTTP requests; errors are exceptions.
+    std::string slice(std::string_view request);
+    bool has_surface(Id structure) const;
+    std::string mesh(Id structure);
+    Download exported(const std::string& name, std::optional<Id> structure);
+    std::vector<Id> import_contours(const std::string& bytes, const std::string& extension);
+    struct TraceRequest {
+        int planes = 9;  ///< along each axis
+        bool axial = true, sagittal = true, coronal = true;
+    };
+    std::vector<Id> import_mask(const std::string& bytes, const std::string& extension, const TraceRequest& request);
+
+    /// One structure for each set, as one step of the history.
+    std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets);
+
+    /// Whether the project was made by this session.
+    bool is_new() const { return project_.is_new(); }
+    const std::filesystem::path& project_path() const { return project_.path(); }
+
+    /// Something that the user should know.
+    void notice(std::string_view level, const std::string& text);
+    State state() const;
+    /// Waits until all surfaces are refined; for tests.
+    void wait_for_surfaces() { surfaces_.wait(); }
+
+private:
+    using Call = nlohmann::json (Session::*)(const Members&);
+    static const std::map<std::string, Call, std::less<>>& calls();
+
+    nlohmann::json path(const Members& m);
+    nlohmann::json add_contour(const Members& m);
+    nlohmann::json move_control_point(const Members& m);
+    nlohmann::json insert_control_point(const Members& m);
+    nlohmann::json delete_control_point(const Members& m);
+    nlohmann::json pull_contour(const Members& m);
+    nlohmann::json redraw_contour(const Members& m);
+    nlohmann::json translate_contour(const Members& m);
+    nlohmann::json copy_contour(const Members& m);
+    nlohmann::json set_contour(const Members& m);
+    nlohmann::json remove_contours(const Members& m);
+    nlohmann::json add_structure(const Members& m);
+    nlohmann::json set_structure(const Members& m);
+    nlohmann::json remove_structure(const Members& m);
+    nlohmann::json drop_draft(const Members& m);
+    nlohmann::json undo(const Members& m);
+    nlohmann::json redo(const Members& m);
+    nlohmann::json value(const Members& m);
+    nlohmann::json save_page(const Members& m);
+    nlohmann::json ping(const Members& m);
+
+    /// Stores a new or changed contour, or only shows it when the call is a draft.
+    nlohmann::json put(const std::string& label, DrawnContour contour, const Members& m);
+    nlohmann::json moved(const std::optional<Commit>& step);
+    void commit(const Commit& commit);
+    void announce(const Commit& commit);
+    void follow_surfaces(const Commit& commit);
+    void follow(Id structure);
+    void clear_draft();
+    nlohmann::json history();
+    nlohmann::json surface_event(const Surface& surface) const;
+    void tell(const nlohmann::json& event);
+
+    const std::shared_ptr<const Image> image_;
+    const std::string title_;
+    const std::vector<std::string> notes_;
+    const Affine3 mm_to_index_;
+    const std::vector<WindowPreset> presets_;
+    const Window window_;
+    const std::pair<double, double> range_;
+    SliceEdges edges_;
+    mutable std::mutex listener_mutex_;
+    std::function<void(const std::string&)> listener_;
+
+    mutable std::mutex mutex_;  ///< of what follows
+    Project project_;
+    std::optional<DrawnContour> draft_;  ///< stands for the contour with its id, or is a new one (id 0)
+
+    Surfaces surfaces_;  ///< last: its thread tells events
+};
+
+}  // namespace kontur::viewer

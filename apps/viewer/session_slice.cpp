@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "kontur/base/error.h"
+#include "kontur/view/outline.h"
+#include "kontur/view/reslice.h"
+#include "viewer/binary_reply.h"
+#include "viewer/model_json.h"
+#include "viewer/session.h"
+
+// What a view shows: the image on its plane, and where surfaces and contours meet it.
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::int64_t kMostPixelsOnASide = 4096;
+constexpr double kParallelCosine = 0.99985;  // 1 degree
+
+struct SliceRequest {
+    Reslice raster;
+    Window window;
+    bool pixels, outlines;
+};
+
+SliceRequest parse(std::string_view text) {
+    const json document = json::parse(text);
+    const Members m(document), plane(m.at("plane"));
+    SliceRequest request;
+    request.raster.plane = m.plane("plane");
+    request.raster.pixel_mm = plane.number("mm_per_pixel");
+    if (!(request.raster.pixel_mm >= 1e-4 && request.raster.pixel_mm <= 1e4))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("'mm_per_pixel' is {:g}; it must lie between 0.0001 and 10000", request.raster.pixel_mm));
+    request.raster.width = static_cast<int>(m.integer("width", 1, kMostPixelsOnASide));
+    request.raster.height = static_cast<int>(m.integer("height", 1, kMostPixelsOnASide));
+    request.pixels = m.flag_or("pixels", true);
+    request.outlines = m.flag_or("outlines", true);
+    if (request.pixels) {
+        const Members window(m.at("window"));
+        request.window = {window.number("center"), window.number("width")};
+        if (!(request.window.width > 0)) throw Error(ErrorKind::invalid_input, "the window's width is not greater than 0");
+    }
+    return request;
+}
+
+std::vector<std::uint8_t> shades(const Image& image, const SliceRequest& request) {
+    const auto black = static_cast<float>(request.window.center - request.window.width);
+    const std::vector<float> values = reslice(image, request.raster, black);
+    // As `brightness`, but in one multiplication and addition: this runs for each pixel of each scroll step.
+    const float scale = static_cast<float>(255 / request.window.width);
+    const float shift = static_cast<float>(127.5 - request.window.center * 255 / request.window.width + 0.5);
+    std::vector<std::uint8_t> pixels(values.size());
+    std::transform(values.begin(), values.end(), pixels.begin(), [&](float v) {
+        const float shade = v * scale + shift;
+        return static_cast<std::uint8_t>(shade > 0 ? std::min(shade, 255.f) : 0.f);  // NaN is black
+    });
+    return pixels;
+}
+
+/// Runs of points in pixels, column and row alternating.
+class PixelPoints {
+public:
+    explicit PixelPoints(const Reslice& raster) : raster_(raster) {}
+
+    json add(const std::vector<Vec3>& points) {
+        const std::size_t first = numbers_.size() / 2;
+        for (const Vec3& p : points)
+            for (const double mm : raster_.plane.to_uv(p)) numbers_.push_back(static_cast<float>(mm / raster_.pixel_mm));
+        return {{"first", first}, {"count", points.size()}};
+    }
+    std::span<const float> numbers() const { return numbers_; }
+
+private:
+    const Reslice& raster_;
+    std::vector<float> numbers_;
+};
+
+bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm) {
+    return std::abs(dot(contour.plane.normal, plane.normal)) >= kParallelCosine &&
+           std::all_of(contour.points.begin(), contour.points.end(),
+                       [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= 0.5 * thickness_mm; });
+}
+
+/// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
+void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, const Reslice& raster,
+                  double thickness_mm, json& head, PixelPoints& lines, PixelPoints& dots) {
+    head["outlines"] = head["crossings"] = head["contours"] = json::array();
+    const auto is_visible = [&](Id id) { return state.structures.contains(id) && state.structures.at(id).visible; };
+    for (const auto& [id, surface] : surfaces) {
+        if (!is_visible(id) || !surface->mesh) continue;
+        json runs = json::array();
+        for (const Polyline& line : outline(*surface->mesh, raster.plane)) {
+            runs.push_back(lines.add(line.points));
+            runs.back()["closed"] = line.closed;
+        }
+        head["outlines"].push_back({{"structure", id}, {"revision", surface->revision}, {"lines", std::move(runs)}});
+    }
+    for (const auto& [id, contour] : state.contours) {
+        if (!contour->visible || !is_visible(contour->structure)) continue;
+        if (lies_in(*contour, raster.plane, thickness_mm)) {
+            head["contours"].push_back(id);
+            continue;
+        }
+        const std::vector<Vec3> points = crossings({contour->plane, contour->points, true, contour->hole}, raster.plane);
+        if (points.empty()) continue;
+        head["crossings"].push_back(dots.add(points));
+        head["crossings"].back()["contour"] = id;
+    }
+}
+
+std::vector<float> floats(const std::vector<Vec3>& points) {
+    std::vector<float> numbers;
+    numbers.reserve(3 * points.size());
+    for (const Vec3& p : points)
+        for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<float>(p[axis]));
+    return numbers;
+}
+
+}  // namespace
+
+std::string Session::slice(std::string_view text) {
+    const SliceRequest request = parse(text);
+    const EdgeLetters letters = edge_letters(request.raster.plane);
+    json head{
+        {"width", request.raster.width},
+        {"height", request.raster.height},
+        {"letters", {{"left", letters.left}, {"right", letters.right}, {"top", letters.top}, {"bottom", letters.bottom}}}};
+    PixelPoints lines(request.raster), dots(request.raster);
+    if (request.outlines)
+        add_outlines(state(), surfaces_.all(), request.raster, slice_step_mm(image_->grid, request.raster.plane.normal),
+                     head, lines, dots);
+    BinaryReply reply(std::move(head));
+    reply.add("outline_points", lines.numbers());
+    reply.add("crossing_points", dots.numbers());
+    if (request.pixels) reply.add<std::uint8_t>("pixels", shades(*image_, request));
+    return reply.bytes();
+}
+
+bool Session::has_surface(Id structure) const {
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    return found != surfaces.end() && found->second->mesh && state().structures.contains(structure);
+}
+
+std::string Session::mesh(Id structure) {
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    if (found == surfaces.end() || !found->second->mesh)
+        throw Error(ErrorKind::invalid_input, fmt::format("the structure {} has no surface", structure));
+    const Surface& surface = *found->second;
+    BinaryReply reply(
+        {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}});
+    reply.add<float>("positions", floats(surface.mesh->points));
+    reply.add<float>("normals", floats(surface.mesh->normals));
+    const auto& triangles = surface.mesh->triangles;
+    reply.add("triangles", std::span(reinterpret_cast<const std::uint32_t*>(triangles.data()), 3 * triangles.size()));
+    return reply.bytes();
+}
+
+}  // namespace kontur::viewer

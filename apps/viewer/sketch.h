@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "viewer/model.h"
+#include "viewer/slice_edges.h"
+
+namespace kontur::viewer {
+
+/// A control point as the user sets it. With `path`, the line to the next control point runs through these points; without,
+/// it is made as `kind` says (free: straight).
+struct SketchPoint {
+    Vec3 at;
+    Stretch kind = Stretch::free;
+    std::optional<std::vector<Vec3>> path;
+};
+
+struct SketchOptions {
+    bool closed = true;
+    bool snap = true;  ///< control points of wire stretches move to the edge nearby
+    double snap_radius_mm = 3;
+    double spline_step_mm = 1;
+};
+
+/// The line through a sketch: `control` with indices into `points`, all on the plane. Hand-drawn and edge-following
+/// stretches are thinned out: no point that is dropped lies more than 0.1 mm from the line. Points that coincide with
+/// the one before are left out, so the control points of a very short sketch may be fewer.
+struct Drawing {
+    std::vector<ControlPoint> control;
+    std::vector<Vec3> points;
+};
+Drawing draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
+             const SketchOptions& options = {});
+
+/// The contour as a sketch that draws the same line.
+std::vector<SketchPoint> sketch_of(const DrawnContour& contour);
+
+/// Drops points while none of them lies farther than this from the remaining line (Douglas and Peucker 1973); keeps both
+/// ends.
+std::vector<Vec3> thinned(const std::vector<Vec3>& line, double tolerance_mm);
+
+}  // namespace kontur::viewer

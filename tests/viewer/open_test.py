@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur open: a session as a page lives it."""
+import json
+import signal
+import subprocess
+
+import nibabel
+import numpy
+import pytest
+
+from support import KONTUR, Server, at_offset, ring, running, shifted, spline_controls
+
+RADIUS = 12.0
+
+
+@pytest.fixture(scope="module")
+def image(tmp_path_factory):
+    """A ball of 100 on -1000, oblique and anisotropic."""
+    path = tmp_path_factory.mktemp("image") / "ball.nii.gz"
+    shape, spacing = (48, 40, 32), (1.0, 1.2, 1.5)
+    turn = 0.2
+    rotation = numpy.array([[numpy.cos(turn), -numpy.sin(turn), 0], [numpy.sin(turn), numpy.cos(turn), 0], [0, 0, 1]])
+    affine = numpy.eye(4)
+    affine[:3, :3] = rotation @ numpy.diag(spacing)
+    affine[:3, 3] = (-20, -30, 7)
+    index = numpy.stack(numpy.meshgrid(*(numpy.arange(n) for n in shape), indexing="ij"), -1)
+    center = (numpy.array(shape) // 2)
+    distance = numpy.linalg.norm((index - center) * spacing, axis=-1)
+    values = numpy.where(distance < RADIUS, 100, -1000).astype(numpy.int16)
+    nibabel.save(nibabel.Nifti1Image(values, affine), path)
+    return path
+
+
+@pytest.fixture
+def server(tmp_path, image):
+    with running(tmp_path, image, "--project", tmp_path / "work.kontur") as one:
+        yield one
+
+
+def draw_ball(page, structure):
+    """Three spline circles of the ball on the axial view; returns their ids."""
+    plane = page.session["views"]["axial"]["plane"]
+    ids = []
+    for offset in (-6.0, 0.0, 6.0):
+        at = at_offset(plane, offset)
+        points = ring(at, (RADIUS**2 - offset**2) ** 0.5)
+        ids.append(page.do("contour.add", structure=structure, plane=at, control=spline_controls(points))["contour"]["id"])
+    return ids
+
+
+def the_structure(page):
+    return next(iter(page.structures))
+
+
+def test_the_session_describes_the_image(server):
+    session = server.page().session
+    assert session["title"] == "ball.nii.gz" and session["project"] == "work.kontur"
+    assert session["image"]["size"] == [48, 40, 32]
+    assert numpy.allclose(session["image"]["spacing_mm"], [1.0, 1.2, 1.5])
+    assert session["image"]["unit"] == "HU" and session["image"]["range"] == [-1000, 100]
+    assert {"Abdomen", "Lung"} <= {preset["name"] for preset in session["presets"]}
+    axial = session["views"]["axial"]
+    assert axial["step_mm"] == pytest.approx(1.5) and axial["range_mm"] == pytest.approx([-24, 22.5])
+    assert session["history"] == {"undo": "New structure", "redo": None}
+    for view in session["views"].values():
+        frame = numpy.array([view["plane"][k] for k in ("u", "v", "normal")])
+        assert numpy.allclose(frame @ frame.T, numpy.eye(3), atol=1e-12)
+
+
+def test_a_slice_shows_the_ball_where_it_is(server):
+    page = server.page()
+    for view in page.session["views"].values():
+        plane = shifted(view["plane"], 65, 65, 0.5)
+        head, arrays = server.slice(plane, 65, 65)
+        bright = arrays["pixels"].reshape(65, 65) > 127
+        rows, columns = numpy.nonzero(bright)
+        assert bright.sum() * 0.25 == pytest.approx(numpy.pi * RADIUS**2, rel=0.06)
+        assert numpy.allclose([rows.mean(), columns.mean()], 32, atol=0.5)
+        assert all(head["letters"][side] for side in ("left", "right", "top", "bottom"))
+
+
+def test_values_and_presets_follow_the_image(server):
+    page = server.page()
+    center = page.session["views"]["axial"]["plane"]["origin"]
+    assert page.do("value", at=center)["value"] == pytest.approx(100)
+    assert page.do("value", at=[9000, 0, 0])["value"] is None
+
+
+def test_drawing_gives_a_surface_and_outlines_in_every_view(server):
+    page = server.page()
+    structure = the_structure(page)
+    draw_ball(page, structure)
+    surface = page.wait_for_surface(structure)
+    assert surface["volume_ml"] == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.05)
+    assert surface["residual"]["max_mm"] < 0.5
+    head, mesh = server.binary("GET", f"/api/mesh/{structure}")
+    assert head["revision"] == surface["revision"]
+    points = mesh["positions"].reshape(-1, 3)
+    assert mesh["normals"].size == mesh["positions"].size and mesh["triangles"].max() < len(points)
+    center = numpy.array(page.session["views"]["axial"]["plane"]["origin"])
+    assert numpy.abs(numpy.linalg.norm(points - center, axis=1) - RADIUS).max() < 1.5
+    for view in page.session["views"].values():
+        head, arrays = server.slice(shifted(view["plane"], 65, 65, 0.5), 65, 65, pixels=False)
+        assert "pixels" not in arrays
+        (outline,) = head["outlines"]
+        assert outline["structure"] == structure and len(outline["lines"]) == 1 and outline["lines"][0]["closed"]
+        line = arrays["outline_points"].reshape(-1, 2)
+        assert numpy.abs(numpy.hypot(*(line - 32).T) * 0.5 - RADIUS).max() < 1.0
+    assert len(head["crossings"]) >= 2
+
+
+def test_contours_are_listed_in_their_own_slice_only(server):
+    page = server.page()
+    ids = draw_ball(page, the_structure(page))
+    axial = page.session["views"]["axial"]["plane"]
+    head, _ = server.slice(shifted(axial, 65, 65, 0.5), 65, 65, pixels=False)
+    assert head["contours"] == [ids[1]]
+    page.do("contour.set", id=ids[1], visible=False)
+    head, _ = server.slice(shifted(axial, 65, 65, 0.5), 65, 65, pixels=False)
+    assert head["contours"] == []
+
+
+def test_a_wire_follows_the_ball(server):
+    page = server.page()
+    plane = shifted(page.session["views"]["axial"]["plane"], 65, 65, 0.5)
+    on_edge = ring(page.session["views"]["axial"]["plane"], RADIUS + 1.0, 5)
+    controls = [{"at": p, "kind": "wire"} for p in on_edge]
+    drawn = page.do("path", plane=plane, control=controls, closed=True)
+    center = numpy.array(page.session["views"]["axial"]["plane"]["origin"])
+    radii = numpy.linalg.norm(numpy.array(drawn["points"]) - center, axis=1)
+    assert len(radii) > 15 and numpy.abs(radii - RADIUS).max() < 1.0
+    assert [drawn["points"][c["index"]] for c in drawn["control"]] == [c["at"] for c in drawn["control"]]
+    contour = page.do("contour.add", structure=the_structure(page), plane=plane, control=drawn["control"])["contour"]
+    assert contour["kind"] == "livewire" and len(contour["control"]) == 5
+
+
+def test_every_edit_can_be_undone_and_redone(server):
+    page = server.page()
+    structure = the_structure(page)
+    states = [json.dumps([page.structures, page.contours], sort_keys=True)]
+
+    def edit(call, **arguments):
+        page.do(call, **arguments)
+        states.append(json.dumps([page.structures, page.contours], sort_keys=True))
+
+    first, second, _ = draw_ball(page, structure)
+    states.append(json.dumps([page.structures, page.contours], sort_keys=True))
+    at = page.contours[first]["points"][0]
+    to = [at[0] + 2, at[1] + 1, at[2]]
+    edit("contour.move_point", id=first, index=0, to=to)
+    edit("contour.insert_point", id=first, at=page.contours[first]["points"][7])
+    edit("contour.delete_point", id=first, index=3)
+    edit("contour.pull", id=second, **{"from": page.contours[second]["points"][5], "to": to})
+    edit("contour.translate", id=second, by=[1, 2, 3])
+    edit("contour.redraw", id=second, path=[page.contours[second]["points"][i] for i in (2, 4, 8)])
+    edit("contour.copy", id=second, offset_mm=1.5)
+    edit("contour.set", id=second, hole=True)
+    edit("structure.add", name="Tumour", color="#112233")
+    other = max(page.structures)
+    edit("contour.set", id=second, structure=other)
+    edit("structure.set", id=other, name="Cyst", color="#445566", visible=False)
+    edit("contour.remove", ids=[first])
+    edit("structure.remove", id=other)
+
+    for expected in reversed(states[1:-1]):
+        assert page.do("undo")["label"]
+        assert json.dumps([page.structures, page.contours], sort_keys=True) == expected
+    for expected in states[2:]:
+        assert page.do("redo")["label"]
+        assert json.dumps([page.structures, page.contours], sort_keys=True) == expected
+    assert page.do("redo")["label"] is None and page.history["redo"] is None
+
+
+def test_a_draft_moves_the_surface_and_leaves_no_trace(server):
+    page = server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    before = page.wait_for_surface(structure)
+    history, contours = page.history, dict(page.contours)
+    draft = page.do("contour.translate", id=ids[1], by=[3, 0, 0], draft=True)["contour"]
+    assert draft["points"] != contours[ids[1]]["points"]
+    assert page.wait_for_surface(structure, "preview")["revision"] > before["revision"]
+    page.do("draft.drop")
+    assert page.wait_for_surface(structure)["volume_ml"] == pytest.approx(before["volume_ml"], rel=1e-9)
+    assert (page.history, page.contours) == (history, contours)
+
+
+def test_pages_see_each_others_edits(server):
+    one, two = server.page(), server.page()
+    one.do("structure.add", name="Seen by both")
+    two.do("ping")
+    assert one.structures == two.structures and one.history == two.history
+    assert server.page().structures == one.structures
+
+
+def test_all_is_there_after_kill_9(tmp_path, image):
+    project = tmp_path / "work.kontur"
+    first = Server(tmp_path, image, "--project", project)
+    page = first.page()
+    ids = draw_ball(page, the_structure(page))
+    page.do("contour.remove", ids=[ids[0]])
+    page.do("undo")
+    page.do("page.save", state={"layout": "big"})
+    first.stop(signal.SIGKILL)
+
+    moved = tmp_path / "elsewhere" / "moved.kontur"
+    moved.parent.mkdir()
+    project.rename(moved)
+    with running(tmp_path, moved) as second:
+        again = second.page()
+        assert (again.structures, again.contours, again.history) == (page.structures, page.contours, page.history)
+        assert again.session["page"] == {"layout": "big"}
+        assert again.do("redo")["label"] == "Delete a contour" and ids[0] not in again.contours
+        for _ in range(4):
+            again.do("undo")
+        assert again.contours == {}
+
+
+def test_exports_are_what_the_command_line_makes(server, tmp_path, image):
+    page = server.page()
+    structure = the_structure(page)
+    draw_ball(page, structure)
+    page.do("structure.set", id=structure, name="ball / 1")
+
+    def export(name):
+        status, headers, body = server.request("GET", f"/api/export/{name}?structure={structure}")
+        assert status == 200 and headers["Content-Disposition"] == f'attachment; filename="ball___1{name[name.find("."):]}"'
+        (tmp_path / name).write_bytes(body)
+        return tmp_path / name
+
+    contours = export("contours.json")
+    made = subprocess.run(
+        [KONTUR, "segment", contours, "--image", image, "--output", tmp_path / "own.nii.gz", "--mesh", tmp_path / "own.stl", "--quiet"]
+    )
+    assert made.returncode == 0
+    assert export("mask.nii.gz").read_bytes() == (tmp_path / "own.nii.gz").read_bytes()
+    assert export("mesh.stl").read_bytes() == (tmp_path / "own.stl").read_bytes()
+    assert export("picture.png").read_bytes().startswith(b"\x89PNG")
+    status, _, body = server.request("GET", "/api/export/project.kontur")
+    (tmp_path / "copy.kontur").write_bytes(body)
+    with running(tmp_path, tmp_path / "copy.kontur") as other:
+        assert other.page().contours == page.contours
+
+
+def test_imports_of_contours_and_masks(server, tmp_path):
+    page = server.page()
+    structure = the_structure(page)
+    draw_ball(page, structure)
+    contours = server.request("GET", f"/api/export/contours.json?structure={structure}")[2]
+    mask = server.request("GET", f"/api/export/mask.nii.gz?structure={structure}")[2]
+
+    status, _, body = server.request("POST", "/api/import/contours?name=..%2f..%2fmine.json", contours)
+    assert status == 200
+    (imported,) = json.loads(body)["structures"]
+    page.do("ping")
+    ours = [c["points"] for c in page.contours.values() if c["structure"] == structure]
+    assert [c["points"] for c in page.contours.values() if c["structure"] == imported] == ours
+
+    status, _, body = server.request("POST", "/api/import/mask?name=m.nii.gz&planes=5", mask)
+    assert status == 200, body
+    (traced,) = json.loads(body)["structures"]
+    surface = page.wait_for_surface(traced)
+    assert surface["volume_ml"] == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.1)
+    assert page.do("undo")["label"] == "Import a mask" and traced not in page.structures
+
+    status, _, body = server.request("POST", "/api/import/mask?name=m.exe", mask)
+    assert status == 415
+    status, _, body = server.request("POST", "/api/import/contours?name=x.json", b"{")
+    assert status == 422 and str(tmp_path) not in body.decode()
+
+
+def test_two_processes_on_one_project(server, tmp_path, image):
+    second = subprocess.run(
+        [KONTUR, "open", image, "--project", server.project, "--no-browser", "--timeout", "1"], capture_output=True, text=True
+    )
+    assert second.returncode == 74 and "is open in another kontur" in second.stderr
+
+
+def test_a_project_refuses_another_image(server, tmp_path):
+    server.page().do("structure.add")
+    server.stop()
+    result = subprocess.run(
+        [KONTUR, "open", "--project", server.project, "--no-browser", "--timeout", "1"], capture_output=True, text=True
+    )
+    assert result.returncode == 65 and "another image" in result.stderr
+
+
+def test_contours_come_with_the_image_and_the_project_lies_beside_them(tmp_path, image, server):
+    page = server.page()
+    draw_ball(page, the_structure(page))
+    contours = tmp_path / "liver.json"
+    contours.write_bytes(server.request("GET", f"/api/export/contours.json?structure={the_structure(page)}")[2])
+    with running(tmp_path, image, contours) as other:
+        assert other.project == tmp_path / "liver.kontur"
+        opened = other.page()
+        assert [c["points"] for c in opened.contours.values()] == [c["points"] for c in page.contours.values()]
+
+
+def test_it_ends_when_asked(tmp_path, image):
+    server = Server(tmp_path, image)
+    assert server.project.parent == tmp_path / "data" / "kontur"
+    assert server.stop(signal.SIGTERM) == 0
+    idle = subprocess.run([KONTUR, "open", image, "--no-browser", "--timeout", "1", "--project", tmp_path / "i.kontur"], timeout=60)
+    assert idle.returncode == 0
+
+
+@pytest.mark.parametrize(
+    "call, arguments, part",
+    [
+        ("contour.add", {"structure": 99, "control": []}, "'plane' is missing"),
+        ("contour.move_point", {"id": 77, "index": 0, "to": [0, 0, 0]}, "no contour with the id 77"),
+        ("structure.set", {"id": 1, "color": "red"}, "'color' is no colour"),
+        ("structure.set", {"id": 1, "name": "x" * 101}, "the limit is 100"),
+        ("value", {"at": [0, 0]}, "'at' is not [x, y, z]"),
+        ("value", {"at": [0, 0, 1e300]}, "the limit is 1e+06 mm"),
+        ("fly", {}, "no call 'fly'"),
+        ("contour.remove", {"ids": [1.5]}, "'ids' is not a whole number"),
+    ],
+)
+def test_wrong_calls_are_refused_and_change_nothing(server, call, arguments, part):
+    page = server.page()
+    before = page.do("ping"), page.structures, page.contours, page.history
+    error = page.refused(call, **arguments)
+    assert error["kind"] == "invalid_input" and part in error["message"]
+    assert before == (page.do("ping"), page.structures, page.contours, page.history)

@@ -144,7 +144,9 @@ void add_segment(CLI::App& app, Invocation& invocation) {
         bind.option("--spacing-mm", c.spacing_mm, "MM[,MM,MM]", "Without --image: size of the mask's voxels");
     spacing->delimiter(',')->allow_extra_args(false)->excludes(image);
     bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
-    bind.option("--output", c.output, "FILE", "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd or .mha")->required();
+    bind.option("--output", c.output, "FILE",
+                "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha or, with a DICOM --image, .dcm (SEG)")
+        ->required();
     bind.option("--rtstruct", c.rtstruct, "FILE", "Contours on the slices of a DICOM --image to write, as RTSTRUCT: .dcm");
     bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply or .obj, LPS mm");
     bind.option("--picture", c.picture, "FILE", "Picture to write: .png");
@@ -163,7 +165,7 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     Binder<TraceCommand> bind(app, invocation, "trace", "Cut a mask by planes into contours",
                               "kontur trace liver.nii.gz --planes planes.json --output contours.json");
     TraceCommand& c = *bind.command;
-    bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage)");
+    bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
     CLI::Option* planes =
         bind.option("--planes", c.planes, "FILE", "Contour file whose planes cut, whatever contours it holds");
     bind.option("--image", c.image.path, "FILE", "Instead of --planes: the slices of this image or DICOM folder cut")
@@ -187,7 +189,7 @@ void add_compare(CLI::App& app, Invocation& invocation) {
                                 "Overlap, surface distances in mm and volumes in ml of two masks",
                                 "kontur compare liver.nii.gz truth.nii.gz --json");
     CompareCommand& c = *bind.command;
-    bind.word("A", c.a, "Mask or label map (NIfTI, NRRD, MetaImage)");
+    bind.word("A", c.a, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
     bind.word("B", c.b, "Another one on the same grid");
     bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
     bind.flag("--json", c.json, "Print JSON");
@@ -212,7 +214,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     ConvertCommand& c = *bind.command;
     bind.word("IN", c.input.path, "Image, DICOM folder, contours, structure set or mesh");
     bind.word("OUT", c.output, "File to write; its name decides the format");
-    bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT (.dcm) refers to");
+    bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT or SEG (.dcm) refers to");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
     add_rtstruct_options(*bind.sub, c.write_rtstruct);
     add_read_options(*bind.sub, c.input.options);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "commands.h"
+#include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/mesh.h"
 #include "outputs.h"
@@ -37,7 +38,7 @@ const char* advice(FileKind from, FileKind to) {
 FileKind check_kinds(const ConvertCommand& command) {
     const std::optional<FileKind> to = output_kind(command.output);
     const FileKind from = input_kind(command.input.path);
-    if (from == to || (!to && from == FileKind::contours)) return from;
+    if (from == to || (!to && from != FileKind::mesh)) return from;
     if (!to) check_output_kind(command.output, from);
     throw Error(ErrorKind::unsupported,
                 fmt::format("{} holds {} and cannot be converted to {} in {}; {}", command.input.path.string(), words(from),
@@ -48,7 +49,8 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
     switch (kind) {
         case FileKind::image: {
             const ImageInput& input = command.input;
-            return write_image(output, read_image(input.path, console.noting(input.options), console.progress()));
+            const Image image = read_image(input.path, console.noting(input.options), console.progress());
+            return write_image(output, image, input.path, {command.image, input.options}, console.progress());
         }
         case FileKind::contours: {
             const ReadContours loaded = read_contours(command.input.path, command.contours);

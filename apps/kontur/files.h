@@ -3,12 +3,9 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "kontur/io/read_image_options.h"
-#include "kontur/io/rtstruct.h"
 
 // The one place that knows which of the library's readers and writers a file needs.
 
@@ -29,7 +26,7 @@ enum class FileKind { image, contours, mesh };
 /// reader then says what is wrong with it.
 FileKind input_kind(const std::filesystem::path& path);
 
-/// What a file of this name would hold, by its extension; nullopt for .dcm, which holds contours as a structure set. Throws
+/// What a file of this name would hold, by its extension; nullopt for .dcm, which holds contours or a mask. Throws
 /// Error(unsupported), listing the known ones.
 std::optional<FileKind> output_kind(const std::filesystem::path& path);
 
@@ -38,13 +35,5 @@ bool is_dicom_name(const std::filesystem::path& path);
 
 /// Throws Error(unsupported) unless a file of this name could hold `kind`.
 void check_output_kind(const std::filesystem::path& path, FileKind kind);
-
-/// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm, which refers to the DICOM images in
-/// `images`. Returns what the user should know.
-std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,
-                                        const WriteRtstructOptions& options);
-
-/// Throws Error(invalid_input), before any work is done, when DICOM is to be written without DICOM images to refer to.
-void check_dicom_images(const std::filesystem::path& output, const std::filesystem::path& images);
 
 }  // namespace kontur::app

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "describe.h"
 #include "kontur/base/error.h"
+#include "kontur/io/dicom_seg.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/rtstruct.h"
 
@@ -11,6 +12,23 @@ namespace kontur::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) {
+    const DicomSegmentation found = read_dicom_segmentation(path, command.read.max_voxels);
+    Facts segments = Facts::array();
+    for (const DicomSegment& s : found.segments)
+        segments.push_back({{"number", s.number},
+                            {"name", s.label},
+                            {"algorithm_type", s.algorithm_type},
+                            {"algorithm", s.algorithm_name},
+                            {"voxels", s.voxels},
+                            {"volume_ml", number(static_cast<double>(s.voxels) * found.grid.voxel_volume_mm3() / 1000)}});
+    Facts facts = {{"kind", "segmentation"}};
+    facts.update(describe(found.grid));
+    facts["segments"] = segments;
+    facts["notes"] = found.notes;
+    return facts;
+}
 
 Facts inspect_image(const InspectCommand& command, const fs::path& path, Console& console) {
     std::vector<std::string> notes;
@@ -52,6 +70,7 @@ Facts inspect_mesh(const fs::path& path) {
 Facts inspect(const InspectCommand& command, const fs::path& path, Console& console) {
     switch (input_kind(path)) {
         case FileKind::image:
+            if (is_dicom_seg(path)) return inspect_segmentation(command, path);
             return inspect_image(command, path, console);
         case FileKind::contours:
             return inspect_contours(path);

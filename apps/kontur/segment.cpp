@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
@@ -28,7 +29,8 @@ void check_extension(const fs::path& path, std::string_view extension) {
 
 /// Whatever can be refused before any work is done.
 void check(const SegmentCommand& command) {
-    check_image_name(command.output);
+    check_output_kind(command.output, FileKind::image);
+    check_dicom_images(command.output, command.image.path);
     if (!command.rtstruct.empty()) {
         check_extension(command.rtstruct, ".dcm");
         check_dicom_images(command.rtstruct, command.image.path);
@@ -153,12 +155,14 @@ void run(const SegmentCommand& command, Console& console) {
     report.seconds.insert(report.seconds.begin(), {"read", read_seconds});
     laps.lap();
 
+    WriteMaskOptions mask = command.mask;
+    if (!inputs.contours.name.empty()) mask.segment_name = inputs.contours.name;
     Outputs outputs;
     const auto write = [&](const fs::path& target, const auto& writer) {
         if (!target.empty()) outputs.write(target, writer);
         progress.check();
     };
-    write(command.output, [&](const fs::path& path) { write_mask(path, result.mask, command.mask); });
+    write(command.output, [&](const fs::path& path) { write_mask(path, result, command.image, mask, progress); });
     write(command.rtstruct, [&](const fs::path& path) { write_structure_set(path, command, inputs, result, progress); });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh); });
     write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result)); });

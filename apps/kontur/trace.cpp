@@ -4,6 +4,7 @@
 #include <array>
 
 #include "commands.h"
+#include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"

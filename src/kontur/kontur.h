@@ -25,6 +25,7 @@
 // Files to shapes.
 #include "kontur/io/contour_json.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/image.h"
 #include "kontur/io/markups.h"

@@ -194,4 +194,6 @@ def make_enhanced(folder):
 
 
 case, folder = sys.argv[1], Path(sys.argv[2])
+if case == "odd":  # slices of 63 pixels: bits of one do not fill its last byte
+    NY, NX = 9, 7
 make_enhanced(folder) if case == "enhanced" else make(case, folder)

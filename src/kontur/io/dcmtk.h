@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to io/: DCMTK set up once, and values taken strictly out of its items. Includes DCMTK, as dicom_document.h does;
-// no other header of ours.
+// Private to io/: DCMTK set up once, and values taken strictly out of its items. Includes DCMTK; of our headers only
+// dicom_document.h and dicom_frames.h do so too.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>

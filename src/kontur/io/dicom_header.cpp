@@ -1,55 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom_header.h"
 
-#include <cmath>
 #include <fstream>
 
 #include "kontur/base/error.h"
-#include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_frames.h"
 
 namespace kontur {
 namespace {
 
-/// Directions are written with about six digits; a worse deviation means that they are not what they claim to be.
-constexpr double kDirectionTolerance = 1e-3;
-
 Error corrupt(const std::string& message) { return Error(ErrorKind::corrupt_file, message); }
-
-std::vector<double> decimals_of_count(DcmItem& item, const DcmTagKey& tag, std::size_t count) {
-    std::vector<double> values = dcmtk::decimals(item, tag);
-    if (values.size() != count)
-        throw corrupt(dcmtk::tag_name(tag) + " has " + std::to_string(values.size()) + " values instead of " +
-                      std::to_string(count));
-    return values;
-}
-
-std::optional<double> first_decimal(DcmItem& item, const DcmTagKey& tag) {
-    const std::vector<double> values = dcmtk::decimals(item, tag);
-    return values.empty() ? std::nullopt : std::optional(values.front());
-}
-
-SlicePlacement read_placement(DcmItem& item) {
-    const auto position = decimals_of_count(item, DCM_ImagePositionPatient, 3);
-    const auto orientation = decimals_of_count(item, DCM_ImageOrientationPatient, 6);
-    const auto spacing = decimals_of_count(item, DCM_PixelSpacing, 2);
-    const Vec3 row{orientation[0], orientation[1], orientation[2]}, column{orientation[3], orientation[4], orientation[5]};
-    const auto is_unit = [](const Vec3& v) { return std::abs(norm(v) - 1) <= kDirectionTolerance; };
-    if (!is_unit(row) || !is_unit(column) || std::abs(dot(row, column)) > kDirectionTolerance)
-        throw corrupt("ImageOrientationPatient (0020,0037) is not a pair of perpendicular unit vectors");
-    if (!(spacing[0] > 0) || !(spacing[1] > 0)) throw corrupt("PixelSpacing (0028,0030) is not positive");
-    SlicePlacement placement;
-    placement.position = {position[0], position[1], position[2]};
-    placement.row_direction = normalized(row);
-    placement.column_direction = normalized(column);
-    // PixelSpacing gives the distance between rows (along j) first.
-    placement.spacing_mm = {spacing[1], spacing[0]};
-    return placement;
-}
 
 DicomRescale read_rescale(DcmItem& item) {
     DicomRescale rescale;
-    rescale.slope = first_decimal(item, DCM_RescaleSlope).value_or(1);
-    rescale.intercept = first_decimal(item, DCM_RescaleIntercept).value_or(0);
+    rescale.slope = dcmtk::first_decimal(item, DCM_RescaleSlope).value_or(1);
+    rescale.intercept = dcmtk::first_decimal(item, DCM_RescaleIntercept).value_or(0);
     if (rescale.slope == 0) throw corrupt("RescaleSlope (0028,1053) is 0");
     return rescale;
 }
@@ -113,14 +78,14 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     header.photometric_interpretation = dcmtk::text(dataset, DCM_PhotometricInterpretation);
     header.has_lookup_table = dataset.tagExists(DCM_ModalityLUTSequence);
     header.rescale = read_rescale(dataset);
-    header.thickness_mm = first_decimal(dataset, DCM_SliceThickness);
+    header.thickness_mm = dcmtk::first_decimal(dataset, DCM_SliceThickness);
     header.temporal_position = dcmtk::integer(dataset, DCM_TemporalPositionIdentifier);
     header.acquisition_number = dcmtk::integer(dataset, DCM_AcquisitionNumber);
     header.echo_number = dcmtk::integer(dataset, DCM_EchoNumbers);
-    header.trigger_time_ms = first_decimal(dataset, DCM_TriggerTime);
+    header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
     header.instance_number = dcmtk::integer(dataset, DCM_InstanceNumber);
     check_pixels_fit(header, syntax, dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
-    if (!header.multi_frame) header.placement = read_placement(dataset);
+    if (!header.multi_frame) header.placement = dcmtk::read_placement(dataset, dataset, dataset);
     return header;
 }
 

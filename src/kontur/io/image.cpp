@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
+#include "kontur/io/dicom_seg.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/metaimage.h"
@@ -22,7 +23,7 @@ namespace kontur {
 namespace fs = std::filesystem;
 namespace {
 
-enum class Format { unknown, nifti, nrrd, seg_nrrd, metaimage, dicom };
+enum class Format { unknown, nifti, nrrd, seg_nrrd, metaimage, dicom, dicom_seg };
 
 struct NameRule {
     std::string_view suffix;
@@ -63,7 +64,7 @@ Format readable_format(const fs::path& path) {
         throw Error(ErrorKind::unsupported, path.string() +
                                                 " has no known image format; known are NIfTI (.nii, .nii.gz), NRRD "
                                                 "(.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd) and DICOM");
-    return format;
+    return format == Format::dicom && is_dicom_seg(path) ? Format::dicom_seg : format;
 }
 
 void report(const std::vector<std::string>& notes, const ReadImageOptions& options) {
@@ -88,6 +89,20 @@ std::map<std::int64_t, std::int64_t> labels_of(const Image& image, const fs::pat
     } catch (const Error& error) {
         throw error.with_context(path.string());
     }
+}
+
+Image read_segments(const fs::path& path, std::optional<std::int64_t> segment, const ReadImageOptions& options,
+                    const Progress& progress) {
+    DicomSeg found = read_dicom_seg(path, segment, options.max_voxels, progress);
+    report(found.notes, options);
+    return std::move(found.labels);
+}
+
+/// Overlapping segments of one file can be read one by one only.
+Image read_labels(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
+                  const Progress& progress) {
+    if (is_dicom_seg(path)) return read_segments(path, label, options, progress);
+    return read_image(path, options, progress);
 }
 
 template <typename Value>
@@ -156,6 +171,8 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Pr
             return read_nrrd(path, options);
         case Format::metaimage:
             return read_metaimage(path, options);
+        case Format::dicom_seg:
+            return read_segments(path, {}, options, progress);
         default:
             break;
     }
@@ -174,6 +191,8 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
             return read_nrrd_grid(path, options);
         case Format::metaimage:
             return read_metaimage_grid(path, options);
+        case Format::dicom_seg:
+            return read_dicom_segmentation(path, options.max_voxels).grid;
         default:
             break;
     }
@@ -184,7 +203,7 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
 
 Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
                const Progress& progress) {
-    const Image image = read_image(path, options, progress);
+    const Image image = read_labels(path, label, options, progress);
     const auto labels = labels_of(image, path);
     if (!label && labels.size() > 1)
         throw Error(ErrorKind::invalid_input, path.string() + " has " + std::to_string(labels.size()) +

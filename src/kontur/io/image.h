@@ -13,7 +13,8 @@
 
 namespace kontur {
 
-/// Reads a scalar image: NIfTI, NRRD, MetaImage, or a DICOM series by its folder or one of its files. The file's name says
+/// Reads a scalar image: NIfTI, NRRD, MetaImage, a DICOM series by its folder or one of its files, or the label map of a
+/// DICOM segmentation (whose segments must not overlap, unless `read_mask` is asked for one). The file's name says
 /// which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file (truncated, lying or
 /// contradictory), unsupported (a variant, or an unknown format: the message lists the known ones), too_large,
 /// invalid_input (options that fit no frame or series). Every message names the file.

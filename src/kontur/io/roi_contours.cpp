@@ -8,9 +8,9 @@
 #include <set>
 #include <tuple>
 
-#include "kontur/shape/contour_nesting.h"
 #include "kontur/io/keyhole.h"
 #include "kontur/io/shared_planes.h"
+#include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 namespace {

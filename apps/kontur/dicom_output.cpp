@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dicom_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/base/error.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/dicom_seg.h"
+#include "kontur/io/nrrd.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Rgb8 = std::array<std::uint8_t, 3>;
+constexpr Rgb8 kColor{230, 179, 77};  // that of masks in .seg.nrrd
+
+DicomSeries series_of(const ImageInput& images) { return read_dicom_grid(images.path, images.options.dicom).series; }
+
+Rgb8 to_rgb8(const std::array<double, 3>& color) {
+    Rgb8 result{};
+    std::transform(color.begin(), color.end(), result.begin(),
+                   [](double level) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(level, 0.0, 1.0))); });
+    return result;
+}
+
+/// The options that make a fit reproducible.
+std::string parameters(const SegmentReport& report) {
+    return fmt::format(
+        "kernel={} normals={} normal_offset_mm={:.9g} smoothing={:g} quality={:g} solver={} contours={} points={}",
+        name(report.kernel), name(report.normals), report.normal_offset_mm, report.smoothing, report.quality,
+        name(report.solver), report.contours, report.points);
+}
+
+/// What the source says about its segments; empty where it says nothing.
+std::vector<DicomSegment> named_segments(const fs::path& source) {
+    if (is_dicom_seg(source)) return read_dicom_segmentation(source).segments;
+    std::vector<DicomSegment> segments;
+    if (!has_extension(source, ".nrrd")) return segments;
+    for (const NrrdSegment& segment : read_nrrd_segments(source))
+        segments.push_back({.number = segment.label_value, .label = segment.name, .color = to_rgb8(segment.color)});
+    return segments;
+}
+
+std::vector<DicomSegment> segments_of(const Image& image, const fs::path& source) {
+    const std::vector<DicomSegment> named = named_segments(source);
+    std::vector<DicomSegment> segments;
+    for (const auto& [label, voxels] : count_labels(image)) {
+        const auto known = std::find_if(named.begin(), named.end(), [&, l = label](const auto& s) { return s.number == l; });
+        if (known != named.end()) segments.push_back(*known);
+        else segments.push_back({.number = label, .label = fmt::format("label {}", label), .color = kColor});
+    }
+    return segments;
+}
+
+}  // namespace
+
+void check_dicom_images(const fs::path& output, const fs::path& images) {
+    if (!is_dicom_name(output)) return;
+    if (images.empty())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} would refer to the DICOM images it was made on; give their folder with --image",
+                                output.string()));
+    if (!looks_like_dicom(images))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} is no DICOM series, to which {} could refer", images.string(), output.string()));
+}
+
+std::vector<std::string> write_contours(const fs::path& path, const ContourSet& set, const ImageInput& images,
+                                        const WriteRtstructOptions& options) {
+    if (!is_dicom_name(path)) {
+        kontur::write_contours(path, set);
+        return {};
+    }
+    Roi roi;
+    roi.name = set.name;
+    roi.color = kColor;
+    roi.generation_algorithm = "SEMIAUTOMATIC";
+    roi.contours = set;
+    return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
+}
+
+void write_mask(const fs::path& path, const Segmentation& result, const ImageInput& images, const WriteMaskOptions& options,
+                const Progress& progress) {
+    if (!is_dicom_name(path)) return kontur::write_mask(path, result.mask, options);
+    const DicomSegment segment{
+        .label = options.segment_name, .algorithm_name = "kontur", .color = to_rgb8(options.segment_color)};
+    const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION, parameters(result.report)};
+    write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images), {.algorithm = algorithm},
+                    progress);
+}
+
+void write_image(const fs::path& path, const Image& image, const fs::path& source, const ImageInput& images,
+                 const Progress& progress) {
+    if (!is_dicom_name(path)) return kontur::write_image(path, image);
+    write_dicom_seg(path, image, segments_of(image, source), series_of(images), {}, progress);
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "files.h"
+#include "kontur/base/progress.h"
+#include "kontur/io/image.h"
+#include "kontur/io/rtstruct.h"
+#include "kontur/segment.h"
+
+// What the writers of several formats have in common with those of DICOM, whose files (.dcm) refer to images.
+
+namespace kontur::app {
+
+/// Throws Error(invalid_input), before any work is done, when DICOM is to be written without DICOM images to refer to.
+void check_dicom_images(const std::filesystem::path& output, const std::filesystem::path& images);
+
+/// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm. Returns what the user should know.
+std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,
+                                        const WriteRtstructOptions& options);
+
+/// Writes the mask of a fit in the format of the name; in .dcm with the way it was made.
+void write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
+                const WriteMaskOptions& options, const Progress& progress);
+
+/// Writes an image read from `source` in the format of the name; in .dcm with one segment for each label, named as in the
+/// source where that names them.
+void write_image(const std::filesystem::path& path, const Image& image, const std::filesystem::path& source,
+                 const ImageInput& images, const Progress& progress);
+
+}  // namespace kontur::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to io/: the frames of a multi-frame object (enhanced image or segmentation). Uses DCMTK's types.
+
+#include <optional>
+#include <vector>
+
+#include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_header.h"
+
+namespace kontur::dcmtk {
+
+/// The functional groups of one frame: what it says itself goes before what is shared by all frames.
+class Frame {
+public:
+    Frame(DcmItem* own, DcmItem* shared) : own_(own), shared_(shared) {}
+
+    /// The first item of the group's sequence, such as PlanePositionSequence; null when the frame has none.
+    DcmItem* group(const DcmTagKey& sequence) const;
+    /// The same, which must be there: throws Error(corrupt_file) naming it.
+    DcmItem& required_group(const DcmTagKey& sequence) const;
+
+    SlicePlacement placement() const;
+
+private:
+    DcmItem* own_;
+    DcmItem* shared_;
+};
+
+/// As many as NumberOfFrames says. Throws Error(corrupt_file) when the groups of some frame are missing.
+std::vector<Frame> frames_of(DcmItem& dataset);
+
+/// A placement out of the items that hold position, orientation and pixel spacing; one item in a single-frame image.
+/// Throws Error(corrupt_file), naming the element, for a missing or contradictory one.
+SlicePlacement read_placement(DcmItem& position, DcmItem& orientation, DcmItem& measures);
+
+/// First value of a decimal-string or floating-point element.
+std::optional<double> first_decimal(DcmItem& item, const DcmTagKey& tag);
+
+}  // namespace kontur::dcmtk

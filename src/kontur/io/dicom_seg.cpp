@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom_seg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "kontur/base/error.h"
+#include "kontur/io/cie_lab.h"
+#include "kontur/io/dicom_frames.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kSamePositionMm = 1e-3;
+constexpr double kOffLatticeMm = 0.1;
+
+Error corrupt(const std::string& message) { return Error(ErrorKind::corrupt_file, message); }
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::unsupported, message); }
+
+struct SegFrame {
+    SlicePlacement placement;
+    std::int64_t segment = 0;
+    std::int64_t k = 0;
+};
+
+/// A segmentation in memory, its frames placed on a grid.
+class SegFile {
+public:
+    SegFile(const std::filesystem::path& path, std::int64_t max_voxels) {
+        dcmtk::load(file_, path);
+        check_kind();
+        read_segments();
+        read_frames();
+        place_frames(max_voxels);
+        check_pixels();
+    }
+
+    const DicomSegmentation& description() const { return description_; }
+    const std::vector<SegFrame>& frames() const { return frames_; }
+    const DicomSegment& segment(std::int64_t number) const { return description_.segments[index_of_.at(number)]; }
+
+    /// Calls `visit(n)` for every pixel n of the frame that is inside.
+    template <class Visit>
+    void for_each_inside(std::size_t frame, const Visit& visit) const {
+        const auto pixels = static_cast<std::size_t>(description_.grid.size.i * description_.grid.size.j);
+        const std::size_t first = frame * pixels;
+        for (std::size_t n = 0; n < pixels; ++n) {
+            const std::size_t at = first + n;
+            // Bits follow one another without a gap between frames, the lowest bit of a byte first (PS3.5 8.1.1).
+            const bool inside = binary_ ? (pixels_[at >> 3] >> (at & 7) & 1) != 0 : pixels_[at] >= threshold_;
+            if (inside) visit(n);
+        }
+    }
+
+    void count_voxels() {
+        for (std::size_t f = 0; f < frames_.size(); ++f)
+            for_each_inside(
+                f, [&, &voxels = description_.segments[index_of_.at(frames_[f].segment)].voxels](std::size_t) { ++voxels; });
+    }
+
+private:
+    DcmItem& dataset() { return *file_.getDataset(); }
+
+    void check_kind() {
+        if (const std::string modality = dcmtk::text(dataset(), DCM_Modality); modality != "SEG")
+            throw Error(ErrorKind::invalid_input, fmt::format("is no segmentation but DICOM of modality '{}'", modality));
+        const std::string kind = dcmtk::text(dataset(), DCM_SegmentationType);
+        const std::int64_t bits = dcmtk::integer(dataset(), DCM_BitsAllocated).value_or(0);
+        binary_ = kind == "BINARY" && bits == 1;
+        if (!binary_ && !(kind == "FRACTIONAL" && bits == 8))
+            refuse(
+                fmt::format("a segmentation of type '{}' with {} bits per pixel is not supported; BINARY with 1 and "
+                            "FRACTIONAL with 8 are",
+                            kind, bits));
+        if (binary_) return;
+        const std::int64_t most = dcmtk::integer(dataset(), DCM_MaximumFractionalValue).value_or(255);
+        threshold_ = static_cast<int>((most + 1) / 2);
+        description_.notes.push_back("a fractional segmentation; voxels from one half on count as inside");
+    }
+
+    void read_segments() {
+        for (DcmItem* item : dcmtk::items(dataset(), DCM_SegmentSequence)) {
+            DicomSegment segment;
+            segment.number = dcmtk::integer(*item, DCM_SegmentNumber).value_or(0);
+            segment.label = dcmtk::text(*item, DCM_SegmentLabel);
+            segment.algorithm_type = dcmtk::text(*item, DCM_SegmentAlgorithmType);
+            segment.algorithm_name = dcmtk::text(*item, DCM_SegmentAlgorithmName);
+            segment.color = read_color(*item);
+            if (segment.number < 1 || segment.number > 65535)
+                throw corrupt(fmt::format("a segment has the number {}", segment.number));
+            if (!index_of_.emplace(segment.number, description_.segments.size()).second)
+                throw corrupt(fmt::format("two segments have the number {}", segment.number));
+            description_.segments.push_back(std::move(segment));
+        }
+        description_.frame_of_reference_uid = dcmtk::text(dataset(), DCM_FrameOfReferenceUID);
+        for (DcmItem* item : dcmtk::items(dataset(), DCM_ReferencedSeriesSequence))
+            description_.referenced_series_uid = dcmtk::text(*item, DCM_SeriesInstanceUID);
+    }
+
+    static std::optional<Rgb8> read_color(DcmItem& segment) {
+        DicomLab lab{};
+        for (unsigned long n = 0; n < 3; ++n)
+            if (segment.findAndGetUint16(DCM_RecommendedDisplayCIELabValue, lab[n], n).bad()) return std::nullopt;
+        return to_rgb(lab);
+    }
+
+    void read_frames() {
+        const std::vector<dcmtk::Frame> frames = dcmtk::frames_of(dataset());
+        for (std::size_t n = 0; n < frames.size(); ++n) try {
+                SegFrame frame;
+                frame.placement = frames[n].placement();
+                DcmItem& about = frames[n].required_group(DCM_SegmentIdentificationSequence);
+                frame.segment = dcmtk::integer(about, DCM_ReferencedSegmentNumber).value_or(0);
+                if (!index_of_.contains(frame.segment))
+                    throw corrupt(fmt::format("it belongs to segment {}, which is not listed", frame.segment));
+                frames_.push_back(frame);
+            } catch (const Error& error) {
+                throw error.with_context(fmt::format("frame {}", n + 1));
+            }
+        DcmItem& measures = frames.front().required_group(DCM_PixelMeasuresSequence);
+        spacing_ = dcmtk::first_decimal(measures, DCM_SpacingBetweenSlices);
+        thickness_ = dcmtk::first_decimal(measures, DCM_SliceThickness);
+    }
+
+    double height(const SegFrame& frame) const {
+        const SlicePlacement& first = frames_.front().placement;
+        return dot(first.normal(), frame.placement.position - first.position);
+    }
+
+    /// Different positions along the normal, in ascending order.
+    std::vector<double> heights() const {
+        std::vector<double> heights;
+        for (const SegFrame& frame : frames_) heights.push_back(height(frame));
+        std::sort(heights.begin(), heights.end());
+        const auto same = [](double a, double b) { return b - a <= kSamePositionMm; };
+        heights.erase(std::unique(heights.begin(), heights.end(), same), heights.end());
+        return heights;
+    }
+
+    /// The distance of slices: the declared one if all frames lie on multiples of it, else the least between two frames.
+    double slice_step(const std::vector<double>& heights) const {
+        const auto fits = [&](double step) {
+            return std::all_of(heights.begin(), heights.end(), [&](double h) {
+                const double off = h - heights.front() - step * std::round((h - heights.front()) / step);
+                return std::abs(off) <= std::max(0.01 * step, 0.01);
+            });
+        };
+        if (spacing_ && *spacing_ > 0 && fits(*spacing_)) return *spacing_;
+        if (heights.size() == 1) {
+            if (!thickness_ || !(*thickness_ > 0))
+                refuse("all frames lie at one position, and their thickness is not given");
+            return *thickness_;
+        }
+        double least = heights[1] - heights[0];
+        for (std::size_t n = 2; n < heights.size(); ++n) least = std::min(least, heights[n] - heights[n - 1]);
+        if (!fits(least)) refuse(fmt::format("its frames lie on no regular lattice of slices {:.6g} mm apart", least));
+        return least;
+    }
+
+    void place_frames(std::int64_t max_voxels) {
+        const std::vector<double> heights = this->heights();
+        const double step = slice_step(heights);
+        const auto by_height = [&](const SegFrame& a, const SegFrame& b) { return height(a) < height(b); };
+        const auto [low, high] = std::minmax_element(frames_.begin(), frames_.end(), by_height);
+        const SlicePlacement &first = low->placement, &last = high->placement;
+        const auto steps = std::llround((heights.back() - heights.front()) / step);
+        Grid& grid = description_.grid;
+        grid.size = {dcmtk::integer(dataset(), DCM_Columns).value_or(0), dcmtk::integer(dataset(), DCM_Rows).value_or(0),
+                     static_cast<std::int64_t>(steps) + 1};
+        check_size(max_voxels);
+        Affine3& affine = grid.index_to_mm;
+        affine.set_column(0, first.spacing_mm[0] * first.row_direction);
+        affine.set_column(1, first.spacing_mm[1] * first.column_direction);
+        affine.set_column(2,
+                          steps > 0 ? (last.position - first.position) / static_cast<double>(steps) : step * first.normal());
+        affine.translation = first.position;
+        check_grid(grid);
+        const double lowest = height(*low);
+        for (std::size_t n = 0; n < frames_.size(); ++n) {
+            frames_[n].k = std::llround((height(frames_[n]) - lowest) / step);
+            check_placement(n, first);
+        }
+    }
+
+    void check_size(std::int64_t max_voxels) const {
+        const Index3& n = description_.grid.size;
+        if (n.i < 1 || n.j < 1) throw corrupt(fmt::format("it has {} rows and {} columns", n.j, n.i));
+        if (n.k > max_voxels / (n.i * n.j))
+            throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} x {} x {} voxels; the limit is {} voxels",
+                                                          n.i, n.j, n.k, max_voxels));
+    }
+
+    void check_placement(std::size_t n, const SlicePlacement& first) const {
+        const SlicePlacement& own = frames_[n].placement;
+        const double off = distance(own.position, description_.grid.center_mm(0, 0, frames_[n].k));
+        const bool parallel = distance(own.row_direction, first.row_direction) < 1e-4 &&
+                              distance(own.column_direction, first.column_direction) < 1e-4;
+        if (!parallel) refuse(fmt::format("frame {} is not parallel to the others", n + 1));
+        if (off > kOffLatticeMm)
+            refuse(fmt::format("frame {} lies {:.3g} mm off the lattice of the others; the limit is {:g} mm", n + 1, off,
+                               kOffLatticeMm));
+    }
+
+    void check_pixels() {
+        const auto pixels = static_cast<std::uint64_t>(description_.grid.size.i * description_.grid.size.j) * frames_.size();
+        const std::uint64_t needed = binary_ ? (pixels + 7) / 8 : pixels;
+        DcmDataset& all = *file_.getDataset();
+        if (DcmXfer(all.getCurrentXfer()).isEncapsulated() &&
+            all.chooseRepresentation(EXS_LittleEndianExplicit, nullptr).bad())
+            refuse(fmt::format("its pixels are compressed ({})", DcmXfer(all.getOriginalXfer()).getXferName()));
+        DcmElement* element = nullptr;
+        Uint8* bytes = nullptr;
+        if (all.findAndGetElement(DCM_PixelData, element).bad() || element->getLength() < needed ||
+            element->getUint8Array(bytes).bad() || !bytes)
+            throw corrupt(fmt::format("its pixel data is shorter than the {} bytes of its frames", needed));
+        pixels_ = {bytes, static_cast<std::size_t>(needed)};
+    }
+
+    DcmFileFormat file_;
+    DicomSegmentation description_;
+    std::map<std::int64_t, std::size_t> index_of_;  ///< of a segment's number
+    std::vector<SegFrame> frames_;
+    std::optional<double> spacing_, thickness_;
+    bool binary_ = true;
+    int threshold_ = 1;
+    std::span<const Uint8> pixels_;
+};
+
+std::string listed(const std::vector<DicomSegment>& segments) {
+    std::string text;
+    for (const DicomSegment& segment : segments)
+        text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", segment.number, segment.label);
+    return text.empty() ? "none" : text;
+}
+
+void check_segment(const DicomSegmentation& found, std::int64_t number) {
+    const auto& all = found.segments;
+    if (std::none_of(all.begin(), all.end(), [&](const DicomSegment& s) { return s.number == number; }))
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no segment {}; there are: {}", number, listed(all)));
+}
+
+template <class T>
+std::vector<T> label_map(const SegFile& file, std::optional<std::int64_t> only, const Progress& progress) {
+    const Grid& grid = file.description().grid;
+    std::vector<T> labels(static_cast<std::size_t>(grid.voxel_count()));
+    for (std::size_t f = 0; f < file.frames().size(); ++f) {
+        progress.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
+        const SegFrame& frame = file.frames()[f];
+        if (only && frame.segment != *only) continue;
+        T* const slice = labels.data() + grid.offset(0, 0, frame.k);
+        file.for_each_inside(f, [&](std::size_t n) {
+            if (slice[n] != 0 && slice[n] != frame.segment)
+                throw Error(ErrorKind::invalid_input,
+                            fmt::format("the segments {} '{}' and {} '{}' overlap; choose one", +slice[n],
+                                        file.segment(slice[n]).label, frame.segment, file.segment(frame.segment).label));
+            slice[n] = static_cast<T>(frame.segment);
+        });
+    }
+    return labels;
+}
+
+template <class Body>
+auto named_after(const std::filesystem::path& path, const Body& body) {
+    try {
+        return body();
+    } catch (const Error& error) {
+        if (std::string_view(error.what()).starts_with(path.string())) throw;
+        throw error.with_context(path.string());
+    }
+}
+
+}  // namespace
+
+bool is_dicom_seg(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored) || !has_dicom_prefix(path)) return false;
+    DcmFileFormat file;
+    dcmtk::load(file, path, DCM_Manufacturer);  // the element after Modality
+    return dcmtk::text(*file.getDataset(), DCM_Modality) == "SEG";
+}
+
+DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std::int64_t max_voxels) {
+    return named_after(path, [&] {
+        SegFile file(path, max_voxels);
+        file.count_voxels();
+        return file.description();
+    });
+}
+
+DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment, std::int64_t max_voxels,
+                        const Progress& progress) {
+    return named_after(path, [&] {
+        const SegFile file(path, max_voxels);
+        const DicomSegmentation& found = file.description();
+        if (segment) check_segment(found, *segment);
+        const bool small =
+            std::all_of(found.segments.begin(), found.segments.end(), [](const DicomSegment& s) { return s.number <= 255; });
+        Image image{found.grid, {}};
+        if (small) image.samples = label_map<std::uint8_t>(file, segment, progress);
+        else image.samples = label_map<std::uint16_t>(file, segment, progress);
+        return DicomSeg{std::move(image), found.notes};
+    });
+}
+
+}  // namespace kontur

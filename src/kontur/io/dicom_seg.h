@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kontur/base/progress.h"
+#include "kontur/io/dicom_series.h"
+#include "kontur/shape/volume.h"
+
+namespace kontur {
+
+/// One segment of a DICOM segmentation.
+struct DicomSegment {
+    std::int64_t number = 1;                       ///< from 1; its label in label maps
+    std::string label;                             ///< its name
+    std::string algorithm_type = "SEMIAUTOMATIC";  ///< or "AUTOMATIC" or "MANUAL"
+    std::string algorithm_name = "";
+    std::optional<std::array<std::uint8_t, 3>> color = std::nullopt;  ///< sRGB
+    std::int64_t voxels = 0;                                          ///< set by reading
+};
+
+/// What a DICOM segmentation says about itself, and how much each segment holds.
+struct DicomSegmentation {
+    Grid grid;  ///< from the first to the last stored slice; slices without a frame between them belong to it
+    std::vector<DicomSegment> segments;
+    std::string frame_of_reference_uid;
+    std::string referenced_series_uid;  ///< of the images it was made on; "" when not given
+    std::vector<std::string> notes;
+};
+
+/// True for a file that starts as a DICOM file does and says that it is a segmentation. Reads a few elements only.
+bool is_dicom_seg(const std::filesystem::path& path);
+
+/// Reads all but the voxels' places. Binary segmentations and fractional ones, which count as inside from one half on (a
+/// note says so). Frames lie in any order, with any slices left out. Throws Error(unsupported) for other kinds of
+/// segmentation, frames that are not parallel or not on one regular lattice; Error(corrupt_file) and Error(too_large).
+DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000);
+
+struct DicomSeg {
+    Image labels;
+    std::vector<std::string> notes;
+};
+
+/// The segments' numbers on the segmentation's grid; with `segment` that one alone. Throws Error(invalid_input), naming
+/// two, when segments overlap, and for a segment that is not there, listing those that are.
+DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment = {},
+                        std::int64_t max_voxels = 2'200'000'000, const Progress& progress = {});
+
+/// How segments were made, for those who audit them (DICOM PS3.3 table 10-19).
+struct DicomAlgorithm {
+    std::string name;  ///< "" : nothing is said
+    std::string version;
+    std::string parameters;  ///< free text
+};
+
+struct WriteDicomSegOptions {
+    std::string series_description = "kontur segmentation";
+    DicomAlgorithm algorithm;
+};
+
+/// Writes a binary DICOM segmentation (Explicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
+/// study, frame of reference, and for each frame its source slice. Each segment covers the voxels of `labels` whose value is
+/// its number; in the file they are numbered from 1 in the order given, as DICOM wants it. The frames are all slices of the
+/// images, so a mask comes back on their grid. `labels` may be turned, mirrored or cropped against the images as long as its
+/// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in mm, for a value without a
+/// segment and for a segment without voxels; Error(too_large) beyond DICOM's 4 GiB; Error(io). Source: DICOM PS3.3 A.51 and
+/// C.8.20.
+void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
+                     const DicomSeries& images, const WriteDicomSegOptions& options = {}, const Progress& progress = {});
+
+}  // namespace kontur

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include "kontur/base/error.h"
+#include "kontur/io/cie_lab.h"
+#include "kontur/io/decimal_string.h"
+#include "kontur/io/dicom_document.h"
+#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom_uid.h"
+
+namespace kontur {
+namespace {
+
+using dcmtk::append_item;
+using dcmtk::put;
+using dcmtk::put_code;
+using dcmtk::put_image_reference;
+
+constexpr dcmtk::Code kTissue{"85756007", "SCT", "Tissue"};  // what other programs write for want of a better word
+constexpr dcmtk::Code kSegmentation{"113076", "DCM", "Segmentation"};
+constexpr dcmtk::Code kSource{"121322", "DCM", "Source image for image processing operation"};
+constexpr dcmtk::Code kManual{"123109", "DCM", "Manual Processing"};  // the family: drawn contours, joined by a function
+
+Error invalid(const std::string& message) { return Error(ErrorKind::invalid_input, message); }
+
+std::string decimals(std::initializer_list<double> values) {
+    std::string text;
+    for (const double value : values) {
+        if (!text.empty()) text += '\\';
+        text += to_decimal_string(value);
+    }
+    return text;
+}
+
+/// The labels' voxels in the order of the images': which label lies at each voxel of the images.
+class Lookup {
+public:
+    Lookup(const Image& labels, const Grid& images) : labels_(labels), images_(images) {
+        const Affine3 to_index = labels.grid.index_to_mm.inverse();
+        to_label_ = compose(to_index, images.index_to_mm);
+        check_lattices();
+    }
+
+    /// By voxel of the images, i fastest.
+    std::vector<std::uint16_t> values() const {
+        std::vector<std::uint16_t> values;
+        values.reserve(static_cast<std::size_t>(images_.voxel_count()));
+        for (std::int64_t k = 0; k < images_.size.k; ++k)
+            for (std::int64_t j = 0; j < images_.size.j; ++j)
+                for (std::int64_t i = 0; i < images_.size.i; ++i) values.push_back(at(i, j, k));
+        return values;
+    }
+
+private:
+    /// 0 outside of the labels.
+    std::uint16_t at(std::int64_t i, std::int64_t j, std::int64_t k) const {
+        const Vec3 p = to_label_.apply({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+        const Index3 n{std::llround(p.x), std::llround(p.y), std::llround(p.z)}, &size = labels_.grid.size;
+        if (n.i < 0 || n.j < 0 || n.k < 0 || n.i >= size.i || n.j >= size.j || n.k >= size.k) return 0;
+        return static_cast<std::uint16_t>(sample(labels_, labels_.grid.offset(n.i, n.j, n.k)));
+    }
+
+    /// A voxel of one grid is a voxel of the other, everywhere, within a twentieth of a voxel.
+    void check_lattices() const {
+        constexpr double kTolerance = 0.05;
+        const auto last = [](std::int64_t n) { return static_cast<double>(n - 1); };
+        double off = 0, spread = 0;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            const Vec3 p = to_label_.apply({corner & 1 ? last(images_.size.i) : 0, corner & 2 ? last(images_.size.j) : 0,
+                                            corner & 4 ? last(images_.size.k) : 0});
+            for (const double x : {p.x, p.y, p.z}) off = std::max(off, std::abs(x - std::round(x)));
+        }
+        for (const auto& row : to_label_.linear)
+            for (const double x : row) spread = std::max(spread, std::abs(x - std::round(x)));
+        if (off <= kTolerance && spread <= kTolerance && std::abs(std::abs(to_label_.determinant()) - 1) <= kTolerance)
+            return;
+        throw invalid(
+            fmt::format("the mask's voxels do not lie on those of the images: they are up to {:.3g} of a voxel off; "
+                        "the limit is {:g}",
+                        std::max(off, spread), kTolerance));
+    }
+
+    const Image& labels_;
+    const Grid& images_;
+    Affine3 to_label_;
+};
+
+/// The values that occur, each of which needs a segment, and the other way round.
+void check_segments(const Image& labels, const std::vector<DicomSegment>& segments) {
+    std::set<std::int64_t> wanted;
+    for (const DicomSegment& segment : segments) {
+        if (segment.number < 1 || segment.number > 65535)
+            throw invalid(fmt::format("segment number {} cannot be written; 1 to 65535 can", segment.number));
+        if (!wanted.insert(segment.number).second)
+            throw invalid(fmt::format("two segments have the number {}", segment.number));
+    }
+    const auto counts = count_labels(labels, 65536);
+    for (const auto& [label, count] : counts)
+        if (!wanted.contains(label))
+            throw invalid(fmt::format("{} voxels have the label {}, which no segment has", count, label));
+    for (const DicomSegment& segment : segments)
+        if (!counts.contains(segment.number))
+            throw invalid(fmt::format("segment {} '{}' has no voxels", segment.number, segment.label));
+}
+
+class SegWriter {
+public:
+    SegWriter(DcmItem& document, const std::vector<DicomHeader>& slices) : document_(document), slices_(slices) {}
+
+    void put_header(std::size_t segments) {
+        const DicomHeader& first = slices_.front();
+        put(document_, DCM_ImageType, "DERIVED\\PRIMARY");
+        put(document_, DCM_ContentDate, dcmtk::text(document_, DCM_InstanceCreationDate));
+        put(document_, DCM_ContentTime, dcmtk::text(document_, DCM_InstanceCreationTime));
+        put(document_, DCM_ContentLabel, "SEGMENTATION");
+        put(document_, DCM_ContentDescription, "");
+        put(document_, DCM_ContentCreatorName, "");
+        put(document_, DCM_NumberOfFrames, static_cast<std::int64_t>(segments * slices_.size()));
+        put(document_, DCM_SamplesPerPixel, 1);
+        put(document_, DCM_PhotometricInterpretation, "MONOCHROME2");
+        put(document_, DCM_Rows, first.rows);
+        put(document_, DCM_Columns, first.columns);
+        put(document_, DCM_BitsAllocated, 1);
+        put(document_, DCM_BitsStored, 1);
+        put(document_, DCM_HighBit, 0);
+        put(document_, DCM_PixelRepresentation, 0);
+        put(document_, DCM_LossyImageCompression, "00");
+        put(document_, DCM_SegmentationType, "BINARY");
+        put(document_, DCM_SegmentsOverlap, "NO");
+    }
+
+    void put_segment(const DicomSegment& segment, std::size_t number, const DicomAlgorithm& algorithm) {
+        DcmItem& item = append_item(document_, DCM_SegmentSequence);
+        put(item, DCM_SegmentNumber, static_cast<std::int64_t>(number));
+        put(item, DCM_SegmentLabel, dcmtk::one_value(segment.label.empty() ? "segment" : segment.label, 64));
+        put(item, DCM_SegmentAlgorithmType, segment.algorithm_type);
+        if (segment.algorithm_type != "MANUAL")
+            put(item, DCM_SegmentAlgorithmName,
+                dcmtk::one_value(segment.algorithm_name.empty() ? "unknown" : segment.algorithm_name, 64));
+        put_code(item, DCM_SegmentedPropertyCategoryCodeSequence, kTissue);
+        put_code(item, DCM_SegmentedPropertyTypeCodeSequence, kTissue);
+        if (segment.color) put_color(item, *segment.color);
+        if (!algorithm.name.empty())
+            put_algorithm(append_item(item, DCM_SegmentationAlgorithmIdentificationSequence), algorithm);
+    }
+
+    void put_image_references() {
+        DcmItem& series = append_item(document_, DCM_ReferencedSeriesSequence);
+        put(series, DCM_SeriesInstanceUID, slices_.front().series_uid);
+        std::set<std::string> named;
+        for (const DicomHeader& slice : slices_)
+            if (named.insert(slice.sop_instance_uid).second)
+                put_image_reference(append_item(series, DCM_ReferencedInstanceSequence), slice);
+    }
+
+    void put_dimensions() {
+        const std::string uid = new_uid();
+        put(append_item(document_, DCM_DimensionOrganizationSequence), DCM_DimensionOrganizationUID, uid);
+        put_dimension(uid, DCM_ReferencedSegmentNumber, DCM_SegmentIdentificationSequence, "segment");
+        put_dimension(uid, DCM_ImagePositionPatient, DCM_PlanePositionSequence, "position");
+    }
+
+    void put_shared_groups(const Vec3& step) {
+        const SlicePlacement& place = slices_.front().placement;
+        const Vec3 &row = place.row_direction, &column = place.column_direction;
+        const double spacing = std::abs(dot(place.normal(), step));
+        DcmItem& shared = append_item(document_, DCM_SharedFunctionalGroupsSequence);
+        put(append_item(shared, DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient,
+            decimals({row.x, row.y, row.z, column.x, column.y, column.z}));
+        DcmItem& measures = append_item(shared, DCM_PixelMeasuresSequence);
+        put(measures, DCM_PixelSpacing, decimals({place.spacing_mm[1], place.spacing_mm[0]}));
+        put(measures, DCM_SliceThickness, to_decimal_string(spacing));
+        put(measures, DCM_SpacingBetweenSlices, to_decimal_string(spacing));
+    }
+
+    void put_frame(std::size_t segment, std::size_t k) {
+        const Vec3& position = slices_[k].placement.position;
+        DcmItem& frame = append_item(document_, DCM_PerFrameFunctionalGroupsSequence);
+        DcmItem& content = append_item(frame, DCM_FrameContentSequence);
+        put_numbers(content, DCM_DimensionIndexValues, {static_cast<Uint32>(segment), static_cast<Uint32>(k + 1)});
+        put(append_item(frame, DCM_PlanePositionSequence), DCM_ImagePositionPatient,
+            decimals({position.x, position.y, position.z}));
+        DcmItem& derivation = append_item(frame, DCM_DerivationImageSequence);
+        put_code(derivation, DCM_DerivationCodeSequence, kSegmentation);
+        DcmItem& source = append_item(derivation, DCM_SourceImageSequence);
+        put_image_reference(source, slices_[k]);
+        put_code(source, DCM_PurposeOfReferenceCodeSequence, kSource);
+        put(append_item(frame, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber,
+            static_cast<std::int64_t>(segment));
+    }
+
+private:
+    static void put_color(DcmItem& segment, const Rgb8& color) {
+        const DicomLab lab = to_dicom_lab(color);
+        segment.putAndInsertUint16Array(DCM_RecommendedDisplayCIELabValue, lab.data(), lab.size());
+    }
+
+    static void put_numbers(DcmItem& item, const DcmTagKey& tag, const std::array<Uint32, 2>& numbers) {
+        auto element = std::make_unique<DcmUnsignedLong>(DcmTag(tag));
+        element->putUint32Array(numbers.data(), numbers.size());
+        if (item.insert(element.get(), /*replaceOld=*/OFTrue).good()) element.release();
+    }
+
+    static void put_algorithm(DcmItem& item, const DicomAlgorithm& algorithm) {
+        put_code(item, DCM_AlgorithmFamilyCodeSequence, kManual);
+        put(item, DCM_AlgorithmName, dcmtk::one_value(algorithm.name, 64));
+        put(item, DCM_AlgorithmVersion, dcmtk::one_value(algorithm.version, 64));
+        if (!algorithm.parameters.empty()) put(item, DCM_AlgorithmParameters, dcmtk::one_value(algorithm.parameters, 10240));
+        put(item, DCM_AlgorithmSource, "kontur");
+    }
+
+    void put_dimension(const std::string& uid, const DcmTagKey& index, const DcmTagKey& group, const char* name) {
+        DcmItem& item = append_item(document_, DCM_DimensionIndexSequence);
+        put(item, DCM_DimensionOrganizationUID, uid);
+        item.putAndInsertTagKey(DCM_DimensionIndexPointer, index);
+        item.putAndInsertTagKey(DCM_FunctionalGroupPointer, group);
+        put(item, DCM_DimensionDescriptionLabel, name);
+    }
+
+    DcmItem& document_;
+    const std::vector<DicomHeader>& slices_;
+};
+
+/// All frames as one row of bits without gaps between them, the lowest bit of a byte first (PS3.5 8.1.1).
+class BitRow {
+public:
+    explicit BitRow(std::uint64_t bits) : bytes_((bits + 15) / 16 * 2) {}
+    void append(bool bit) {
+        if (bit) bytes_[count_ >> 3] = static_cast<Uint8>(bytes_[count_ >> 3] | 1u << (count_ & 7));
+        ++count_;
+    }
+    const std::vector<Uint8>& bytes() const { return bytes_; }
+
+private:
+    std::vector<Uint8> bytes_;
+    std::uint64_t count_ = 0;
+};
+
+std::uint64_t checked_bits(const Grid& grid, std::size_t segments) {
+    const std::uint64_t bits = static_cast<std::uint64_t>(grid.voxel_count()) * segments;
+    const std::uint64_t limit = std::numeric_limits<std::uint32_t>::max();
+    if (bits / 8 >= limit - 16)
+        throw Error(ErrorKind::too_large, fmt::format("{} segments of {} voxels need {} bytes; a DICOM file holds up to {}",
+                                                      segments, grid.voxel_count(), bits / 8, limit));
+    return bits;
+}
+
+/// The images' voxels, from slices that were found to form a grid.
+Grid grid_of(const std::vector<DicomHeader>& slices) {
+    const SlicePlacement& first = slices.front().placement;
+    Grid grid;
+    grid.size = {slices.front().columns, slices.front().rows, static_cast<std::int64_t>(slices.size())};
+    grid.index_to_mm.set_column(0, first.spacing_mm[0] * first.row_direction);
+    grid.index_to_mm.set_column(1, first.spacing_mm[1] * first.column_direction);
+    grid.index_to_mm.set_column(
+        2, slices.size() > 1 ? (slices.back().placement.position - first.position) / static_cast<double>(slices.size() - 1)
+                             : slices.front().thickness_mm.value_or(1) * first.normal());
+    grid.index_to_mm.translation = first.position;
+    return grid;
+}
+
+}  // namespace
+
+void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
+                     const DicomSeries& images, const WriteDicomSegOptions& options, const Progress& progress) {
+    dcmtk::set_up();
+    const std::vector<DicomHeader> slices = read_slice_headers(images);
+    const Grid grid = grid_of(slices);
+    check_segments(labels, segments);
+    const std::vector<std::uint16_t> values = Lookup(labels, grid).values();
+    BitRow bits(checked_bits(grid, segments.size()));
+
+    DcmFileFormat file;
+    DcmItem& document = *file.getDataset();
+    dcmtk::start_document(document, images, UID_SegmentationStorage, "SEG", options.series_description);
+    SegWriter writer(document, slices);
+    writer.put_header(segments.size());
+    writer.put_image_references();
+    writer.put_dimensions();
+    writer.put_shared_groups(grid.index_to_mm.column(2));
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+        writer.put_segment(segments[s], s + 1, options.algorithm);
+        for (std::int64_t k = 0; k < grid.size.k; ++k) {
+            progress.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
+            writer.put_frame(s + 1, static_cast<std::size_t>(k));
+            for (std::size_t n = grid.offset(0, 0, k); n < grid.offset(0, 0, k + 1); ++n)
+                bits.append(values[n] == segments[s].number);
+        }
+    }
+    document.putAndInsertUint8Array(DCM_PixelData, bits.bytes().data(), static_cast<unsigned long>(bits.bytes().size()));
+    dcmtk::save(file, path, EXS_LittleEndianExplicit);
+}
+
+}  // namespace kontur

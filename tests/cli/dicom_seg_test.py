@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""DICOM segmentations out of kontur segment and convert and back in."""
+import json
+import pathlib
+import subprocess
+import sys
+
+import nibabel
+import numpy
+import pydicom
+import pytest
+from support import circle, kontur, names, read_nifti, write_nifti, write_planes
+
+SUPPORT = pathlib.Path(__file__).parent.parent / "support"
+
+
+@pytest.fixture(scope="module")
+def images(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("images") / "oblique"
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "oblique", folder], check=True)
+    return folder / "dicom"
+
+
+@pytest.fixture
+def contours(tmp_path, images):
+    center = json.loads(kontur("inspect", images, "--json").stdout)[0]["origin_mm"]
+    center = numpy.array(center) + [2.5, 5.5, 11.0]
+    return write_planes(tmp_path / "ball.json", [circle(a, o, center=center, radius=3.5) for a in "xyz" for o in (-1.5, 0, 1.5)])
+
+
+def test_segment_writes_the_mask_that_it_writes_elsewhere(tmp_path, images, contours):
+    for name in ("mask.nii.gz", "mask.dcm"):
+        result = kontur("segment", contours, "--image", images, "--output", tmp_path / name, "--name", "Läsion")
+        assert result.returncode == 0, result
+    mask = read_nifti(tmp_path / "mask.nii.gz")
+    assert mask.any()
+    mask.transpose(2, 1, 0).astype("u1").tofile(tmp_path / "truth.raw")
+    words = [sys.executable, SUPPORT / "check_dicom_seg.py", tmp_path / "mask.dcm", images, tmp_path / "truth.raw"]
+    seen = subprocess.run(words, capture_output=True, text=True)
+    assert seen.returncode == 0, seen
+    assert "1 Läsion SEMIAUTOMATIC kontur" in seen.stdout
+    assert "kernel=triharmonic normals=surface" in seen.stdout
+    same = json.loads(kontur("compare", tmp_path / "mask.dcm", tmp_path / "mask.nii.gz", "--json").stdout)
+    assert same["dice"] == 1
+
+
+def test_a_label_map_keeps_its_segments_through_dicom(tmp_path, images):
+    assert kontur("convert", images, tmp_path / "ct.nii.gz").returncode == 0
+    labels = (numpy.random.default_rng(1).integers(0, 3, read_nifti(tmp_path / "ct.nii.gz").shape) * 3).astype("u1")
+    ras = numpy.array(nibabel.load(tmp_path / "ct.nii.gz").affine)
+    write_nifti(tmp_path / "labels.nii.gz", labels, numpy.diag([-1.0, -1.0, 1.0, 1.0]) @ ras)
+    assert kontur("convert", tmp_path / "labels.nii.gz", tmp_path / "seg.dcm", "--image", images).returncode == 0
+    assert [s.SegmentLabel for s in pydicom.dcmread(tmp_path / "seg.dcm").SegmentSequence] == ["label 3", "label 6"]
+    assert kontur("convert", tmp_path / "seg.dcm", tmp_path / "again.nii.gz").returncode == 0
+    assert numpy.array_equal(read_nifti(tmp_path / "again.nii.gz"), labels // 3)
+    [facts] = json.loads(kontur("inspect", tmp_path / "seg.dcm", "--json").stdout)
+    assert facts["kind"] == "segmentation"
+    assert [(s["name"], s["voxels"]) for s in facts["segments"]] == [(f"label {n}", (labels == n).sum()) for n in (3, 6)]
+
+
+def test_what_is_no_label_map_of_the_images_is_refused(tmp_path, images):
+    before = names(tmp_path)
+    result = kontur("convert", images, tmp_path / "seg.dcm", "--image", images)
+    assert result.returncode == 65 and "segment number -1024" in result.stderr
+    assert names(tmp_path) == before

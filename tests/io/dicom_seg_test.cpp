@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom_seg.h"
+
+#include <gtest/gtest.h>
+
+#include "kontur/io/image.h"
+#include "support/damage.h"
+#include "support/expect_error.h"
+#include "support/random.h"
+#include "support/run_python.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string run(const std::string& script, const std::vector<std::string>& arguments) {
+    const auto result = test::run_python(script, arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return result.output;
+}
+
+class WriteDicomSeg : public testing::Test {
+protected:
+    void use_images(const std::string& name) {
+        run("make_dicom_series.py", {name, (folder_ / name).string()});
+        images_ = folder_ / name / "dicom";
+        const DicomGrid found = read_dicom_grid(images_);
+        series_ = found.series;
+        grid_ = found.grid;
+    }
+
+    /// Every voxel 0, 1, 2 or 3 by chance.
+    Image random_labels() const {
+        std::mt19937 random = test::random_of_this_test();
+        std::vector<std::uint8_t> labels(static_cast<std::size_t>(grid_.voxel_count()));
+        for (std::uint8_t& label : labels) label = static_cast<std::uint8_t>(random() % 4);
+        return {grid_, labels};
+    }
+
+    std::string verdict(const Image& labels) const {
+        const auto& values = std::get<std::vector<std::uint8_t>>(labels.samples);
+        test::write_bytes(folder_ / "truth.raw", std::string(values.begin(), values.end()));
+        return run("check_dicom_seg.py", {path().string(), images_.string(), (folder_ / "truth.raw").string()});
+    }
+
+    fs::path path() const { return folder_ / "seg.dcm"; }
+    static std::vector<DicomSegment> three_segments() {
+        return {{.number = 1, .label = "L\xC3\xA4sion \xD0\x96", .algorithm_name = "kontur", .color = {{255, 0, 0}}},
+                {.number = 2, .label = "two", .algorithm_type = "AUTOMATIC", .algorithm_name = "net"},
+                {.number = 3, .label = "three", .algorithm_name = "kontur", .color = {{10, 200, 30}}}};
+    }
+
+    test::TemporaryFolder folder_;
+    fs::path images_;
+    DicomSeries series_;
+    Grid grid_;
+};
+
+TEST_F(WriteDicomSeg, ComesBackVoxelByVoxelHereAndElsewhere) {
+    for (const char* images : {"axial", "oblique", "tilt", "odd"}) {
+        SCOPED_TRACE(images);
+        use_images(images);
+        const Image labels = random_labels();
+        write_dicom_seg(path(), labels, three_segments(), series_, {.algorithm = {"interpolation", "1.2", "kernel=r\\3"}});
+        const Image again = read_image(path());
+        EXPECT_EQ(again.samples, labels.samples);
+        EXPECT_LT(corner_distance_mm(again.grid, grid_), 1e-6);
+        EXPECT_LT(corner_distance_mm(read_grid(path()), grid_), 1e-6);
+        EXPECT_EQ(read_mask(path(), 2).values, select_label(labels, 2).values);
+
+        const std::string seen = verdict(labels);
+        EXPECT_NE(seen.find("1 L\xC3\xA4sion \xD0\x96 SEMIAUTOMATIC kontur [35580, 53665, 50855]"), std::string::npos)
+            << "red in D50 is L*a*b* 54.29, 80.81, 69.89: " << seen;
+        EXPECT_NE(seen.find("algorithm: interpolation 1.2 kernel=r/3"), std::string::npos) << seen;
+    }
+}
+
+TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
+    use_images("odd");
+    write_dicom_seg(path(), random_labels(), three_segments(), series_);
+    const DicomSegmentation found = read_dicom_segmentation(path());
+    ASSERT_EQ(found.segments.size(), 3u);
+    EXPECT_EQ(found.segments[0].label, "L\xC3\xA4sion \xD0\x96");
+    EXPECT_EQ(found.segments[1].algorithm_type, "AUTOMATIC");
+    EXPECT_EQ(found.segments[1].algorithm_name, "net");
+    EXPECT_EQ(found.segments[1].color, std::nullopt);
+    EXPECT_EQ(found.segments[2].color, (std::array<std::uint8_t, 3>{10, 200, 30}));
+    EXPECT_EQ(found.frame_of_reference_uid, series_.frame_of_reference_uid);
+    EXPECT_EQ(found.referenced_series_uid, series_.series_uid);
+    EXPECT_EQ(found.segments[0].voxels, count_labels(random_labels()).at(1));
+}
+
+TEST_F(WriteDicomSeg, TakesMirroredTurnedAndCroppedMasks) {
+    use_images("oblique");
+    Image labels = random_labels();
+    const auto values = std::get<std::vector<std::uint8_t>>(labels.samples);
+    // i runs along the image's -k, j along i, k along j; the last two columns are cropped.
+    Grid turned{{grid_.size.k, grid_.size.i - 2, grid_.size.j}, {}};
+    turned.index_to_mm.set_column(0, -grid_.index_to_mm.column(2));
+    turned.index_to_mm.set_column(1, grid_.index_to_mm.column(0));
+    turned.index_to_mm.set_column(2, grid_.index_to_mm.column(1));
+    turned.index_to_mm.translation = grid_.center_mm(0, 0, grid_.size.k - 1);
+    std::vector<std::uint8_t> moved(static_cast<std::size_t>(turned.voxel_count()));
+    std::vector<std::uint8_t> expected(values.size());
+    for (std::int64_t k = 0; k < grid_.size.k; ++k)
+        for (std::int64_t j = 0; j < grid_.size.j; ++j)
+            for (std::int64_t i = 0; i + 2 < grid_.size.i; ++i)
+                moved[turned.offset(grid_.size.k - 1 - k, i, j)] = expected[grid_.offset(i, j, k)] =
+                    values[grid_.offset(i, j, k)];
+    write_dicom_seg(path(), {turned, moved}, three_segments(), series_);
+    EXPECT_EQ(read_image(path()).samples, Image::Samples(expected));
+}
+
+TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
+    use_images("axial");
+    Image labels = random_labels();
+    auto segments = three_segments();
+    segments.pop_back();
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, segments, series_), ErrorKind::invalid_input,
+                        "have the label 3, which no segment has");
+    segments = three_segments();
+    segments.push_back({.number = 7, .label = "seven"});
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, segments, series_), ErrorKind::invalid_input,
+                        "segment 7 'seven' has no voxels");
+    labels.grid.index_to_mm.translation.x += 0.35;
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+                        "they are up to 0.5 of a voxel off; the limit is 0.05");
+    EXPECT_FALSE(fs::exists(path()));
+}
+
+class ReadDicomSeg : public testing::Test {
+protected:
+    fs::path make(const std::string& name) {
+        run("make_dicom_seg.py", {name, path().string(), (folder_ / "truth").string()});
+        return path();
+    }
+    std::vector<std::uint8_t> truth() const {
+        const std::string bytes = test::read_bytes(folder_ / "truth");
+        return {bytes.begin(), bytes.end()};
+    }
+    fs::path path() const { return folder_ / "seg.dcm"; }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ReadDicomSeg, PlacesFramesInAnyOrderWithSlicesLeftOut) {
+    make("shuffled");
+    const DicomSeg found = read_dicom_seg(path());
+    EXPECT_EQ(found.labels.samples, Image::Samples(truth()));
+    Grid expected{{7, 5, 6}, {}};
+    expected.index_to_mm.set_column(0, {0.42, 0.56, 0});
+    expected.index_to_mm.set_column(1, {0, 0, 0.5});
+    expected.index_to_mm.set_column(2, {1.6, -1.2, 0});
+    expected.index_to_mm.translation = {10, 20, 30};
+    EXPECT_LT(corner_distance_mm(found.labels.grid, expected), 1e-6);
+    EXPECT_TRUE(is_dicom_seg(path()));
+}
+
+TEST_F(ReadDicomSeg, ReadsOverlappingSegmentsOneByOne) {
+    make("overlapping");
+    EXPECT_KONTUR_ERROR(read_image(path()), ErrorKind::invalid_input, "'L\xC3\xA4sion' and 4 'node' overlap; choose one");
+    const std::vector<std::uint8_t> first = read_mask(path(), 1).values;
+    const std::vector<std::uint8_t> expected = truth();
+    for (std::size_t n = 0; n < first.size(); ++n) ASSERT_EQ(first[n] != 0, expected[n] == 1) << n;
+    EXPECT_KONTUR_ERROR(read_mask(path(), 2), ErrorKind::invalid_input,
+                        "there is no segment 2; there are: 1 'L\xC3\xA4sion', 4 'node'");
+}
+
+TEST_F(ReadDicomSeg, CountsFractionsFromOneHalfOn) {
+    make("fractional");
+    const DicomSeg found = read_dicom_seg(path());
+    EXPECT_EQ(found.labels.samples, Image::Samples(truth()));
+    ASSERT_EQ(found.notes.size(), 1u);
+    EXPECT_NE(found.notes.front().find("one half"), std::string::npos);
+}
+
+TEST_F(ReadDicomSeg, RefusesContradictionsByName) {
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("irregular")), ErrorKind::unsupported, "its frames lie on no regular lattice");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("turned")), ErrorKind::unsupported, "frame 3 is not parallel to the others");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("unlisted")), ErrorKind::corrupt_file,
+                        "frame 4: it belongs to segment 9, which is not listed");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("short")), ErrorKind::corrupt_file, "its pixel data is shorter than");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("kind")), ErrorKind::unsupported, "type 'LABELMAP' with 1 bits");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("shuffled"), {}, 209), ErrorKind::too_large,
+                        "7 x 5 x 6 voxels; the limit is 209 voxels");
+}
+
+TEST_F(ReadDicomSeg, EndsCleanlyOnEveryDamagedFile) {
+    const std::string bytes = test::read_bytes(make("shuffled"));
+    const fs::path damaged_path = folder_ / "damaged.dcm";
+    int refused = 0;
+    const auto read_damaged = [&](const std::string& damaged) {
+        test::write_bytes(damaged_path, damaged);
+        try {
+            read_dicom_seg(damaged_path);
+        } catch (const Error&) {
+            ++refused;
+        }
+    };
+    test::for_each_prefix(bytes, 23, read_damaged);
+    EXPECT_EQ(refused, static_cast<int>((bytes.size() + 22) / 23));
+    test::for_each_mutant(bytes, 400, 7, read_damaged);
+}
+
+TEST(DicomSegReal, OfAnotherProgramEqualsItsLabelMap) {
+    KONTUR_REQUIRE_DATA("14_dicom_seg_dcmqi/liver.dcm");
+    const fs::path folder = test::data_dir() / "14_dicom_seg_dcmqi";
+    const Mask liver = read_mask(folder / "liver.dcm"), truth = read_mask(folder / "liver_seg.nrrd");
+    EXPECT_LT(corner_distance_mm(liver.grid, truth.grid), 1e-3);
+    EXPECT_EQ(liver.values, truth.values);
+    EXPECT_KONTUR_ERROR(read_image(folder / "partial_overlaps.dcm"), ErrorKind::invalid_input, "overlap; choose one");
+    EXPECT_EQ(read_dicom_segmentation(folder / "partial_overlaps.dcm").segments.size(), 5u);
+}
+
+}  // namespace
+}  // namespace kontur

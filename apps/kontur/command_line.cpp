@@ -203,6 +203,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
                                 "kontur inspect ct.nii.gz contours.json liver.stl dicom_folder/");
     InspectCommand& c = *bind.command;
     bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
+    bind.flag("--check", c.check, "List everything wrong or doubtful in contours, with its place");
     bind.flag("--json", c.json, "Print JSON");
     add_read_options(*bind.sub, c.read);
     add_series_options(*bind.sub, c.read.dicom);

@@ -74,6 +74,7 @@ void run(const CompareCommand& command, Console& console);
 /// What files are, and what is wrong with them.
 struct InspectCommand {
     std::vector<std::filesystem::path> files;
+    bool check = false;  ///< list what is wrong or doubtful in contour sets
     ReadImageOptions read;
     bool json = false;
 };

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "commands.h"
@@ -7,6 +9,7 @@
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/measure/contour_check.h"
 
 namespace kontur::app {
 namespace {
@@ -40,7 +43,49 @@ Facts inspect_image(const InspectCommand& command, const fs::path& path, Console
     return facts;
 }
 
-Facts inspect_structure_set(const fs::path& path) {
+Facts finding_json(const Finding& finding, const std::string& roi) {
+    Facts facts = {{"severity", name(finding.severity)}, {"kind", name(finding.kind)}};
+    if (!roi.empty()) facts["roi"] = roi;
+    if (finding.contour) facts["contour"] = *finding.contour + 1;
+    if (finding.other) facts["other"] = *finding.other + 1;
+    if (const auto& p = finding.position) facts["position_mm"] = {number(p->x), number(p->y), number(p->z)};
+    if (finding.value_mm) facts["value_mm"] = number(*finding.value_mm);
+    facts["text"] = finding.text;
+    return facts;
+}
+
+/// The same for people, one line.
+std::string finding_line(const Facts& finding) {
+    const std::string roi = finding.contains("roi") ? finding["roi"].get<std::string>() + ": " : "";
+    std::string line =
+        fmt::format("{}: {}{}", finding["severity"].get<std::string>(), roi, finding["text"].get<std::string>());
+    if (finding.contains("position_mm") && finding["kind"] != name(FindingKind::contradiction)) {  // which names it itself
+        const Facts& p = finding["position_mm"];
+        line += fmt::format(" at ({:.1f}, {:.1f}, {:.1f}) mm", p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+    }
+    return line;
+}
+
+void append_findings(const ContourSet& contours, const std::string& roi, Facts& facts) {
+    Facts& list = facts.emplace("findings", Facts::array()).first.value();
+    for (const Finding& finding : check_contour_set(contours)) list.push_back(finding_json(finding, roi));
+}
+
+/// Findings become lines; everything else stays.
+Facts for_people(Facts facts) {
+    if (!facts.contains("findings")) return facts;
+    for (Facts& finding : facts["findings"]) finding = finding_line(finding);
+    return facts;
+}
+
+std::size_t error_count(const Facts& facts) {
+    std::size_t count = 0;
+    if (facts.contains("findings"))
+        for (const Facts& finding : facts["findings"]) count += finding["severity"] == name(Severity::error);
+    return count;
+}
+
+Facts inspect_structure_set(const InspectCommand& command, const fs::path& path) {
     const StructureSet set = read_rtstruct(path);
     Facts rois = Facts::array();
     for (const Roi& roi : set.rois) {
@@ -51,13 +96,19 @@ Facts inspect_structure_set(const fs::path& path) {
         facts["notes"] = roi.notes;
         rois.push_back(std::move(facts));
     }
-    return {{"kind", "structure set"}, {"label", set.label}, {"rois", rois}};
+    Facts facts = {{"kind", "structure set"}, {"label", set.label}, {"rois", rois}};
+    if (command.check)
+        for (const Roi& roi : set.rois)
+            if (!roi.contours.contours.empty()) append_findings(roi.contours, roi.contours.name, facts);
+    return facts;
 }
 
-Facts inspect_contours(const fs::path& path) {
-    if (looks_like_dicom(path)) return inspect_structure_set(path);
+Facts inspect_contours(const InspectCommand& command, const fs::path& path) {
+    if (looks_like_dicom(path)) return inspect_structure_set(command, path);
     Facts facts = {{"kind", "contours"}};
-    facts.update(describe(read_contours(path).contours));
+    const ContourSet contours = read_contours(path).contours;
+    facts.update(describe(contours));
+    if (command.check) append_findings(contours, "", facts);
     return facts;
 }
 
@@ -73,7 +124,7 @@ Facts inspect(const InspectCommand& command, const fs::path& path, Console& cons
             if (is_dicom_seg(path)) return inspect_segmentation(command, path);
             return inspect_image(command, path, console);
         case FileKind::contours:
-            return inspect_contours(path);
+            return inspect_contours(command, path);
         case FileKind::mesh:
             break;
     }
@@ -89,12 +140,15 @@ void run(const InspectCommand& command, Console& console) {
         Facts facts;
         try {
             facts = inspect(command, path, console);
+            if (const std::size_t errors = error_count(facts); errors > 0 && !first_error)
+                first_error = Error(ErrorKind::invalid_input,
+                                    fmt::format("{} has {} error{}", path.string(), errors, errors == 1 ? "" : "s"));
         } catch (const Error& error) {
             if (error.kind() == ErrorKind::cancelled) throw;
             facts["error"] = error.what();
             if (!first_error) first_error = error;
         }
-        if (!command.json) console.print(path.string() + "\n" + to_text(facts));
+        if (!command.json) console.print(path.string() + "\n" + to_text(for_people(facts)));
         all.push_back({{"file", path.string()}});
         all.back().update(facts);
     }

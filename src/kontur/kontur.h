@@ -62,6 +62,7 @@
 // Judging and showing the result.
 #include "kontur/measure/compare.h"
 #include "kontur/measure/components.h"
+#include "kontur/measure/contour_check.h"
 #include "kontur/view/livewire.h"
 #include "kontur/view/outline.h"
 #include "kontur/view/picture.h"

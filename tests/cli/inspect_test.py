@@ -4,7 +4,7 @@ import json
 
 import numpy
 import pytest
-from support import ball_array, ball_planes, circle, kontur, lps_affine, names, succeed, write_nifti, write_planes
+from support import ball_array, ball_planes, circle, kontur, lps_affine, names, real_data, succeed, write_nifti, write_planes
 
 
 def inspect(*paths):
@@ -80,6 +80,49 @@ def test_problems_of_contours_are_listed_each(tmp_path):
     assert len(facts["problems"]) == 2
     assert facts["problems"][0] == "contour 1 has 2 points; at least 3 are needed"
     assert "contour 3 lies 1.5 mm off its plane" in facts["problems"][1]
+
+
+def check(*paths):
+    result = kontur("inspect", "--check", *paths, "--json")
+    return json.loads(result.stdout), result.returncode
+
+
+def test_check_lists_what_is_doubtful_with_its_place(tmp_path):
+    planes = ball_planes()
+    points = planes[0]["contours"][0]["points"]
+    points[5], points[25] = points[25], points[5]
+    [facts], code = check(write_planes(tmp_path / "doubtful.json", planes))
+    assert code == 0
+    finding = next(f for f in facts["findings"] if f["kind"] == "self_crossing")
+    assert (finding["severity"], finding["contour"]) == ("warning", 1)
+    assert len(finding["position_mm"]) == 3
+    text = succeed("inspect", "--check", tmp_path / "doubtful.json")
+    assert "warning: contour 1 crosses itself in " in text
+
+
+def test_check_of_a_sound_set_finds_nothing(tmp_path):
+    [facts], code = check(write_planes(tmp_path / "ball.json", ball_planes()))
+    assert (facts["findings"], code) == ([], 0)
+    assert "findings" not in inspect(tmp_path / "ball.json")[0]
+
+
+def test_check_ends_with_65_when_there_are_errors(tmp_path):
+    planes = [circle("z", 0), circle("z", 2), circle("z", 4)]
+    planes[0]["contours"][0]["points"] = planes[0]["contours"][0]["points"][:2]
+    planes[2]["contours"][0]["points"][3][2] += 1.5
+    path = write_planes(tmp_path / "bad.json", planes)
+    [facts], code = check(path)
+    assert code == 65
+    assert [f["kind"] for f in facts["findings"] if f["severity"] == "error"] == ["too_few_points", "off_plane"]
+    assert f"kontur: error: {path} has 2 errors" in kontur("inspect", "--check", path).stderr
+
+
+def test_check_names_the_structure_of_a_structure_set():
+    path = real_data("09_rtstruct_breast_dicompyler/rtss.dcm")
+    [facts], code = check(path)
+    assert code == 0
+    assert {"BODY", "Lt Lung"} <= {f["roi"] for f in facts["findings"]}
+    assert "note: Lt Lung: contour " in succeed("inspect", "--check", path)
 
 
 def test_text_names_what_json_names(tmp_path):

@@ -218,9 +218,13 @@ std::vector<Crossing> find_crossings(const ContourSet& set) {
 }
 
 std::string sentence(const Crossing& c) {
-    return fmt::format("contour {} passes {:.2g} mm {} of contour {} at ({:.1f}, {:.1f}, {:.1f}) mm", c.contour + 1,
-                       std::abs(c.distance_mm), c.distance_mm < 0 ? "inside" : "outside", c.other + 1, c.position.x,
-                       c.position.y, c.position.z);
+    const std::string what = c.matched
+                                 ? fmt::format("passes {:.2g} mm {} of contour {}", c.disagreement_mm,
+                                               c.distance_mm < 0 ? "inside" : "outside", c.other + 1)
+                                 : fmt::format("shows {} where the plane of contour {} shows none, by {:.2g} mm",
+                                               c.distance_mm < 0 ? "a gap" : "the object", c.other + 1, c.disagreement_mm);
+    return fmt::format("contour {} {} at ({:.1f}, {:.1f}, {:.1f}) mm", c.contour + 1, what, c.position.x, c.position.y,
+                       c.position.z);
 }
 
 Disagreement disagreement(std::span<const Crossing> crossings) {

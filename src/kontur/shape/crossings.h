@@ -35,7 +35,8 @@ struct Crossing {
 /// O(points * planes).
 std::vector<Crossing> find_crossings(const ContourSet& set);
 
-/// "contour 3 passes 4.2 mm inside of contour 7 at (1.0, 2.0, 3.0) mm", contours counted from 1.
+/// "contour 3 passes 4.2 mm inside of contour 7 at (1.0, 2.0, 3.0) mm", contours counted from 1;
+/// the number is the disagreement.
 std::string sentence(const Crossing& crossing);
 
 /// How well contours agree where they cross, over matched crossings.

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// What contours show beside each other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "kontur/measure/contour_check.h"
+#include "kontur/measure/findings.h"
+#include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/crossings.h"
+#include "kontur/shape/section.h"
+
+namespace kontur {
+namespace {
+
+/// The sound contours of a set, with the index that each has in the set.
+struct Sound {
+    ContourSet set;
+    std::vector<std::size_t> index;
+};
+
+class SetCheck {
+public:
+    SetCheck(const Sound& sound, const ContourSetCheckOptions& options, std::vector<Finding>& findings)
+        : set_(sound.set),
+          index_(sound.index),
+          findings_(findings),
+          box_(bounding_box(set_)),
+          diagonal_(box_.diagonal()),
+          sections_(sections_of(set_, 1e-4 * diagonal_)),
+          limit_(options.disagreement_mm.value_or(0.01 * diagonal_)) {}
+
+    void run() {
+        find_size();
+        find_tiny();
+        find_duplicates();
+        find_holes_and_overlaps();
+        find_contradictions();
+        find_misplaced(set_.interior, true);
+        find_misplaced(set_.exterior, false);
+        find_isolated();
+        find_gaps();
+        if (sections_.size() == 1)
+            add(FindingKind::one_plane, Severity::note,
+                "all contours lie in one plane; how thick the object is will be a guess from their width");
+    }
+
+private:
+    using Pair = std::pair<std::size_t, std::size_t>;
+
+    const Contour& contour(std::size_t c) const { return set_.contours[c]; }
+    std::string title(std::size_t c) const { return contour_name(index_[c]); }
+
+    Finding& add(FindingKind kind, Severity severity, std::string text) {
+        return findings_.emplace_back(Finding{kind, severity, std::move(text)});
+    }
+    Finding& add(FindingKind kind, Severity severity, std::size_t c, const std::string& predicate) {
+        Finding& finding = add(kind, severity, title(c) + " " + predicate);
+        finding.contour = index_[c];
+        finding.position = bounding_box(contour(c).points).center();
+        return finding;
+    }
+
+    void find_size() {
+        if (diagonal_ < 1 || diagonal_ > 3000)
+            add(FindingKind::implausible_size, Severity::warning,
+                fmt::format("the contours span {:.3g} mm; are their coordinates really millimetres?", diagonal_))
+                .value_mm = diagonal_;
+        if (const double away = norm(box_.center()); away > 10000) {
+            Finding& finding = add(FindingKind::far_away, Severity::warning,
+                                   fmt::format("the contours lie {:.3g} mm from the origin", away));
+            finding.position = box_.center();
+            finding.value_mm = away;
+        }
+    }
+
+    void find_tiny() {
+        for (std::size_t c = 0; c < set_.contours.size(); ++c) {
+            const double width = width_mm(contour(c).points);
+            if (!contour(c).closed || width > 0.005 * diagonal_) continue;
+            add(FindingKind::tiny, Severity::note, c, fmt::format("is only {:.2g} mm wide", width)).value_mm = width;
+        }
+    }
+
+    bool lies_on(const Contour& inner, const Section& outline, double tolerance) const {
+        return std::all_of(inner.points.begin(), inner.points.end(),
+                           [&](const Vec3& p) { return outline.clearance(outline.plane.to_uv(p)) < tolerance; });
+    }
+
+    static Section outline_alone(const Section& section, std::size_t o) {
+        return {section.plane, {section.outlines[o]}, {}};
+    }
+
+    void find_duplicates() {
+        for (const Section& section : sections_)
+            for (std::size_t a = 0; a < section.outlines.size(); ++a)
+                for (std::size_t b = a + 1; b < section.outlines.size(); ++b) {
+                    const std::size_t first = section.contours[a], second = section.contours[b];
+                    const Box3 box = bounding_box(contour(first).points), other = bounding_box(contour(second).points);
+                    const double tolerance = 1e-3 * box.diagonal();
+                    if (distance(box.min, other.min) > 2 * tolerance || distance(box.max, other.max) > 2 * tolerance)
+                        continue;
+                    if (!lies_on(contour(second), outline_alone(section, a), tolerance) ||
+                        !lies_on(contour(first), outline_alone(section, b), tolerance))
+                        continue;
+                    duplicates_.emplace_back(first, second);
+                    add(FindingKind::duplicate, Severity::warning, second, "repeats " + title(first)).other = index_[first];
+                }
+    }
+
+    bool is_duplicate(std::size_t a, std::size_t b) const {
+        return std::find(duplicates_.begin(), duplicates_.end(), std::minmax({a, b})) != duplicates_.end();
+    }
+
+    void find_holes_and_overlaps() {
+        const Nesting nesting = find_nesting(set_.contours, 1e-4 * diagonal_);
+        for (std::size_t c = 0; c < set_.contours.size(); ++c) {
+            std::vector<std::size_t> around = nesting.enclosing[c];
+            std::erase_if(around, [&](std::size_t other) { return is_duplicate(c, other); });
+            const bool nested = around.size() % 2 != 0;
+            if (nested && !contour(c).hole)
+                add(FindingKind::unmarked_hole, Severity::warning, c,
+                    "lies inside of " + title(around.front()) + " and is not marked as a hole")
+                    .other = index_[around.front()];
+            if (!nested && contour(c).hole)
+                add(FindingKind::stray_hole, Severity::warning, c,
+                    around.empty()
+                        ? std::string("is a hole, but no contour of its plane surrounds it")
+                        : fmt::format("is a hole inside of {} contours, which leaves it outside already", around.size()));
+        }
+        for (const auto& [a, b] : nesting.crossings) {
+            if (is_duplicate(a, b)) continue;
+            Finding& finding =
+                add(FindingKind::overlap, Severity::warning, a, "and " + title(b) + " of the same plane cross");
+            finding.other = index_[b];
+            if (const auto at = first_crossing(a, b)) finding.position = at;
+        }
+    }
+
+    std::optional<Vec3> first_crossing(std::size_t a, std::size_t b) const {
+        const Plane& plane = contour(a).plane;
+        const auto &p = contour(a).points, &q = contour(b).points;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const Point2 p0 = plane.to_uv(p[i]), p1 = plane.to_uv(p[(i + 1) % p.size()]);
+            for (std::size_t j = 0; j < q.size(); ++j)
+                if (meeting(p0, p1, plane.to_uv(q[j]), plane.to_uv(q[(j + 1) % q.size()])) != Meeting::apart)
+                    return 0.5 * (p[i] + p[(i + 1) % p.size()]);
+        }
+        return std::nullopt;
+    }
+
+    void find_contradictions() {
+        crossings_ = find_crossings(set_);
+        std::map<Pair, const Crossing*> worst;
+        for (const Crossing& c : crossings_) {
+            if (c.disagreement_mm <= limit_) continue;
+            const Crossing*& seen = worst[{std::min(c.contour, c.other), std::max(c.contour, c.other)}];
+            if (!seen || c.disagreement_mm > seen->disagreement_mm) seen = &c;
+        }
+        for (const auto& [pair, c] : worst) {
+            Crossing in_set = *c;
+            in_set.contour = index_[c->contour];
+            in_set.other = index_[c->other];
+            Finding& finding = add(FindingKind::contradiction, Severity::warning, sentence(in_set));
+            finding.contour = in_set.contour;
+            finding.other = in_set.other;
+            finding.position = c->position;
+            finding.value_mm = c->disagreement_mm;
+        }
+    }
+
+    void find_misplaced(const std::vector<Vec3>& points, bool inside) {
+        for (const Vec3& p : points)
+            for (const Section& section : sections_) {
+                const Point2 at = section.plane.to_uv(p);
+                if (std::abs(section.plane.distance_to(p)) > 1e-3 * diagonal_ || section.contains(at) == inside) continue;
+                if (section.clearance(at) < 1e-3 * diagonal_ || has_open(section)) continue;
+                Finding& finding = add(FindingKind::misplaced_point, Severity::warning,
+                                       inside ? "an interior point lies outside of the contours of its plane"
+                                              : "an exterior point lies inside of the contours of its plane");
+                finding.position = p;
+                finding.value_mm = section.clearance(at);
+                break;
+            }
+    }
+    bool has_open(const Section& section) const {
+        return std::any_of(section.contours.begin(), section.contours.end(),
+                           [&](std::size_t c) { return !contour(c).closed; });
+    }
+
+    /// Whether a contour of another, parallel plane lies over this one, no farther than three times its size.
+    bool has_neighbour(std::size_t c) const {
+        const Plane& plane = contour(c).plane;
+        const auto shadow = [&](const Contour& drawn) {
+            Box3 box;
+            for (const Vec3& p : drawn.points) {
+                const Point2 at = plane.to_uv(p);
+                box.extend({at[0], at[1], 0});
+            }
+            return box;
+        };
+        const Box3 own = shadow(contour(c));
+        for (const Contour& other : set_.contours) {
+            const double height = std::abs(plane.distance_to(other.plane.origin));
+            if (height < 1e-4 * diagonal_ || height > 3 * own.diagonal()) continue;
+            if (std::abs(dot(plane.normal, other.plane.normal)) < 0.95) continue;
+            const Box3 theirs = shadow(other);
+            if (own.min.x < theirs.max.x && theirs.min.x < own.max.x && own.min.y < theirs.max.y && theirs.min.y < own.max.y)
+                return true;
+        }
+        return false;
+    }
+
+    void find_isolated() {
+        if (sections_.size() < 2) return;
+        const std::vector<Disagreement> by_contour = disagreement_by_contour(crossings_, set_.contours.size());
+        for (std::size_t c = 0; c < set_.contours.size(); ++c)
+            if (contour(c).closed && by_contour[c].matched == 0 && !has_neighbour(c))
+                add(FindingKind::isolated, Severity::note, c,
+                    "stands alone: no other contour tells how the object goes on from it");
+    }
+
+    /// Missing slices in stacks of parallel planes that are evenly spaced otherwise.
+    void find_gaps() {
+        std::vector<bool> done(sections_.size());
+        for (std::size_t s = 0; s < sections_.size(); ++s) {
+            if (done[s]) continue;
+            const Plane& plane = sections_[s].plane;
+            std::vector<double> heights;
+            for (std::size_t t = s; t < sections_.size(); ++t)
+                if (std::abs(dot(plane.normal, sections_[t].plane.normal)) > 1 - 1e-6) {
+                    done[t] = true;
+                    heights.push_back(plane.distance_to(sections_[t].plane.origin));
+                }
+            find_gaps_in_stack(plane, std::move(heights));
+        }
+    }
+
+    void find_gaps_in_stack(const Plane& plane, std::vector<double> heights) {
+        if (heights.size() < 4) return;
+        std::sort(heights.begin(), heights.end());
+        std::vector<double> steps(heights.size());
+        std::adjacent_difference(heights.begin(), heights.end(), steps.begin());
+        steps.erase(steps.begin());
+        std::vector<double> sorted = steps;
+        std::sort(sorted.begin(), sorted.end());
+        const double usual = sorted[sorted.size() / 2];
+        const auto even =
+            std::count_if(steps.begin(), steps.end(), [&](double d) { return std::abs(d - usual) < 0.1 * usual; });
+        if (2 * even < static_cast<std::ptrdiff_t>(steps.size())) return;
+        const Point2 middle = plane.to_uv(box_.center());
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            if (steps[i] < 1.5 * usual) continue;
+            Finding& finding =
+                add(FindingKind::gap, Severity::warning,
+                    fmt::format("two neighbouring planes are {:.3g} mm apart, the others {:.3g} mm: {:.0f} missing",
+                                steps[i], usual, steps[i] / usual - 1));
+            finding.position = plane.from_uv(middle[0], middle[1]) + (heights[i] + steps[i] / 2) * plane.normal;
+            finding.value_mm = steps[i];
+        }
+    }
+
+    const ContourSet& set_;
+    const std::vector<std::size_t>& index_;
+    std::vector<Finding>& findings_;
+    Box3 box_;
+    double diagonal_;
+    std::vector<Section> sections_;
+    double limit_;
+    std::vector<Pair> duplicates_;
+    std::vector<Crossing> crossings_;
+};
+
+}  // namespace
+
+std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCheckOptions& options) {
+    std::vector<Finding> findings;
+    Sound sound;
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (check_one_contour(set.contours[c], c, options.limits, findings)) {
+            sound.set.contours.push_back(set.contours[c]);
+            sound.index.push_back(c);
+        }
+    ContourSet without_contours = set;
+    without_contours.contours.clear();
+    const std::vector<std::string> problems = contour_problems(without_contours, options.limits);
+    for (std::size_t i = set.contours.empty() ? 0 : 1; i < problems.size(); ++i)  // the first one: there is no contour
+        findings.push_back({i == 0 ? FindingKind::no_contours : FindingKind::unusable, Severity::error, problems[i]});
+    const auto keep_finite = [](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
+        std::copy_if(from.begin(), from.end(), std::back_inserter(to), [](const Vec3& p) { return is_finite(p); });
+    };
+    keep_finite(set.interior, sound.set.interior);
+    keep_finite(set.exterior, sound.set.exterior);
+    if (!sound.set.contours.empty()) SetCheck(sound, options, findings).run();
+    std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+        return std::pair(-static_cast<int>(a.severity), a.contour.value_or(0)) <
+               std::pair(-static_cast<int>(b.severity), b.contour.value_or(0));
+    });
+    return findings;
+}
+
+}  // namespace kontur

@@ -15,6 +15,8 @@ export default defineConfig({
       },
     },
   },
-  // `npx vite` for work on the page: the API comes from the mock, or from a real `kontur open --port 8420`.
-  server: { proxy: { "/api": { target: "http://127.0.0.1:8420", ws: true } } },
+  // For work on the page: `kontur open --no-browser --port 8420 --token dev`, `npx vite`, http://127.0.0.1:5173/#dev
+  server: {
+    proxy: { "/api": { target: "http://127.0.0.1:8420", ws: true, changeOrigin: true, headers: { origin: "http://127.0.0.1:8420" } } },
+  },
 });

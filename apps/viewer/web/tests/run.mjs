@@ -9,7 +9,7 @@ import { build } from "esbuild";
 const tests = dirname(fileURLToPath(import.meta.url));
 const [what = "unit", ...rest] = process.argv.slice(2);
 const output = join(tests, "..", "node_modules", ".tests", what);
-const files = readdirSync(join(tests, what)).filter((name) => (what === "unit" ? name.endsWith(".test.ts") : name.endsWith(".ts")));
+const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(what === "bench" ? ".ts" : ".test.ts"));
 
 mkdirSync(output, { recursive: true });
 await build({
@@ -24,5 +24,5 @@ await build({
   sourcemap: "inline",
 });
 const outputs = files.map((name) => join(output, name.replace(/\.ts$/, ".mjs")));
-const run = what === "unit" ? ["--enable-source-maps", "--test", ...outputs] : ["--enable-source-maps", join(output, `${what === "mock" ? "server" : what}.mjs`), ...rest];
-process.exit(spawnSync(process.execPath, run, { stdio: "inherit" }).status ?? 1);
+const run = what === "bench" ? [join(output, "bench.mjs"), ...rest] : ["--test", ...outputs];
+process.exit(spawnSync(process.execPath, ["--enable-source-maps", ...run], { stdio: "inherit" }).status ?? 1);

@@ -4,17 +4,19 @@ const TYPES = { u8: Uint8Array, u32: Uint32Array, f32: Float32Array } as const;
 
 interface ArrayEntry {
   type: keyof typeof TYPES;
-  offset: number;
+  offset: number; // bytes from the end of the JSON
   count: number;
 }
 
 /** A reply of the form: uint32 N, N bytes of JSON, arrays. The arrays are views on the buffer. */
 export class BinaryReply<Header> {
   readonly header: Header;
+  private readonly start: number;
   private readonly entries: Record<string, ArrayEntry>;
 
   constructor(private readonly buffer: ArrayBuffer) {
     const size = new DataView(buffer).getUint32(0, true);
+    this.start = 4 + size;
     const text = new TextDecoder().decode(new Uint8Array(buffer, 4, size));
     const { arrays, ...header } = JSON.parse(text) as { arrays?: Record<string, ArrayEntry> };
     this.header = header as Header;
@@ -41,6 +43,6 @@ export class BinaryReply<Header> {
     const entry = this.entries[name];
     if (!entry) return new TYPES[type](0);
     if (entry.type !== type) throw new Error(`the server's array "${name}" holds ${entry.type}, not ${type}`);
-    return new TYPES[type](this.buffer, entry.offset, entry.count);
+    return new TYPES[type](this.buffer, this.start + entry.offset, entry.count);
   }
 }

@@ -23,7 +23,7 @@ const READING_CALLS = new Set(["path", "value", "ping", "page.save", "draft.drop
 export class Socket {
   private socket: WebSocket | null = null;
   private readonly pending = new Map<number, Pending & { edits: boolean }>();
-  private nextId = 1;
+  private nextSeq = 1;
 
   constructor(
     private readonly token: string,
@@ -42,21 +42,21 @@ export class Socket {
   call<Result>(name: string, args: Record<string, unknown> = {}): Promise<Result> {
     if (this.socket?.readyState !== WebSocket.OPEN)
       return Promise.reject(new ServerError("io", "Not connected to kontur; nothing was changed."));
-    const id = this.nextId++;
+    const seq = this.nextSeq++;
     const edits = !READING_CALLS.has(name) && args["draft"] !== true;
     const reply = new Promise<Result>((resolve, reject) =>
-      this.pending.set(id, { resolve: resolve as (result: unknown) => void, reject, edits }),
+      this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }),
     );
-    this.socket.send(JSON.stringify({ id, call: name, ...args }));
+    this.socket.send(JSON.stringify({ seq, call: name, ...args }));
     if (edits) this.tellUnsaved();
     return reply;
   }
 
   private receive(message: Record<string, unknown>): void {
     if (typeof message["event"] === "string") return this.handlers.event(message as unknown as ServerEvent);
-    const pending = this.pending.get(message["id"] as number);
+    const pending = this.pending.get(message["seq"] as number);
     if (!pending) return;
-    this.pending.delete(message["id"] as number);
+    this.pending.delete(message["seq"] as number);
     const error = message["error"] as { kind: string; message: string } | undefined;
     if (error) pending.reject(new ServerError(error.kind, error.message));
     else pending.resolve(message["result"]);

@@ -302,8 +302,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
     try {
       const structure = sketch.structure || (await this.addStructure());
       const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
-      const { contour } = await this.services.call<{ contour: number }>("contour.add", { structure, plane, control: sketch.points });
-      if (!this.sketch) this.project.select({ contour, point: null });
+      const { contour } = await this.services.call<{ contour: Contour }>("contour.add", { structure, plane, control: sketch.points });
+      if (!this.sketch) this.project.select({ contour: contour.id, point: null });
     } catch (error) {
       this.services.failed(error);
     }

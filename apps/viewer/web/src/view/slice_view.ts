@@ -182,7 +182,10 @@ export class SliceView {
     this.slider.value = String(at);
     const { number, count } = navigation.slice(this.name);
     this.position.textContent = `${number} / ${count}`;
-    this.element.dataset["slice"] = String(number);
+    const { dataset } = this.element;
+    dataset["slice"] = String(number);
+    dataset["turned"] = String(navigation.isTurned(this.name));
+    dataset["pixelsPerMm"] = String(1 / this.screen()!.mm_per_pixel);
   }
 
   private paintNow(): void {

@@ -62,10 +62,10 @@ function reply(header: object, size: number): { buffer: ArrayBuffer; start: numb
 }
 
 test("a binary reply gives its header, and arrays without copying", () => {
-  const arrays = { pixels: { type: "u8", offset: 200, count: 3 }, points: { type: "f32", offset: 204, count: 2 } };
-  const { buffer } = reply({ width: 3, arrays }, 200);
-  new Uint8Array(buffer).set([7, 8, 9], 200);
-  new Float32Array(buffer, 204, 2).set([1.5, -2]);
+  const arrays = { pixels: { type: "u8", offset: 8, count: 3 }, points: { type: "f32", offset: 12, count: 2 } };
+  const { buffer, start } = reply({ width: 3, arrays }, 200);
+  new Uint8Array(buffer).set([7, 8, 9], start + 8);
+  new Float32Array(buffer, start + 12, 2).set([1.5, -2]);
   const parsed = new BinaryReply<{ width: number }>(buffer);
   assert.deepEqual(parsed.header, { width: 3 });
   assert.deepEqual([...parsed.u8("pixels")], [7, 8, 9]);

@@ -105,7 +105,7 @@ function editing(tool: ToolName, contours = [square(5)]) {
     call: (name, args = {}) => {
       calls.push({ name, args });
       const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, index }));
-      return Promise.resolve({ control, points: control.map((point) => point.at), contour: 9 } as never);
+      return Promise.resolve({ control, points: control.map((point) => point.at), contour: square(9) } as never);
     },
     screenOf: () => screen,
     failed: (error) => assert.fail(String(error)),

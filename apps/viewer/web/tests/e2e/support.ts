@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { spawn, spawnSync, type ChildProcess } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { chromium, type Browser, type Page } from "playwright-core";
+
+export const KONTUR = process.env["KONTUR_CLI"] ?? "kontur";
+const CHROMIUM = process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium";
+const SOFTWARE_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+export const NO_WEBGL = ["--disable-gpu", "--disable-software-rasterizer"];
+/** Long, because other programs may keep the machine busy; every wait is for a state. */
+const PATIENCE_MS = 60_000;
+
+export function temporaryFolder(): { path: string; remove: () => void } {
+  const path = mkdtempSync(join(tmpdir(), "kontur-web-"));
+  return { path, remove: () => rmSync(path, { recursive: true, force: true }) };
+}
+
+export function run(...words: string[]): void {
+  const { status, stderr } = spawnSync(KONTUR, words, { encoding: "utf8" });
+  assert.equal(status, 0, stderr);
+}
+
+export const BALL_RADIUS_MM = 40;
+
+/** A NIfTI image of 96 x 80 x 40 voxels of 2 x 2 x 4 mm with a ball of 100 in its middle, in a little noise. */
+export function writeBallImage(path: string): void {
+  const size = [96, 80, 40] as const, spacing = [2, 2, 4] as const;
+  const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2]);
+  file.writeInt32LE(348, 0);
+  [3, ...size, 1, 1, 1, 1].forEach((value, i) => file.writeInt16LE(value, 40 + 2 * i));
+  file.writeInt16LE(4, 70); // 16-bit integers
+  file.writeInt16LE(16, 72);
+  [1, ...spacing].forEach((value, i) => file.writeFloatLE(value, 76 + 4 * i));
+  file.writeFloatLE(352, 108);
+  file.writeUInt8(2, 123); // mm
+  file.writeInt16LE(1, 254); // the sform counts
+  const first = size.map((count, axis) => (-(count - 1) / 2) * spacing[axis]!);
+  [0, 1, 2].forEach((axis) => {
+    file.writeFloatLE(spacing[axis]!, 280 + 16 * axis + 4 * axis);
+    file.writeFloatLE(first[axis]!, 280 + 16 * axis + 12);
+  });
+  file.write("n+1\0", 344);
+  let seed = 1;
+  const noise = () => (seed = (seed * 16807) % 2147483647) % 21;
+  let at = 352;
+  for (let k = 0; k < size[2]; ++k)
+    for (let j = 0; j < size[1]; ++j)
+      for (let i = 0; i < size[0]; ++i) {
+        const distance = Math.hypot(...[i, j, k].map((index, axis) => first[axis]! + index * spacing[axis]!));
+        file.writeInt16LE((distance < BALL_RADIUS_MM ? 100 : 0) + noise(), at);
+        at += 2;
+      }
+  writeFileSync(path, file);
+}
+
+/** A running `kontur open`. */
+export class Server {
+  private constructor(
+    private readonly process: ChildProcess,
+    readonly address: string,
+  ) {}
+
+  static async start(folder: string, ...words: string[]): Promise<Server> {
+    const environment = { ...process.env, XDG_DATA_HOME: folder };
+    const child = spawn(KONTUR, ["open", ...words, "--no-browser", "--timeout", "300"], { env: environment, stdio: ["ignore", "pipe", "pipe"] });
+    let complaint = "";
+    child.stderr.on("data", (data: Buffer) => (complaint += data.toString()));
+    const address = await new Promise<string>((resolve, reject) => {
+      createInterface(child.stdout).once("line", resolve);
+      child.once("exit", () => reject(new Error(`kontur open ended: ${complaint}`)));
+    });
+    return new Server(child, address);
+  }
+
+  get port(): string {
+    return new URL(this.address).port;
+  }
+
+  get token(): string {
+    return new URL(this.address).hash.slice(1);
+  }
+
+  end(signal: "SIGINT" | "SIGKILL" = "SIGINT"): Promise<void> {
+    const ended = new Promise<void>((resolve) => this.process.once("exit", () => resolve()));
+    this.process.kill(signal);
+    return ended;
+  }
+}
+
+export function launch(flags: string[] = SOFTWARE_WEBGL): Promise<Browser> {
+  return chromium.launch({ executablePath: CHROMIUM, args: flags });
+}
+
+/** The page as a user sees it; gathers what it complains of. */
+export class Viewer {
+  readonly complaints: string[] = [];
+
+  private constructor(readonly page: Page) {
+    page.setDefaultTimeout(PATIENCE_MS);
+    page.on("pageerror", (error) => this.complaints.push(String(error.stack)));
+    page.on("console", (message) => message.type() === "error" && this.complaints.push(message.text()));
+  }
+
+  static async open(browser: Browser, address: string): Promise<Viewer> {
+    const viewer = new Viewer(await browser.newPage({ viewport: { width: 1280, height: 720 }, acceptDownloads: true }));
+    await viewer.page.goto(address);
+    await viewer.ready();
+    return viewer;
+  }
+
+  async ready(): Promise<void> {
+    await this.page.waitForSelector("body[data-ready]");
+    await this.slicesShown();
+  }
+
+  /** Every view has asked for its slice and shown it. */
+  async slicesShown(): Promise<void> {
+    await this.page.waitForFunction(() =>
+      [...document.querySelectorAll<HTMLElement>(".pane.slice:not([hidden])")].every((pane) => pane.dataset["slices"] && pane.dataset["pending"] === "false"),
+    );
+  }
+
+  async closeHint(): Promise<void> {
+    await this.page.click("[data-test=hint-close]");
+  }
+
+  pane(view: string) {
+    return this.page.locator(`[data-view=${view}]`);
+  }
+
+  async slice(view: string): Promise<number> {
+    return Number(await this.pane(view).getAttribute("data-slice"));
+  }
+
+  /** A place `right` and `down` of the view's middle, in pixels of the screen. */
+  async at(view: string, right: number, down: number): Promise<[number, number]> {
+    const box = (await this.pane(view).boundingBox())!;
+    return [box.x + box.width / 2 + right, box.y + box.height / 2 + down];
+  }
+
+  /** How many pixels a length has on the screen. */
+  async pixels(view: string, mm: number): Promise<number> {
+    return mm * Number(await this.pane(view).getAttribute("data-pixels-per-mm"));
+  }
+
+  async drag(view: string, places: [number, number][], button: "left" | "right" = "left"): Promise<void> {
+    const { mouse } = this.page;
+    await mouse.move(...(await this.at(view, ...places[0]!)));
+    await mouse.down({ button });
+    for (const place of places.slice(1)) await mouse.move(...(await this.at(view, ...place)));
+    await mouse.up({ button });
+  }
+
+  async click(view: string, right: number, down: number): Promise<void> {
+    await this.page.mouse.move(...(await this.at(view, right, down)));
+    await this.page.mouse.click(...(await this.at(view, right, down)));
+  }
+
+  contours(): Promise<number> {
+    return this.page.locator(".contour-row").count();
+  }
+
+  async waitForContours(count: number): Promise<void> {
+    await this.page.waitForFunction((wanted) => document.querySelectorAll(".contour-row").length === wanted, count);
+  }
+
+  /** The surface is refined, and every slice and the 3D view show it. */
+  async surfaceShown(): Promise<void> {
+    await this.page.waitForFunction(() => {
+      const panel = document.querySelector<HTMLElement>(".panel")!.dataset;
+      if (panel["stage"] !== "refined") return false;
+      const revision = `:${panel["revision"]}`;
+      const panes = [...document.querySelectorAll<HTMLElement>(".pane")].filter((pane) => pane.dataset["webgl"] !== "no");
+      return panes.every((pane) => pane.dataset["revisions"]?.endsWith(revision));
+    });
+  }
+
+  async saved(): Promise<void> {
+    await this.page.waitForSelector("[data-test=saved][data-state=saved]");
+  }
+
+  /** Exports by the dialog. */
+  async export(name: string): Promise<{ name: string; bytes: Buffer }> {
+    await this.page.click("[data-test=export]");
+    const download = this.page.waitForEvent("download");
+    await this.page.click(`[data-test="export-${name}"]`);
+    const file = await download;
+    const bytes = readFileSync(await file.path());
+    await this.page.keyboard.press("Escape");
+    return { name: file.suggestedFilename(), bytes };
+  }
+
+  /** Pixels of a pane whose colour the test accepts. */
+  async countPixels(view: string, isWanted: (r: number, g: number, b: number) => boolean): Promise<number> {
+    const picture = (await this.pane(view).screenshot()).toString("base64");
+    const colors = await this.page.evaluate(async (data) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [image.width, image.height];
+      const context = canvas.getContext("2d")!;
+      context.drawImage(image, 0, 0);
+      return [...new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer)];
+    }, picture);
+    return colors.filter((color) => isWanted(color & 255, (color >> 8) & 255, (color >> 16) & 255)).length;
+  }
+}
+
+/** Places on a circle, the last one near the first. */
+export function circle(radius: number, count = 24): [number, number][] {
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / count;
+    return [radius * Math.cos(angle), radius * Math.sin(angle)];
+  });
+}

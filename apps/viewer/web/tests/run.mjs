@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the TypeScript under tests/<what>/ and runs it: `node tests/run.mjs unit`.
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readdirSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
-const tests = dirname(fileURLToPath(import.meta.url));
 const [what = "unit", ...rest] = process.argv.slice(2);
+
+if (what === "e2e" && !existsSync(process.env.KONTUR_CHROMIUM ?? "/usr/bin/chromium")) {
+  console.log("skipped: there is no Chromium to open the page in (tools/setup installs it)");
+  process.exit(77);
+}
+
+const tests = dirname(fileURLToPath(import.meta.url));
 const output = join(tests, "..", "node_modules", ".tests", what);
 const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(what === "bench" ? ".ts" : ".test.ts"));
 

@@ -12,6 +12,8 @@ export interface MeshData {
   triangles: Uint32Array;
 }
 
+const LETTER_PIXELS = 26;
+
 const vector = (p: Vec3): THREE.Vector3 => new THREE.Vector3(p[0], p[1], p[2]);
 
 /** Surfaces, contours and slice planes in space; drawn only when something has changed. */
@@ -67,7 +69,14 @@ export class Scene {
     geometry.setAttribute("position", new THREE.BufferAttribute(data.positions, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(data.normals, 3));
     geometry.setIndex(new THREE.BufferAttribute(data.triangles, 1));
-    const material = new THREE.MeshStandardMaterial({ roughness: 0.62, metalness: 0, side: THREE.DoubleSide });
+    const material = new THREE.MeshStandardMaterial({
+      roughness: 0.62,
+      metalness: 0,
+      side: THREE.DoubleSide,
+      polygonOffset: true, // contours lie on the surface and must win
+      polygonOffsetFactor: 4,
+      polygonOffsetUnits: 8,
+    });
     const mesh = new THREE.Mesh(geometry, material);
     this.surfaces.set(structure, mesh);
     this.scene.add(mesh);
@@ -119,8 +128,8 @@ export class Scene {
       const points = outline.map(vector);
       const fan = outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]);
       const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
-      const glass = new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.05, side: THREE.DoubleSide, depthWrite: false });
-      const rim = new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.75 });
+      const glass = new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.035, side: THREE.DoubleSide, depthWrite: false });
+      const rim = new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.6 });
       this.planes.add(new THREE.Mesh(sheet, glass), new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(points), rim));
     }
     this.draw();
@@ -189,9 +198,16 @@ export class Scene {
       this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
       this.light.target.position.copy(this.controls.target);
       this.light.target.updateMatrixWorld();
+      this.sizeLetters();
       this.renderer.render(this.scene, this.camera);
       this.canvas.dataset["frames"] = String(Number(this.canvas.dataset["frames"] ?? 0) + 1);
     });
+  }
+
+  /** Letters keep their size on the screen. */
+  private sizeLetters(): void {
+    const mm_per_pixel = (this.camera.top - this.camera.bottom) / this.camera.zoom / Math.max(this.canvas.clientHeight, 1);
+    for (const letter of this.letters.children) letter.scale.setScalar(LETTER_PIXELS * mm_per_pixel);
   }
 
   private clear(group: THREE.Group): void {
@@ -219,7 +235,7 @@ export class Scene {
       return scale(corners.reduce(add), 1 / corners.length);
     }) as [Vec3, Vec3];
     for (const [at, other] of [faces, [faces[1], faces[0]] as const]) {
-      const sprite = letterSprite(directionLetter(at, other), this.extent_mm / 9);
+      const sprite = letterSprite(directionLetter(at, other));
       sprite.position.copy(vector(mix(other, at, 1.06)));
       this.letters.add(sprite);
     }
@@ -232,7 +248,7 @@ function directionLetter(at: Vec3, from: Vec3): string {
   return (["RL", "AP", "IS"] as const)[axis]![d[axis]! > 0 ? 1 : 0]!;
 }
 
-function letterSprite(letter: string, size: number): THREE.Sprite {
+function letterSprite(letter: string): THREE.Sprite {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 64;
   const context = canvas.getContext("2d")!;
@@ -241,7 +257,5 @@ function letterSprite(letter: string, size: number): THREE.Sprite {
   context.textBaseline = "middle";
   context.fillStyle = "#9aa5b1";
   context.fillText(letter, 32, 34);
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false }));
-  sprite.scale.set(size, size, 1);
-  return sprite;
+  return new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false }));
 }

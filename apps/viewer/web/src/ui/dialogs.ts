@@ -47,10 +47,9 @@ const EXPORTS: [string, [string, string, string][]][] = [
 export interface ExportServices {
   http: Http;
   project: Project;
-  failed(error: unknown): void;
 }
 
-export function openExport({ http, project, failed }: ExportServices): void {
+export function openExport({ http, project }: ExportServices): void {
   const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
   for (const { id, name } of project.structures.values())
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
@@ -64,8 +63,7 @@ export function openExport({ http, project, failed }: ExportServices): void {
       download(file.blob, file.name);
       status.textContent = `${file.name} was handed to the browser's downloads.`;
     } catch (error) {
-      status.textContent = "";
-      failed(error);
+      status.textContent = error instanceof Error ? error.message : String(error); // a notice would lie behind the dialog
     }
     clicked.disabled = false;
   };

@@ -28,6 +28,8 @@ export class Keyboard {
 
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
+    const presses = event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ");
+    if (presses && !this.services.app.editor.sketch) return;
     const handled = event.ctrlKey || event.metaKey ? this.withControl(event) : this.plain(event);
     if (handled) event.preventDefault();
   }

@@ -110,13 +110,14 @@ export class Panel {
     dot.style.background = name ? PLANE_COLORS[name] : PLANE_COLORS.oblique;
     const isSelected = project.selection?.contour === contour.id;
     const points = contour.control.length > 1 ? `${contour.control.length} pts` : `${contour.points.length} pts`;
+    const kind = KIND_LABELS[contour.kind];
     const row = el(
       "div",
-      { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, title: "Click: show this contour" },
+      { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it` },
       dot,
       el("span", { class: "contour-plane" }, `${name ? VIEW_TITLES[name] : "Oblique"} ${position}`),
-      el("span", { class: "contour-points" }, `${KIND_LABELS[contour.kind]} · ${points}`),
       contour.hole ? el("span", { class: "hole-flag", title: "A hole" }, "hole") : null,
+      el("span", { class: "contour-points" }, points),
       eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
       button({ icon: ICONS.remove, title: "Delete this contour", class: "icon-button small", test: "delete-contour", onclick: () => call("contour.remove", { ids: [contour.id] }) }),
     );
@@ -176,8 +177,8 @@ export class Panel {
     if (surface.volume_ml !== undefined) entries.push(figure("Volume", `${volume(surface.volume_ml)} ml`));
     const { residual } = surface;
     if (residual) {
-      entries.push(figure("Distance to the contours", `${residual.rms_mm.toFixed(2)} mm rms`));
-      entries.push(this.place(`largest ${residual.max_mm.toFixed(2)} mm`, residual.at, "Go to where the surface is farthest from a contour", "residual"));
+      entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
+      entries.push(this.place(`largest residual ${residual.max_mm.toFixed(2)} mm`, residual.at, "Go to where the surface is farthest from a contour", "residual"));
     }
     for (const { at, distance_mm } of surface.conflicts ?? [])
       entries.push(this.place(`contours disagree by ${distance_mm.toFixed(1)} mm`, at, "Go to where two contours contradict each other", "conflict"));

@@ -26,6 +26,9 @@ const TOOLS: [ToolName, string, string, string][] = [
   ["move", "Move", "M", "Drag a contour as a whole within its plane"],
 ];
 
+/** Shown without their names where the page is narrow. */
+const MINOR = new Set<ToolName>(["redraw", "move"]);
+
 const LAYOUTS: [LayoutName, string, string][] = [
   ["overview", ICONS.overview, "Four slices beside the 3D view"],
   ["big-slice", ICONS.bigSlice, "One view big, the others beside it"],
@@ -48,7 +51,7 @@ export class Toolbar {
   constructor(private readonly services: ToolbarServices) {
     const { navigation, editor } = services;
     for (const [tool, label, key, title] of TOOLS)
-      this.tools.set(tool, button({ icon: ICONS[tool], label, title: `${title} (${key})`, class: "tool", test: `tool-${tool}`, onclick: () => editor.choose(tool) }));
+      this.tools.set(tool, button({ icon: ICONS[tool], label, title: `${title} (${key})`, class: MINOR.has(tool) ? "tool minor" : "tool", test: `tool-${tool}`, onclick: () => editor.choose(tool) }));
     for (const [layout, path, title] of LAYOUTS)
       this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, onclick: () => navigation.setLayout(layout) }));
     this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", onclick: services.undo });
@@ -68,7 +71,7 @@ export class Toolbar {
       ),
       group(
         button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", onclick: services.openImport }),
-        button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool", test: "export", onclick: services.openExport }),
+        button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool minor", test: "export", onclick: services.openExport }),
         button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", onclick: services.openHelp }),
       ),
     );

@@ -187,14 +187,14 @@ export class OverlayPainter {
 
   private diamond([x, y]: Point2, color: string): void {
     const { ctx } = this;
-    const r = 3.8;
+    const r = 3.3;
     ctx.beginPath();
     ctx.moveTo(x, y - r);
     ctx.lineTo(x + r, y);
     ctx.lineTo(x, y + r);
     ctx.lineTo(x - r, y);
     ctx.closePath();
-    ctx.lineWidth = 2.4;
+    ctx.lineWidth = 2;
     ctx.lineJoin = "miter";
     ctx.strokeStyle = SHADE;
     ctx.stroke();

@@ -46,6 +46,7 @@ export class SliceView {
   private bitmapPlane: PixelPlane | null = null;
   private slice: ShownSlice | null = null;
   private readonly requests: Latest<{ pixels: boolean }>;
+  private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
   private paintQueued = false;
   private width = 0;
   private height = 0;
@@ -88,12 +89,16 @@ export class SliceView {
     return this.services.navigation.screen(this.name, this.width, this.height);
   }
 
-  /** Asks for a slice of the plane as it is now. */
+  /** Asks for a slice where plane, size or window have changed; without `pixels` for the outlines on it in any case. */
   refresh(pixels: boolean): void {
     if (!this.screen()) return;
     this.updateSlider();
     this.paint();
-    this.requests.send({ pixels: pixels || this.bitmapPlane === null });
+    const wanted = this.pixelKey();
+    const needsPixels = this.bitmapPlane === null || wanted !== this.asked;
+    if (pixels && !needsPixels) return;
+    if (needsPixels) this.asked = wanted;
+    this.requests.send({ pixels: needsPixels });
     this.element.dataset["pending"] = "true";
     void this.requests.idle().then(() => (this.element.dataset["pending"] = "false"));
   }
@@ -126,6 +131,13 @@ export class SliceView {
     this.refresh(true);
   }
 
+  private pixelKey(): string {
+    const { origin, u, v, mm_per_pixel } = slicePlane(this.screen()!, this.ratio());
+    const { center, width } = this.services.navigation.window;
+    const numbers = [...origin, ...u, ...v, mm_per_pixel, center, width, this.width, this.height];
+    return numbers.map((value) => value.toFixed(6)).join();
+  }
+
   private ratio(): number {
     return Math.min(window.devicePixelRatio || 1, MOST_PIXELS / Math.max(this.width, this.height, 1));
   }
@@ -149,6 +161,7 @@ export class SliceView {
       if (pixels) this.keepPixels(reply.u8("pixels"), width, height, plane);
       this.paintNow();
     } catch (error) {
+      if (pixels) this.asked = "";
       if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
     }
     this.tellState();
@@ -248,7 +261,7 @@ export class SliceView {
     const hover = editor.hover && "line" in editor.hover && editor.hover.view === this.name ? editor.hover.line : null;
     for (const line of editor.lines(this.name, screen)) {
       const strong = hover !== null && (hover.on === "crosshair" || hover.view === line.view);
-      painter.planeLine(line, crosshair, { strong, handles: editor.tool === "edit", faint: editor.tool !== "edit" });
+      painter.planeLine(line, crosshair, { strong, handles: editor.tool === "edit" && Math.min(screen.width, screen.height) > 230, faint: editor.tool !== "edit" });
     }
   }
 

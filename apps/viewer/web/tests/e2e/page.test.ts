@@ -67,7 +67,7 @@ describe("the page", () => {
     await viewer.page.keyboard.press("Enter");
     await viewer.waitForContours(2);
     await viewer.surfaceShown();
-    assert.equal(await viewer.page.locator(".contour-row", { hasText: "live-wire" }).count(), 1);
+    assert.equal(await viewer.page.locator(".contour-row[data-kind=livewire]").count(), 1);
     const crossings = Number(await viewer.pane("sagittal").getAttribute("data-crossings"));
     assert.equal(crossings, 2, "both contours cross the sagittal slice");
   });
@@ -87,7 +87,7 @@ describe("the page", () => {
     await viewer.click("oblique", ...places[0]!);
     await viewer.waitForContours(3);
     await viewer.surfaceShown();
-    assert.equal(await viewer.page.locator(".contour-row", { hasText: "mixed" }).count(), 1);
+    assert.equal(await viewer.page.locator(".contour-row[data-kind=mixed]").count(), 1);
     assert.ok((await viewer.countPixels("surface", isAmber)) > 2000, "the 3D view shows the surface");
   });
 
@@ -120,7 +120,7 @@ describe("the page", () => {
     const { page } = viewer;
     const original = await contoursNow();
     await page.keyboard.press("v");
-    await page.locator(".contour-row", { hasText: "live-wire" }).click();
+    await page.locator(".contour-row[data-kind=livewire]").click();
     await viewer.slicesShown();
     const radius = await viewer.pixels("coronal", BALL_RADIUS_MM);
     await viewer.drag("coronal", [[radius, 0], [radius + 8, 3], [radius + 16, 6]]);
@@ -138,7 +138,7 @@ describe("the page", () => {
 
   test("copies a contour to the next slice, deletes it, and undoes that", async () => {
     const { page } = viewer;
-    await page.locator(".contour-row", { hasText: "freehand" }).click();
+    await page.locator(".contour-row[data-kind=freehand]").click();
     await page.keyboard.press("c");
     await viewer.waitForContours(4);
     await page.waitForSelector(".contour-row.selected");

@@ -76,6 +76,10 @@ export class Server {
     return new Server(child, address);
   }
 
+  get pid(): number {
+    return this.process.pid!;
+  }
+
   get port(): string {
     return new URL(this.address).port;
   }

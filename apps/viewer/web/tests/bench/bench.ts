@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user waits for, measured in the page: prints medians. Run by bench/viewer.
+import { closeSync, openSync, readFileSync, writeSync } from "node:fs";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { launch, run, Server, temporaryFolder, Viewer } from "../e2e/support";
+
+const EDITS = 8;
+const SCROLLS = 30;
+
+/** 512 x 512 x 300 voxels: balls on a slope, so that every slice differs. */
+function writeBigImage(path: string): void {
+  const size = [512, 512, 300] as const;
+  const header = Buffer.alloc(352);
+  header.writeInt32LE(348, 0);
+  [3, ...size, 1, 1, 1, 1].forEach((value, i) => header.writeInt16LE(value, 40 + 2 * i));
+  header.writeInt16LE(4, 70);
+  header.writeInt16LE(16, 72);
+  [1, 0.8, 0.8, 1].forEach((value, i) => header.writeFloatLE(value, 76 + 4 * i));
+  header.writeFloatLE(352, 108);
+  header.writeInt16LE(1, 254);
+  [0.8, 0.8, 1].forEach((value, axis) => header.writeFloatLE(value, 280 + 20 * axis));
+  header.write("n+1\0", 344);
+  const file = openSync(path, "w");
+  writeSync(file, header);
+  for (let k = 0; k < size[2]; ++k) {
+    const slice = Int16Array.from({ length: size[0] * size[1] }, (_, n) => {
+      const i = n % size[0], j = Math.floor(n / size[0]);
+      return (((i >> 6) + (j >> 6) + (k >> 6)) % 2) * 120 + (i % 64) - k / 4;
+    });
+    writeSync(file, new Uint8Array(slice.buffer));
+  }
+  closeSync(file);
+}
+
+const median = (values: number[]): number => values.sort((a, b) => a - b)[Math.floor(values.length / 2)]!;
+const line = (label: string, values: number[], unit = "ms"): void =>
+  console.log(`${label.padEnd(62)} ${median(values).toFixed(0).padStart(6)} ${unit}   (${Math.min(...values).toFixed(0)} to ${Math.max(...values).toFixed(0)})`);
+
+interface Waits {
+  outlines: number;
+  surface: number;
+  refined: number;
+}
+
+/** Notes in the page when each pane shows a newer surface than the one it showed at `from`, the next event of that type. */
+async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise<void> {
+  await page.evaluate((type) => {
+    const state = { start: 0, shown: {} as Record<string, number>, refined: 0 };
+    const panes = [...document.querySelectorAll<HTMLElement>(".pane")];
+    const before = new Map(panes.map((pane) => [pane, pane.dataset["revisions"]]));
+    const panel = document.querySelector<HTMLElement>(".panel")!;
+    const observer = new MutationObserver(() => {
+      if (state.start === 0) return;
+      for (const pane of panes)
+        if (pane.dataset["revisions"] !== before.get(pane)) state.shown[pane.dataset["view"]!] ??= performance.now() - state.start;
+      const last = `:${panel.dataset["revision"]}`;
+      const isDone = panel.dataset["stage"] === "refined" && panes.every((pane) => pane.dataset["revisions"]?.endsWith(last));
+      if (isDone && Object.keys(state.shown).length === panes.length) state.refined ||= performance.now() - state.start;
+    });
+    for (const element of [...panes, panel]) observer.observe(element, { attributes: true });
+    window.addEventListener(type, (event) => (state.start = event.timeStamp), { capture: true, once: true });
+    Object.assign(window, { edit: state });
+  }, from);
+}
+
+async function editWaits(page: Page, untilRefined: boolean): Promise<Waits> {
+  const done = await page.waitForFunction((refined) => {
+    const { edit } = window as unknown as { edit: { shown: Record<string, number>; refined: number } };
+    return Object.keys(edit.shown).length === 5 && (!refined || edit.refined > 0) ? edit : false;
+  }, untilRefined);
+  const { shown, refined } = (await done.jsonValue()) as { shown: Record<string, number>; refined: number };
+  const { surface, ...slices } = shown;
+  return { outlines: Math.max(...Object.values(slices)), surface: surface!, refined };
+}
+
+async function measureEdits(viewer: Viewer): Promise<void> {
+  const { page } = viewer;
+  await page.locator(".contour-row").last().click();
+  await viewer.surfaceShown();
+  const view = await page.evaluate(() => document.querySelector<HTMLElement>(".pane.focused")!.dataset["view"]!);
+  await page.keyboard.press("m");
+  const moves: Waits[] = [], releases: Waits[] = [];
+  // The contour lies around its outline's middle, where no line is: it is taken where the outline crosses the crosshair's row.
+  const grip = await findLine(viewer, view);
+  for (let i = 0; i < EDITS; ++i) {
+    await page.mouse.move(...grip);
+    await page.mouse.down();
+    await watchEdit(page, "pointermove");
+    await page.mouse.move(grip[0] + 4, grip[1]);
+    moves.push(await editWaits(page, false));
+    await watchEdit(page, "pointerup");
+    await page.mouse.up();
+    releases.push(await editWaits(page, true));
+    await page.keyboard.press("Control+z");
+    await viewer.saved();
+    await viewer.surfaceShown();
+  }
+  line("pointer moves a contour -> outlines in all four views", moves.map((wait) => wait.outlines));
+  line("pointer moves a contour -> surface in 3D", moves.map((wait) => wait.surface));
+  line("pointer up -> first new outlines in all four views", releases.map((wait) => wait.outlines));
+  line("pointer up -> first new surface in 3D", releases.map((wait) => wait.surface));
+  line("pointer up -> refined surface and outlines everywhere", releases.map((wait) => wait.refined));
+}
+
+/** Looks for the contour under the pointer along a row of the view. */
+async function findLine(viewer: Viewer, view: string): Promise<[number, number]> {
+  const box = (await viewer.pane(view).boundingBox())!;
+  for (const row of [0.5, 0.42, 0.58, 0.34, 0.66])
+    for (let x = 30; x < box.width - 30; x += 3) {
+      const at: [number, number] = [box.x + x, box.y + row * box.height];
+      await viewer.page.mouse.move(...at);
+      const cursor = await viewer.page.evaluate(
+        (name) => new Promise<string>((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve(document.querySelector<HTMLElement>(`[data-view=${name}] .overlay`)!.style.cursor)))),
+        view,
+      );
+      if (cursor === "move") return at;
+    }
+  throw new Error(`no contour is seen in the ${view} view`);
+}
+
+async function measureScrolls(viewer: Viewer, label: string): Promise<void> {
+  const { page } = viewer;
+  for (const view of ["axial", "sagittal", "coronal", "oblique"]) {
+    if (!(await viewer.pane(view).isVisible())) continue;
+    await page.mouse.move(...(await viewer.at(view, 5, 5)));
+    const waits: number[] = [];
+    for (let i = 0; i < SCROLLS; ++i) {
+      const wait = page.evaluate(
+        (name) =>
+          new Promise<number>((resolve) => {
+            const pane = document.querySelector<HTMLElement>(`[data-view=${name}]`)!;
+            let start = 0;
+            const observer = new MutationObserver(() => {
+              if (start === 0) return;
+              observer.disconnect();
+              requestAnimationFrame(() => resolve(performance.now() - start));
+            });
+            observer.observe(pane, { attributes: true, attributeFilter: ["data-slices"] });
+            pane.addEventListener("wheel", (event) => (start = event.timeStamp), { capture: true, once: true });
+          }),
+        view,
+      );
+      await page.mouse.wheel(0, i % 20 < 10 ? 120 : -120);
+      waits.push(await wait);
+    }
+    const box = (await viewer.pane(view).boundingBox())!;
+    line(`scroll ${view}, ${label}, ${box.width.toFixed(0)} x ${box.height.toFixed(0)} pixels`, waits);
+  }
+}
+
+async function memory(viewer: Viewer, server: Server): Promise<void> {
+  const heap = await viewer.page.evaluate(() => (performance as unknown as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize);
+  const peak = /VmHWM:\s+(\d+)/.exec(readFileSync(`/proc/${server.pid}/status`, "utf8"))![1];
+  console.log(`memory: server ${(Number(peak) / 1024).toFixed(0)} MiB at its peak, page ${(heap / 2 ** 20).toFixed(0)} MiB of JavaScript`);
+}
+
+const folder = temporaryFolder();
+const browser = await launch();
+try {
+  console.log("Liver of the phantom, 14 contours drawn by hand, 1600 x 900, WebGL in software:");
+  run("phantom", folder.path, "--scan", "abdomen", "--quiet");
+  const edits = await Server.start(folder.path, join(folder.path, "abdomen_ct.nii.gz"), join(folder.path, "liver_orthogonal14_hand.json"));
+  const viewer = await Viewer.open(browser, edits.address);
+  await viewer.page.setViewportSize({ width: 1600, height: 900 });
+  await measureEdits(viewer);
+  await memory(viewer, edits);
+  await edits.end();
+  await viewer.page.close();
+
+  console.log("\nImage of 512 x 512 x 300 voxels, 1600 x 900:");
+  const image = join(folder.path, "big.nii");
+  writeBigImage(image);
+  const scrolls = await Server.start(folder.path, image);
+  const big = await Viewer.open(browser, scrolls.address);
+  await big.page.setViewportSize({ width: 1600, height: 900 });
+  await big.closeHint();
+  await measureScrolls(big, "overview");
+  await big.page.keyboard.press("1");
+  await big.slicesShown();
+  await measureScrolls(big, "alone");
+  await memory(big, scrolls);
+  await scrolls.end();
+} finally {
+  await browser.close();
+  folder.remove();
+}

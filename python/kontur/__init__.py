@@ -2,7 +2,7 @@
 """Smooth 3D organs from a few hand-drawn contours.
 
 Coordinates are millimetres in DICOM's patient frame LPS; arrays over a grid have the shape (z, y, x); lengths carry their unit in
-the name. The stages of `segment` are functions too: `prepare`, `fit`, `track_surface`, `fill`, `polygonize`.
+the name. The stages of `segment` are functions too: `prepare`, `fit`, `track_surface_adaptively`, `fill`, `polygonize`.
 
 Research software, not a medical device.
 

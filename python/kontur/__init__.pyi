@@ -13,7 +13,7 @@ _Progress = Callable[[str, float], object]
 _Kernel = Literal["triharmonic", "biharmonic"]
 _Normals = Literal["surface", "in-plane"]
 _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
-_Voxelizer = Literal["tracked", "exhaustive"]
+_Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
 _ConstraintKind = Literal["boundary", "normal", "interior", "exterior", "cap"]
 
 class _Stop(Protocol):
@@ -586,6 +586,16 @@ def prepare(
     copy_shift_mm: float = 0.0,
 ) -> PreparedContours: ...
 
+def preview_surface(
+    function: ImplicitFunction,
+    starts: ArrayLike,
+    spacing_mm: float = 2.0,
+    threads: int = 0,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+) -> TriangleMesh: ...
+
 def rasterize(contours: ContourSet, grid: Grid) -> Mask: ...
 
 def read_contour_json(path: _Path) -> ContourSet: ...
@@ -700,7 +710,7 @@ def segment(
     quality: float = 1.0,
     solver: _Solver = "automatic",
     tolerance_mm: float = 0.001,
-    voxelizer: _Voxelizer = "tracked",
+    voxelizer: _Voxelizer = "adaptive",
     mesh: bool = False,
     threads: int = 0,
 ) -> Segmentation: ...
@@ -748,6 +758,16 @@ def trace(
 ) -> ContourSet: ...
 
 def track_surface(
+    function: ImplicitFunction,
+    grid: Grid,
+    starts: ArrayLike,
+    threads: int = 0,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+) -> SurfaceLattice: ...
+
+def track_surface_adaptively(
     function: ImplicitFunction,
     grid: Grid,
     starts: ArrayLike,

@@ -69,7 +69,7 @@ struct Words<Solver> {
 };
 template <>
 struct Words<Voxelizer> {
-    static constexpr std::array values{Voxelizer::tracked, Voxelizer::exhaustive};
+    static constexpr std::array values{Voxelizer::adaptive, Voxelizer::tracked, Voxelizer::exhaustive};
 };
 
 inline std::string_view name(NiftiTransform transform) { return transform == NiftiTransform::qform ? "qform" : "sform"; }

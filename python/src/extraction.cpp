@@ -57,6 +57,63 @@ SurfaceLattice
         },
         py::arg("function"), py::arg("grid"), py::arg("starts"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
     define(
+        m, "track_surface_adaptively",
+        R"(Follows the surface as `track_surface` does, from a fraction of the function values.
+
+A coarse lattice first, then interpolation; values where that leaves the sign in doubt. Masks differ from those of
+`track_surface` in a few voxels of a million. What `segment` does.
+
+Parameters
+----------
+function : ImplicitFunction
+grid : Grid
+starts : array_like, shape (n, 3)
+    mm (LPS); those outside of the grid are ignored.
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+SurfaceLattice
+    For `fill` and `polygonize`.
+)",
+        [](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
+           const py::object& progress, const py::object& stop) {
+            return run({progress, stop},
+                       [&](const Progress& p) { return track_surface_adaptively(function, grid, starts, threads, p); });
+        },
+        py::arg("function"), py::arg("grid"), py::arg("starts"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+    define(
+        m, "preview_surface", R"(The surface through the starts on a lattice of its own, whatever grid a mask would have.
+
+Parameters
+----------
+function : ImplicitFunction
+starts : array_like, shape (n, 3)
+    mm (LPS): points on contours.
+spacing_mm : float
+    Of the lattice; details thinner than it may be missing.
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+TriangleMesh
+    Closed, with outward normals; cut off where it runs farther from the starts' box than half of its diagonal.
+)",
+        [](const ImplicitFunction& function, const std::vector<Vec3>& starts, double spacing_mm, int threads,
+           const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) {
+                return preview_surface(function, starts, {.spacing_mm = spacing_mm, .threads = threads}, p);
+            });
+        },
+        py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, py::arg("threads") = 0,
+        py::kw_only(), kProgress, kStop);
+    define(
         m, "sample_everywhere", R"(Evaluates every voxel centre: slow, and finds what no start leads to.
 
 Parameters

@@ -18,7 +18,9 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
         .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
         .field("tolerance_mm", &SegmentOptions::tolerance_mm, "Of the iterative solver, at all constraints.")
-        .field("voxelizer", &SegmentOptions::voxelizer, "Follow the surface from the contours, or evaluate every voxel.")
+        .field("voxelizer", &SegmentOptions::voxelizer,
+               "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
+               "all voxels.")
         .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
         .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.");
 }

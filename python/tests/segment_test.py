@@ -32,7 +32,7 @@ def test_the_stages_make_what_segment_makes(case, kidney):
     fitted = kontur.fit(prepared, case.contours, normal_offset_mm=kidney.report.normal_offset_mm,
                         merge_distance_mm=4e-4 * diagonal, smoothing=kidney.report.smoothing)
     starts = numpy.concatenate([contour.points for contour in case.contours.contours])
-    surface = kontur.track_surface(fitted.function, case.grid, starts)
+    surface = kontur.track_surface_adaptively(fitted.function, case.grid, starts)
     assert numpy.array_equal(kontur.fill(surface).values, kidney.mask.values)
     mesh = kontur.polygonize(surface, fitted.function)
     assert numpy.array_equal(mesh.points, kidney.mesh.points)
@@ -191,3 +191,11 @@ def test_each_kind_of_error_is_an_exception_of_its_own(tmp_path, oblique, error,
 
 def test_one_exception_for_each_kind_of_the_library():
     assert {error.kind for error in kontur.Error.__subclasses__()} == set(kontur._core._error_kinds())
+
+
+def test_a_preview_is_a_closed_surface_about_the_mask(case, kidney):
+    starts = numpy.concatenate([contour.points for contour in case.contours.contours])
+    preview = kontur.preview_surface(kidney.function, starts, spacing_mm=4)
+    assert kontur.topology(preview).closed
+    assert kontur.signed_volume_mm3(preview) / 1000 == pytest.approx(kidney.report.mask_volume_ml, rel=0.02)
+    assert len(preview.triangles) < len(kidney.mesh.triangles) / 4

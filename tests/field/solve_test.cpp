@@ -236,5 +236,39 @@ TEST(Solve, StopsWhenAskedTo) {
     }
 }
 
+TEST(Solve, HierarchicalProductsReachTheToleranceAndAgreeWithCholesky) {
+    std::mt19937 random = test::random_of_this_test();
+    const std::vector<Vec3> probes = random_points(300, random);
+    for (const ConstraintSet& set : {crossing_contours(90), random_constraints(1200, random)})
+        for (const Kernel kernel : kKernels)
+            for (const double smoothing : {0.0, 1e-5}) {
+                const Solution exact = solve(set, {.kernel = kernel, .solver = Solver::cholesky, .smoothing = smoothing});
+                for (const double tolerance : {1e-2, 1e-5}) {
+                    const Solution found = solve(set, {.kernel = kernel,
+                                                       .smoothing = smoothing,
+                                                       .tolerance_mm = tolerance,
+                                                       .products = Products::hierarchical});
+                    const auto what = testing::Message() << name(kernel) << " " << smoothing << " " << tolerance;
+                    EXPECT_LE(found.report.residual, tolerance) << what;
+                    EXPECT_EQ(found.report.residual_points, set.size()) << what;
+                    if (smoothing == 0) {
+                        EXPECT_NEAR(largest_error(found.function, set), found.report.residual, 1e-6) << what;
+                    }
+                    for (const Vec3& p : probes)
+                        ASSERT_NEAR(found.function.value(p), exact.function.value(p), 100 * tolerance) << what;
+                }
+            }
+}
+
+TEST(Solve, HierarchicalProductsGiveTheSameBytesForAnyNumberOfThreads) {
+    const ConstraintSet set = crossing_contours(80);
+    const auto weights = [&](int threads) {
+        const Solution solution = solve(set, {.products = Products::hierarchical, .threads = threads});
+        return std::vector<double>(solution.function.weights().begin(), solution.function.weights().end());
+    };
+    const std::vector<double> one = weights(1);
+    for (const int threads : {2, 5}) EXPECT_EQ(weights(threads), one) << threads;
+}
+
 }  // namespace
 }  // namespace kontur

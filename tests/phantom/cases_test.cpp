@@ -189,5 +189,18 @@ TEST(PhantomCases, RefusesUnknownNames) {
         }
 }
 
+TEST(DenseLiverCase, HasThePointsAskedForOnItsSurface) {
+    for (const bool orthogonal : {false, true})
+        for (const std::size_t points : {std::size_t{500}, std::size_t{3000}, std::size_t{30000}}) {
+            if (orthogonal && points > 10000) continue;
+            const PhantomCase c = dense_liver_case({.points = points, .orthogonal = orthogonal});
+            EXPECT_EQ(point_count(c.contours), points);
+            EXPECT_NO_THROW(check_contours(c.contours, {.plane_tolerance_mm = 1e-9}));
+            for (const Contour& contour : c.contours.contours)
+                for (const Vec3& p : contour.points) ASSERT_LT(std::abs(c.body->value(p)), 1e-8) << points;
+        }
+    EXPECT_THROW(dense_liver_case({.points = 99}), Error);
+}
+
 }  // namespace
 }  // namespace kontur

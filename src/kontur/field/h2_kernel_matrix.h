@@ -19,6 +19,7 @@ public:
     /// One call at a time. Throws Error(cancelled) if the progress given to the constructor is asked to stop.
     void multiply(std::span<const double> weights, std::span<double> out) const override;
     double megabytes() const override;
+    bool is_exact() const override { return false; }
     /// Evaluations of phi per product.
     double evaluations() const { return evaluations_; }
 

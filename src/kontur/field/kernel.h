@@ -16,6 +16,13 @@ enum class Kernel {
     biharmonic,   ///< r: C0 at the centres, minimises the second-derivative energy of Eq. 1
 };
 
+/// How the matrix of all phi(|c_i - c_j|) is multiplied with.
+enum class Products {
+    automatic,     ///< whatever is cheaper
+    direct,        ///< pair by pair: n^2 / 2 kernel values
+    hierarchical,  ///< clusters of far centres at once: about n, approximate
+};
+
 inline double kernel_value(Kernel kernel, double r) { return kernel == Kernel::triharmonic ? r * r * r : r; }
 
 /// Sign s that makes s * phi conditionally positive definite on weights with vanishing zeroth and first moments

@@ -29,7 +29,8 @@ struct Coefficients {
     std::vector<double> weights;
     std::array<double, 4> polynomial{};
     int iterations = 0;
-    double residual = 0;  ///< largest |f(c_i) + smoothing w_i - h_i|, in mm
+    double residual = 0;              ///< largest |f(c_i) + smoothing w_i - h_i|, in mm
+    std::size_t residual_points = 0;  ///< see SolveReport
     double matrix_mb = 0;
 };
 

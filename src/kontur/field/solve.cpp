@@ -57,6 +57,7 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
     Coefficients c =
         options.solver == Solver::dense ? solve_dense(system) : solve_cholesky(system, options.threads, progress);
     c.residual = largest_residual(system, c, options.threads);
+    c.residual_points = system.size();
     return c;
 }
 
@@ -93,7 +94,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
         if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
 
     Solution solution;
-    solution.report = {options.solver, system.size(), c.iterations, c.residual, c.matrix_mb};
+    solution.report = {options.solver, system.size(), c.iterations, c.residual, c.residual_points, c.matrix_mb};
     solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
     return solution;
 }

@@ -1,85 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "kontur/base/error.h"
-#include "kontur/field/kernel_matrix.h"
-#include "kontur/field/linear_system.h"
 #include "kontur/field/preconditioner.h"
+#include "kontur/field/projected_operator.h"
 
 namespace kontur {
 namespace {
 
-using Vector = std::vector<double>;
+// Tolerances of the H2 matrix: rounding hides what is finer, and coarser ones, hardly cheaper, could make it indefinite.
+constexpr double kFinest = 1e-14, kCoarsest = 1e-9;
+// The largest error of a product over the tolerance times the norm of the weights; measured: 1 to 7.
+constexpr double kErrorFactor = 5;
+// While the matrix is as exact as the limit demands, the residual may grow for some iterations, but not for so many.
+constexpr int kMostIdle = 40;
 
-double inner(const Vector& a, const Vector& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
+/// A tolerance at which products with weights like these are wrong by half the limit at most.
+double matrix_tolerance(const Vector& weights, double limit_mm) {
+    const double norm = std::sqrt(inner(weights, weights));
+    return std::clamp(0.5 * limit_mm / (kErrorFactor * norm), kFinest, kCoarsest);
 }
-
-void add_scaled(Vector& a, double s, const Vector& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += s * b[i];
-}
-
-double largest(const Vector& a) {
-    double result = 0;
-    for (const double v : a) result = std::max(result, std::abs(v));
-    return result;
-}
-
-/// An orthonormal basis of the linear polynomials' values at the centres.
-class LinearPolynomials {
-public:
-    explicit LinearPolynomials(const PointArrays& centers) {
-        basis_ = {Vector(centers.size(), 1.0), centers.x, centers.y, centers.z};
-        for (std::size_t m = 0; m < 4; ++m) {
-            const double before = std::sqrt(inner(basis_[m], basis_[m]));
-            for (int pass = 0; pass < 2; ++pass)  // twice is enough for orthogonality to rounding
-                for (std::size_t k = 0; k < m; ++k) add_scaled(basis_[m], -inner(basis_[m], basis_[k]), basis_[k]);
-            const double length = std::sqrt(inner(basis_[m], basis_[m]));
-            if (!(length > 1e-9 * std::max(before, 1.0)))
-                throw Error(ErrorKind::singular_system,
-                            "all constraints lie in one plane, so the surface is not determined");
-            for (double& v : basis_[m]) v /= length;
-        }
-    }
-
-    /// Removes the best linear fit.
-    void project_out(Vector& v) const {
-        for (const Vector& q : basis_) add_scaled(v, -inner(v, q), q);
-    }
-
-private:
-    std::array<Vector, 4> basis_;
-};
-
-/// sign (Phi + diagonal) on the weights that satisfy the side conditions; definite there.
-class ProjectedOperator {
-public:
-    ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, int threads)
-        : system_(system), polynomials_(polynomials), matrix_(make_kernel_matrix(system.kernel, system.centers, threads)) {}
-
-    /// sign (Phi + diagonal) w, not projected.
-    Vector unprojected(const Vector& w) const {
-        Vector out(w.size());
-        matrix_->multiply(w, out);
-        const double sign = kernel_sign(system_.kernel);
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = sign * out[i] + system_.smoothing * w[i];
-        return out;
-    }
-    Vector operator()(const Vector& w) const {
-        Vector out = unprojected(w);
-        polynomials_.project_out(out);
-        return out;
-    }
-
-private:
-    const LinearSystem& system_;
-    const LinearPolynomials& polynomials_;
-    std::unique_ptr<KernelMatrix> matrix_;
-};
 
 /// The linear polynomial that fits `values` at the centres; they are one up to the residual.
 std::array<double, 4> fit_linear(const LinearSystem& system, const Vector& values) {
@@ -105,74 +49,133 @@ std::array<double, 4> fit_linear(const LinearSystem& system, const Vector& value
     return {mean_value - dot(gradient, mean), gradient.x, gradient.y, gradient.z};
 }
 
+/// Solves by conjugate gradients and checks what they have reached.
+class IterativeSolver {
+public:
+    IterativeSolver(const LinearSystem& system, const SolveOptions& options, const Progress& progress)
+        : options_(options),
+          progress_(progress),
+          limit_(options.tolerance_mm),
+          polynomials_(system.centers),
+          preconditioner_(
+              system.kernel,
+              std::make_shared<PreconditionerPattern>(system.centers, PreconditionerOptions{}, options.threads, progress),
+              system.smoothing, options.threads, progress),
+          weights_(system.size(), 0.0),
+          target_(system.values),
+          image_{.values = Vector(system.size()), .checked = system.size()} {
+        for (double& v : target_) v *= kernel_sign(system.kernel);
+        update_residual();
+        start_ = std::max(residual_, limit_);
+        // The preconditioner's first guess at the weights tells how large they are.
+        operator_.emplace(system, polynomials_, matrix_tolerance(precondition(r_), limit_), options, progress);
+    }
+
+    /// The recurrence's residual drifts from the true one, and H2 products are not exact: at the end the residual is
+    /// computed afresh, and the iteration restarted from there, with better products if they are to blame, as long as that
+    /// helps.
+    void run() {
+        double last_residual = std::numeric_limits<double>::infinity(), last_deviation = last_residual;
+        while (residual_ > limit_) {
+            const bool stuck = !descend();
+            polynomials_.project_out(weights_);
+            check_image();
+            if (residual_ <= limit_) return;
+            const bool to_blame = stuck || image_.deviation > 0.3 * limit_;
+            if (!operator_->is_exact() && to_blame && operator_->tolerance() > kFinest &&
+                (stuck || image_.deviation < 0.5 * last_deviation))
+                tighten();
+            else if (!(residual_ < 0.5 * last_residual)) return;
+            last_residual = residual_;
+            last_deviation = image_.deviation;
+        }
+    }
+
+    Coefficients result(const LinearSystem& system) {
+        Coefficients c;
+        Vector left = system.values;
+        add_scaled(left, -kernel_sign(system.kernel), image_.values);
+        c.polynomial = fit_linear(system, left);
+        c.weights = std::move(weights_);
+        c.iterations = iterations_;
+        c.residual = residual_;
+        c.residual_points = image_.checked;
+        c.matrix_mb = preconditioner_.megabytes() + operator_->megabytes();
+        return c;
+    }
+
+private:
+    Vector precondition(const Vector& r) const {
+        Vector z(r.size());
+        preconditioner_.apply(r, z);
+        polynomials_.project_out(z);
+        return z;
+    }
+
+    /// False if it ended early: rounding, or the matrix's error, has taken over.
+    bool descend() {
+        Vector z = precondition(r_), direction = z;
+        double rz = inner(r_, z), least = largest(r_);
+        for (int idle = 0; largest(r_) > 0.5 * limit_ && iterations_ < options_.max_iterations && rz > 0; ++iterations_) {
+            const Vector step = (*operator_)(direction);
+            const double curvature = inner(direction, step);
+            if (!(curvature > 0) || idle == kMostIdle) return false;
+            add_scaled(weights_, rz / curvature, direction);
+            add_scaled(r_, -rz / curvature, step);
+            z = precondition(r_);
+            const double next = inner(r_, z);
+            for (std::size_t i = 0; i < z.size(); ++i) direction[i] = z[i] + next / rz * direction[i];
+            rz = next;
+            idle = largest(r_) < least ? 0 : idle + 1;
+            least = std::min(least, largest(r_));
+            const double done = std::log(start_ / std::max(least, limit_)) / std::log(start_ / limit_ + 1e-9);
+            progress_.report("solve", std::clamp(done, 0.0, 1.0));
+        }
+        return true;
+    }
+
+    void tighten() {
+        const double factor = std::min(0.1, 0.2 * limit_ / std::max(image_.deviation, 0.02 * limit_));
+        operator_->tighten(std::max(factor, kFinest / operator_->tolerance()));
+        if (image_.uncertainty > 0) check_image();
+    }
+
+    void check_image() {
+        image_ = operator_->checked_image(weights_);
+        update_residual();
+    }
+
+    void update_residual() {
+        r_ = target_;
+        add_scaled(r_, -1.0, image_.values);
+        polynomials_.project_out(r_);
+        residual_ = largest(r_) + image_.uncertainty;
+    }
+
+    const SolveOptions& options_;
+    const Progress& progress_;
+    double limit_, start_ = 0;
+    LinearPolynomials polynomials_;
+    Preconditioner preconditioner_;
+    std::optional<ProjectedOperator> operator_;
+    Vector weights_, target_, r_;
+    CheckedImage image_;  ///< of the weights
+    double residual_ = 0;
+    int iterations_ = 0;
+};
+
 }  // namespace
 
 Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
-    const LinearPolynomials polynomials(system.centers);
-    const ProjectedOperator apply(system, polynomials, options.threads);
-    const double sign = kernel_sign(system.kernel);
     progress.report("solve", 0);
-    const Preconditioner preconditioner(
-        system.kernel,
-        std::make_shared<PreconditionerPattern>(system.centers, PreconditionerOptions{}, options.threads, progress),
-        system.smoothing, options.threads, progress);
-    const auto precondition = [&](const Vector& r) {
-        Vector z(r.size());
-        preconditioner.apply(r, z);
-        polynomials.project_out(z);
-        return z;
-    };
-
-    Coefficients c;
-    c.weights.assign(system.size(), 0.0);
-    c.matrix_mb = preconditioner.megabytes();
-    Vector r = system.values;
-    for (double& v : r) v *= sign;
-    const Vector target = r;
-    polynomials.project_out(r);
-    const double start = std::max(largest(r), options.tolerance_mm);
-    double reached = largest(r);
-    Vector image(system.size());  // of the weights
-
-    // The recurrence's residual drifts from the true one: at the end it is computed afresh, and the iteration restarted
-    // from there as long as that helps.
-    for (double before = std::numeric_limits<double>::infinity();
-         reached > options.tolerance_mm && reached < 0.5 * before;) {
-        before = reached;
-        Vector z = precondition(r), direction = z;
-        double rz = inner(r, z);
-        while (largest(r) > 0.5 * options.tolerance_mm && c.iterations < options.max_iterations && rz > 0) {
-            const Vector step = apply(direction);
-            const double curvature = inner(direction, step);
-            if (!(curvature > 0)) break;  // rounding has taken over
-            add_scaled(c.weights, rz / curvature, direction);
-            add_scaled(r, -rz / curvature, step);
-            z = precondition(r);
-            const double next = inner(r, z);
-            for (std::size_t i = 0; i < z.size(); ++i) direction[i] = z[i] + next / rz * direction[i];
-            rz = next;
-            ++c.iterations;
-            const double done =
-                std::log(start / std::max(largest(r), options.tolerance_mm)) / std::log(start / options.tolerance_mm + 1e-9);
-            progress.report("solve", std::clamp(done, 0.0, 1.0));
-        }
-        polynomials.project_out(c.weights);
-        image = apply.unprojected(c.weights);
-        r = target;
-        add_scaled(r, -1.0, image);
-        polynomials.project_out(r);
-        reached = largest(r);
-    }
-    if (!(reached <= 1e3 * options.tolerance_mm))
+    IterativeSolver solver(system, options, progress);
+    solver.run();
+    Coefficients c = solver.result(system);
+    if (!(c.residual <= 1e3 * options.tolerance_mm))
         throw Error(ErrorKind::singular_system,
-                    "the iterative solver stopped at a residual of " + std::to_string(reached) + " mm after " +
+                    "the iterative solver stopped at a residual of " + std::to_string(c.residual) + " mm after " +
                         std::to_string(c.iterations) + " iterations; the limit is " + std::to_string(options.tolerance_mm) +
                         " mm. Constraints coincide or contradict each other; the cholesky solver may help");
-
-    c.residual = reached;
-    Vector left = system.values;
-    add_scaled(left, -sign, image);
-    c.polynomial = fit_linear(system, left);
     return c;
 }
 

@@ -24,6 +24,7 @@ export class Scene {
   private readonly controls: TrackballControls;
   private readonly light = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly surfaces = new Map<number, THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>>();
+  private readonly materials = new Map<string, THREE.Material>();
   private readonly lines = new THREE.Group();
   private readonly planes = new THREE.Group();
   private readonly marks = new THREE.Group();
@@ -64,11 +65,18 @@ export class Scene {
   }
 
   setMesh(structure: number, data: MeshData): void {
-    this.removeMesh(structure);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(data.positions, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(data.normals, 3));
     geometry.setIndex(new THREE.BufferAttribute(data.triangles, 1));
+    const mesh = this.surfaces.get(structure) ?? this.addMesh(structure);
+    mesh.geometry.dispose();
+    mesh.geometry = geometry;
+    if (!this.framed) this.frame();
+    this.draw();
+  }
+
+  private addMesh(structure: number): THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial> {
     const material = new THREE.MeshStandardMaterial({
       roughness: 0.62,
       metalness: 0,
@@ -77,11 +85,10 @@ export class Scene {
       polygonOffsetFactor: 4,
       polygonOffsetUnits: 8,
     });
-    const mesh = new THREE.Mesh(geometry, material);
+    const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
     this.surfaces.set(structure, mesh);
     this.scene.add(mesh);
-    if (!this.framed) this.frame();
-    this.draw();
+    return mesh;
   }
 
   removeMesh(structure: number): void {
@@ -114,8 +121,7 @@ export class Scene {
     this.clear(this.lines);
     for (const { points, color, selected } of contours) {
       const geometry = new THREE.BufferGeometry().setFromPoints(points.map(vector));
-      const material = new THREE.LineBasicMaterial({ color: tinted(color, selected ? 0.95 : 0.6) });
-      this.lines.add(new THREE.LineLoop(geometry, material));
+      this.lines.add(new THREE.LineLoop(geometry, this.lineMaterial(tinted(color, selected ? 0.95 : 0.6), 1)));
     }
     this.draw();
   }
@@ -128,9 +134,8 @@ export class Scene {
       const points = outline.map(vector);
       const fan = outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]);
       const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
-      const glass = new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.035, side: THREE.DoubleSide, depthWrite: false });
-      const rim = new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.6 });
-      this.planes.add(new THREE.Mesh(sheet, glass), new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(points), rim));
+      const rim = new THREE.BufferGeometry().setFromPoints(points);
+      this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(color, 0.6)));
     }
     this.draw();
   }
@@ -138,7 +143,7 @@ export class Scene {
   setMarks(places: readonly Vec3[]): void {
     this.clear(this.marks);
     for (const place of places) {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(this.extent_mm / 90, 16, 12), new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
+      const ball = new THREE.Mesh(new THREE.SphereGeometry(this.extent_mm / 90, 16, 12), this.markMaterial());
       ball.position.copy(vector(place));
       this.marks.add(ball);
     }
@@ -195,6 +200,7 @@ export class Scene {
     this.queued = true;
     requestAnimationFrame(() => {
       this.queued = false;
+      if (this.canvas.clientWidth === 0) return; // another view is shown alone; resize() draws when this one comes back
       this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
       this.light.target.position.copy(this.controls.target);
       this.light.target.updateMatrixWorld();
@@ -211,12 +217,27 @@ export class Scene {
   }
 
   private clear(group: THREE.Group): void {
-    for (const child of [...group.children]) {
-      const drawn = child as THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
-      drawn.geometry.dispose();
-      drawn.material.dispose();
-    }
+    for (const child of group.children) (child as THREE.Mesh).geometry.dispose();
     group.clear();
+  }
+
+  /** Materials are kept: with the last one of its kind a shader goes, and compiling it anew takes longer than a frame. */
+  private material<Kept extends THREE.Material>(key: string, make: () => Kept): Kept {
+    if (!this.materials.has(key)) this.materials.set(key, make());
+    return this.materials.get(key) as Kept;
+  }
+
+  private lineMaterial(color: string, opacity: number): THREE.LineBasicMaterial {
+    return this.material(`line ${color} ${opacity}`, () => new THREE.LineBasicMaterial({ color, transparent: opacity < 1, opacity }));
+  }
+
+  private glassMaterial(color: string): THREE.MeshBasicMaterial {
+    const options = { color, transparent: true, opacity: 0.035, side: THREE.DoubleSide, depthWrite: false };
+    return this.material(`glass ${color}`, () => new THREE.MeshBasicMaterial(options));
+  }
+
+  private markMaterial(): THREE.MeshBasicMaterial {
+    return this.material("mark", () => new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
   }
 
   /** The image's edges, and letters at its faces. */
@@ -225,8 +246,7 @@ export class Scene {
     for (let a = 0; a < 8; ++a)
       for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
     for (const bit of [1, 2, 4]) this.addFaceLetters(bit);
-    const material = new THREE.LineBasicMaterial({ color: 0x56606c, transparent: true, opacity: 0.5 });
-    return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), material);
+    return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.lineMaterial("#56606c", 0.5));
   }
 
   private addFaceLetters(bit: number): void {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { heightOver } from "../geometry/plane";
-import { scale, sub, type Vec3 } from "../geometry/vec";
+import { dot, scale, sub, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
@@ -108,8 +108,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   // Pointer
 
   press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
-    if (this.draws) return this.pressToDraw(view, screen, pointer);
     const hit = this.contourAt(view, screen, pointer);
+    if (this.draws) return this.isEditable(hit) ? this.pressOnContour(screen, pointer, hit, modifiers) : this.pressToDraw(view, screen, pointer);
     if (this.tool === "redraw") return this.redrawGesture(screen, this.navigation.step(view), pointer, hit);
     if (this.tool === "move") return hit ? this.moveGesture(screen, pointer, hit.contour) : null;
     if (hit) return this.pressOnContour(screen, pointer, hit, modifiers);
@@ -118,8 +118,11 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
 
   moved(view: ViewName, screen: Screen, pointer: Point2): void {
     this.pointer = toWorld(screen, pointer);
-    if (this.draws) return this.stretchRubber(view, screen, pointer);
     const contour = this.contourAt(view, screen, pointer);
+    if (this.draws) {
+      this.setHover(this.isEditable(contour) ? { contour, view } : null);
+      return this.stretchRubber(view, screen, pointer);
+    }
     if (contour) return this.setHover({ contour, view });
     if (this.tool !== "edit") return this.setHover(null);
     const line = hitPlaneLines(this.lines(view, screen), toScreen(screen, this.navigation.crosshair), pointer);
@@ -139,7 +142,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   }
 
   cursor(): string {
-    if (this.draws || this.tool === "redraw") return "crosshair";
+    if (this.tool === "redraw" || (this.draws && !this.hover)) return "crosshair";
     if (!this.hover) return this.tool === "move" ? "default" : "crosshair";
     if ("contour" in this.hover) return this.tool === "move" ? "move" : this.hover.contour.on === "point" ? "grab" : "pointer";
     return this.hover.line.on === "turn" ? "alias" : "move";
@@ -148,6 +151,11 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   private contourAt(view: ViewName, screen: Screen, pointer: Point2): ContourHit | null {
     const selected = this.project.selection?.contour ?? null;
     return hitContour(this.project.shownContours(), screen, this.navigation.step(view), pointer, selected);
+  }
+
+  /** With a drawing tool the contour that was drawn last can be mended at once, others are out of the way. */
+  private isEditable(hit: ContourHit | null): hit is ContourHit {
+    return hit !== null && !this.sketch && hit.contour === this.project.selection?.contour;
   }
 
   private setHover(hover: Hover): void {
@@ -444,8 +452,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
     const hit = hitPlaneLines(lines, toScreen(screen, this.navigation.crosshair), pointer);
     if (hit?.on === "turn") return this.turnGesture(view, hit.view, pointer);
     if (hit?.on === "move") return this.slideGesture(screen, hit.view, pointer);
-    this.project.select(null);
     const go = (at: Point2) => this.navigation.setCrosshair(toWorld(screen, at));
+    if (hit?.on !== "crosshair") this.project.select(null);
     go(pointer);
     return { move: go, end: () => undefined };
   }
@@ -475,9 +483,11 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
         const by = sub(toWorld(screen, at), toWorld(screen, last));
         last = at;
         const depth = this.navigation.depth(slid).at;
-        this.navigation.scrollTo(slid, depth + by[0] * normal[0] + by[1] * normal[1] + by[2] * normal[2]);
+        this.navigation.scrollTo(slid, depth + dot(by, normal));
       },
-      end: () => undefined,
+      end: (at) => {
+        if (gap(at, pointer) <= 2) this.navigation.setCrosshair(toWorld(screen, at)); // a click, not a drag
+      },
     };
   }
 

@@ -83,7 +83,7 @@ export function planeLine(screen: Screen, crosshair: Vec3, view: ViewName, other
   const through = toScreen(screen, crosshair);
   const ends = clippedLine(through, d, screen.width, screen.height);
   if (!ends) return null;
-  const reach = 0.36 * Math.min(screen.width, screen.height);
+  const reach = 0.33 * Math.min(screen.width, screen.height);
   const along = (s: number): Point2 => [through[0] + s * d[0], through[1] + s * d[1]];
   return { view, ends, handles: [along(-reach), along(reach)] };
 }

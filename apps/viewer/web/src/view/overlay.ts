@@ -119,7 +119,7 @@ export class OverlayPainter {
     const { width, height } = this.screen;
     this.text(left, [9, height / 2], "left", "middle");
     this.text(right, [width - 26, height / 2], "right", "middle");
-    this.text(top, [width / 2, 34], "center", "top");
+    this.text(top, [width / 2, 30], "center", "top");
     this.text(bottom, [width / 2, height - 9], "center", "bottom");
   }
 

@@ -44,6 +44,7 @@ export class SliceView {
   private readonly position = el("span", { class: "slice-number" });
   private readonly bitmap = document.createElement("canvas");
   private bitmapPlane: PixelPlane | null = null;
+  private pixels: ImageData | null = null;
   private slice: ShownSlice | null = null;
   private readonly requests: Latest<{ pixels: boolean }>;
   private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
@@ -176,15 +177,15 @@ export class SliceView {
   }
 
   private keepPixels(gray: Uint8Array, width: number, height: number, plane: PixelPlane): void {
-    if (this.bitmap.width !== width || this.bitmap.height !== height) {
+    const context = this.bitmap.getContext("2d")!;
+    if (this.pixels?.width !== width || this.pixels.height !== height) {
       this.bitmap.width = width;
       this.bitmap.height = height;
+      this.pixels = context.createImageData(width, height);
     }
-    const context = this.bitmap.getContext("2d")!;
-    const pixels = context.createImageData(width, height);
-    const rgba = new Uint32Array(pixels.data.buffer);
+    const rgba = new Uint32Array(this.pixels.data.buffer);
     for (let i = 0; i < gray.length; ++i) rgba[i] = GRAY[gray[i]!]!;
-    context.putImageData(pixels, 0, 0);
+    context.putImageData(this.pixels, 0, 0);
     this.bitmapPlane = plane;
   }
 

@@ -74,7 +74,7 @@ describe("the page", () => {
 
   test("draws spline and hand-drawn stretches in one contour on the turned oblique plane", async () => {
     await viewer.page.keyboard.press("v");
-    const line = 0.36 * Math.min((await viewer.pane("axial").boundingBox())!.width, (await viewer.pane("axial").boundingBox())!.height);
+    const line = 0.33 * Math.min((await viewer.pane("axial").boundingBox())!.width, (await viewer.pane("axial").boundingBox())!.height);
     await viewer.drag("axial", [[line * Math.SQRT1_2, line * Math.SQRT1_2], [line, line * 0.2]]);
     await viewer.page.waitForFunction(() => document.querySelector<HTMLElement>("[data-view=oblique]")!.dataset["turned"] === "true");
     await viewer.slicesShown();

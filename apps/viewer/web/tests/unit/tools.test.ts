@@ -86,7 +86,7 @@ test("plane lines are hit on their line, their handles and the crosshair", () =>
   const crosshair: Point2 = [220, 200];
   assert.deepEqual(hitPlaneLines(lines, crosshair, [221, 203]), { on: "crosshair" });
   assert.deepEqual(hitPlaneLines(lines, crosshair, [222, 90]), { on: "move", view: "sagittal" });
-  assert.deepEqual(hitPlaneLines(lines, crosshair, [364, 199]), { on: "turn", view: "coronal" });
+  assert.deepEqual(hitPlaneLines(lines, crosshair, [352, 199]), { on: "turn", view: "coronal" });
   assert.equal(hitPlaneLines(lines, crosshair, [100, 100]), null);
 });
 
@@ -220,9 +220,25 @@ test("dragging the coronal plane's line moves the crosshair across it only", () 
   near(navigation.crosshair, [0, 20, 0], 1e-9);
 });
 
+test("a click on a plane's line moves the crosshair there", () => {
+  const { navigation, drag } = editing("edit", []);
+  drag([100, 200], [101, 200]);
+  near(navigation.crosshair, [-49.5, 0, 0], 1e-9);
+});
+
+test("a drawing tool mends the selected contour, and draws over others", async () => {
+  const { editor, project, drag, edits, settled } = editing("wire", [square(5), square(6, { points: square(6).points.map(([x, y, z]) => [2 * x, 2 * y, z]) })]);
+  project.select({ contour: 5, point: null });
+  drag([180, 180], [170, 170]);
+  await settled();
+  assert.deepEqual(edits().map((call) => call.name), ["contour.move_point"]);
+  drag([200, 160]);
+  assert.equal(editor.sketch!.points.length, 1);
+});
+
 test("turning a line turns that plane by the pointer's angle about the crosshair", () => {
   const { navigation, drag } = editing("edit", []);
-  drag([344, 200], [200, 344]);
+  drag([332, 200], [200, 332]);
   near(navigation.cameras.coronal.axes.u.map(Math.abs), [0, 1, 0], 1e-9);
   assert.ok(!navigation.isTurned("sagittal"));
 });

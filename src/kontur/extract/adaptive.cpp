@@ -61,19 +61,16 @@ std::vector<Vec3> centers_mm(const ImplicitFunction& function) {
     return result;
 }
 
-/// Values computed for a surface through the starts, about: an ellipsoid that fills their box has so many voxels.
-std::int64_t expected_values(const Grid& grid, std::span<const Vec3> starts) {
+/// Size in voxels of the starts' box.
+Vec3 extent(const Grid& grid, std::span<const Vec3> starts) {
     Box3 box;
     for (const Vec3& p : to_index(grid, starts)) box.extend(p);
-    const Vec3 half = box.size() / 2;
-    return std::llround(4.0 / 3 * M_PI * (half.x * half.y + half.y * half.z + half.z * half.x));
+    return box.size();
 }
 
 /// Whether the starts spread over too few voxels, or the grid has too few, for a coarse lattice to save values.
 bool is_small(const Grid& grid, std::span<const Vec3> starts) {
-    Box3 box;
-    for (const Vec3& p : to_index(grid, starts)) box.extend(p);
-    const Vec3 size = box.size();
+    const Vec3 size = extent(grid, starts);
     std::array<double, 3> extents;
     for (int axis = 0; axis < 3; ++axis)
         extents[static_cast<std::size_t>(axis)] = std::min(size[axis], static_cast<double>(grid.size[axis]));
@@ -88,15 +85,13 @@ std::uint64_t key(const Index3& c) {
 
 class AdaptiveTracker {
 public:
-    AdaptiveTracker(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+    AdaptiveTracker(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
                     const Progress& progress)
         : grid_(grid),
           starts_(starts),
           threads_(threads),
           progress_(progress),
-          fast_(function, {.tolerance_mm = kFastTolerance * smallest_spacing(grid),
-                           .expected_points = expected_values(grid, starts),
-                           .threads = threads}),
+          fast_(function),
           coarse_(grid, strides(grid)),
           fine_(grid) {
         const Vec3 spacing = grid.spacing_mm();
@@ -275,7 +270,7 @@ private:
     std::span<const Vec3> starts_;
     int threads_;
     const Progress& progress_;
-    FastFunction fast_;
+    FastFunction& fast_;
     CoarseLattice coarse_;
     Lattice fine_;
     double coarse_spacing_mm_ = 0;
@@ -286,12 +281,26 @@ private:
 
 }  // namespace
 
+std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> starts) {
+    const Vec3 half = extent(grid, starts) / 2;
+    return std::llround(4.0 / 3 * M_PI * (half.x * half.y + half.y * half.z + half.z * half.x));
+}
+
+SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+                                        const Progress& progress) {
+    check_grid(grid);
+    if (is_small(grid, starts)) return track_surface(function.exact(), grid, starts, threads, progress);
+    progress.report("voxelize", 0);
+    return AdaptiveTracker(function, grid, starts, threads, progress).run();
+}
+
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         int threads, const Progress& progress) {
     check_grid(grid);
-    if (is_small(grid, starts)) return track_surface(function, grid, starts, threads, progress);
-    progress.report("voxelize", 0);
-    return AdaptiveTracker(function, grid, starts, threads, progress).run();
+    FastFunction fast(function, {.tolerance_mm = kFastTolerance * smallest_spacing(grid),
+                                 .expected_points = expected_surface_voxels(grid, starts),
+                                 .threads = threads});
+    return track_surface_adaptively(fast, grid, starts, threads, progress);
 }
 
 }  // namespace kontur

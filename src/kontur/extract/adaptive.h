@@ -5,6 +5,7 @@
 
 #include "kontur/base/progress.h"
 #include "kontur/extract/track.h"
+#include "kontur/field/fast_function.h"
 
 namespace kontur {
 
@@ -17,5 +18,12 @@ namespace kontur {
 /// voxels within a fraction of a percent of a voxel of the surface. Objects of few voxels are left to track_surface.
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         int threads, const Progress& progress = {});
+
+/// The same with a function of the caller's, which keeps what evaluating it has prepared.
+SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
+                                        const Progress& progress = {});
+
+/// About how many voxels a surface through the starts passes, as if it were an ellipsoid that fills their box.
+std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> starts);
 
 }  // namespace kontur

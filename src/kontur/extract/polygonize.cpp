@@ -10,6 +10,8 @@
 namespace kontur {
 namespace {
 
+constexpr std::size_t kPointsPerCell = 1;  ///< a cell has about as many cut edges of its own
+
 /// Where f vanishes between two lattice values of different sign, as a fraction of the edge. Kept off the ends, so that no
 /// triangle collapses; an edge that leaves the grid is cut in its middle.
 double cut(double from, double to) {
@@ -37,9 +39,9 @@ public:
     }
 
     /// Normals are those of `function`, which knows nothing of the cut at the grid's border: there, the border's.
-    TriangleMesh finish(const ImplicitFunction& function, int threads) {
+    TriangleMesh finish(FastFunction& function, const Progress& progress) {
         mesh_.normals.resize(mesh_.points.size());
-        function.gradients(mesh_.points, mesh_.normals, threads);
+        function.gradients(mesh_.points, mesh_.normals, progress);
         for (Vec3& n : mesh_.normals) n = -normalized(n);
         for (const auto& [point, normal] : border_normals_) mesh_.normals[point] = normal;
         return std::move(mesh_);
@@ -83,12 +85,18 @@ private:
 
 }  // namespace
 
-TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, int threads,
-                        const Progress& progress) {
+TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Progress& progress) {
     MeshBuilder builder(surface);
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
     progress.report("polygonize", 0.5);
-    return builder.finish(function, threads);
+    return builder.finish(function, progress);
+}
+
+TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, int threads,
+                        const Progress& progress) {
+    FastFunction fast(
+        function, {.expected_points = static_cast<std::int64_t>(kPointsPerCell * surface.cells.size()), .threads = threads});
+    return polygonize(surface, fast, progress);
 }
 
 }  // namespace kontur

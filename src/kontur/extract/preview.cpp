@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kontur/base/error.h"
+#include "kontur/extract/adaptive.h"
 #include "kontur/extract/polygonize.h"
 
 namespace kontur {
@@ -13,7 +14,9 @@ namespace {
 
 // An object bulges beyond its contours by a fraction of their extent; what goes farther is a leak.
 constexpr double kMarginFraction = 0.5;
-constexpr double kMostPoints = 1LL << 36;  // the lattice's table of blocks then takes 1 GB
+constexpr double kTolerance = 0.02;               // of values, in spacings
+constexpr std::int64_t kEvaluationsPerVoxel = 2;  // one value, one normal
+constexpr double kMostPoints = 1LL << 36;         // the lattice's table of blocks then takes 1 GB
 
 /// A lattice of cubes with points at multiples of the spacing, so that it does not move when the box grows.
 Grid lattice_about(const Box3& box, double spacing_mm) {
@@ -50,9 +53,12 @@ TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const V
                     fmt::format("the preview's spacing is {} mm; it must be finite and above 0", options.spacing_mm));
     const Box3 box = box_of_finite(starts);
     if (box.is_empty()) return {};
-    const SurfaceLattice surface =
-        track_surface(function, lattice_about(box, options.spacing_mm), starts, options.threads, progress);
-    return polygonize(surface, function, options.threads, progress);
+    const Grid grid = lattice_about(box, options.spacing_mm);
+    FastFunction fast(function, {.tolerance_mm = kTolerance * options.spacing_mm,
+                                 .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(grid, starts),
+                                 .threads = options.threads});
+    const SurfaceLattice surface = track_surface_adaptively(fast, grid, starts, options.threads, progress);
+    return polygonize(surface, fast, progress);
 }
 
 }  // namespace kontur

@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 /// Table 1: the time to solve the paper's linear system, by solver and number of threads.
 Json solving(const PhantomCase& phantom, int repeat);
 
-/// Table 2: the time to voxelize the implicit functions of the paper's and of kontur's normals.
+/// Table 2: the time to voxelize the implicit functions of the paper's and of kontur's normals, and how the masks agree with
+/// evaluating every voxel.
 Json voxelizing(const PhantomCase& phantom, int repeat);
 
 /// Table 3: what reducing the contours' points to a fraction q saves and costs, overlap against q = 1 of the same

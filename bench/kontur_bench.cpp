@@ -25,7 +25,7 @@ struct Experiment {
 };
 constexpr Experiment kExperiments[] = {{"end_to_end", end_to_end, true},
                                        {"solving", solving, false},
-                                       {"voxelizing", voxelizing, false},
+                                       {"voxelizing", voxelizing, true},
                                        {"reduction", reduction, true}};
 
 /// Every eighth point of each contour.

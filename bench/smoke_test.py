@@ -32,8 +32,17 @@ def test_every_solver_meets_the_constraints(results):
 def test_tracking_finds_what_evaluating_every_voxel_finds(results):
     for normals in ("in-plane", "surface"):
         rows = [row for row in results["voxelizing"] if row["normals"] == normals]
-        assert {row["voxelizer"] for row in rows} == {"tracked", "exhaustive"}
-        assert len({row["surface_cells"] for row in rows}) == 1
+        assert {row["voxelizer"] for row in rows} == {"tracked", "adaptive", "exhaustive"}
+        assert len({row["surface_cells"] for row in rows if row["voxelizer"] != "adaptive"}) == 1
+        assert all(row["jaccard_exhaustive"] == 1 for row in rows if row["voxelizer"] != "adaptive")
+        assert min(row["jaccard_exhaustive"] for row in rows) > 0.9999
+        evaluations = {row["voxelizer"]: row["evaluations"] for row in rows}
+        assert evaluations["adaptive"] < 0.5 * evaluations["tracked"] < 0.5 * evaluations["exhaustive"]
+
+
+def test_iterative_and_adaptive_come_close_to_the_exact_mask(results):
+    shares = [row["jaccard_exact"] for row in results["end_to_end"] if "jaccard_exact" in row]
+    assert len(shares) == 2 and min(shares) > 0.999
 
 
 def test_pipelines_come_close_to_the_truth(results):

@@ -56,6 +56,11 @@ def percent(share):
     return f"{100 * share:.2f}"
 
 
+def precise_percent(share):
+    """Empty for results from before it was measured."""
+    return "" if share is None else f"{100 * share:.4f}"
+
+
 def table(header, rows):
     """A Markdown table; columns are right-aligned where the last row's cell starts with a digit."""
     align = ["--:" if re.match(r"\d", str(cell)) else "---" for cell in rows[-1]]
@@ -99,17 +104,19 @@ def voxelizing(results):
     rows = []
     for case in unique(results["voxelizing"], "case"):
         cells, paper = PAPER_VOXELIZE[organ(case)]
-        for threads, time in paper.items():
-            rows.append([case_name(case), "paper", "tracked", threads, seconds(time), "", "", count(cells), ""])
+        for threads, time in paper.items() if not case.endswith("_hand") else ():
+            rows.append([case_name(case), "paper", "tracked", threads, seconds(time), "", "", count(cells), "", ""])
         for row in (row for row in results["voxelizing"] if row["case"] == case):
             rows.append([
                 case_name(case), NORMALS[row["normals"]], row["voxelizer"], row["threads"], seconds(row["seconds"]),
                 seconds(row["cpu_s"]), count(row["evaluations"]), count(row["surface_cells"]),
-                f"{row['evaluations'] * row['centres'] / row['cpu_s'] / 1e9:.2f}",
+                precise_percent(row.get("jaccard_exhaustive")),
+                # The adaptive search takes most of its values from near centres alone.
+                f"{row['evaluations'] * row['centres'] / row['cpu_s'] / 1e9:.2f}" if row["voxelizer"] != "adaptive" else "",
             ])
     header = [
         "case", "normals", "search", "threads", "seconds", "CPU s", "evaluations of f", "surface cells",
-        "10^9 kernel values / CPU s",
+        "Jaccard to exhaustive, %", "10^9 kernel values / CPU s",
     ]
     return table(header, rows)
 
@@ -140,10 +147,11 @@ def end_to_end(results):
                 case_name(case), row["pipeline"], count(row["centres"]), row["solves"], seconds(row["total_s"]),
                 f"{row['total_s'] / mine[0]['total_s']:.1f}", seconds(row["cpu_s"]), f"{row['cpu_s'] / mine[0]['cpu_s']:.1f}",
                 f"{row['peak_mb']:.0f}" if row["peak_mb"] else "", percent(row["dice_truth"]),
+                precise_percent(row.get("jaccard_exact")),
             ])
     header = [
         "case", "pipeline", "centres", "solves", "seconds", "times default", "CPU s", "times default", "peak memory, MB",
-        "Dice to truth, %",
+        "Dice to truth, %", "Jaccard to exact, %",
     ]
     return table(header, rows)
 

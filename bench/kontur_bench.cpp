@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "experiments.h"
+#include "growth.h"
 #include "machine.h"
 
 namespace kontur::bench {
@@ -15,6 +16,8 @@ namespace {
 struct Options {
     bool quick = false;
     int repeat = 5;
+    bool growth = false;
+    std::size_t most = 1000000;
     std::string json = "/dev/stdout";
 };
 
@@ -58,6 +61,10 @@ Json run(const Options& options) {
     return results;
 }
 
+Json run_growth(const Options& options) {
+    return {{"machine", describe_machine()}, {"growth", growth(options.most, options.repeat)}};
+}
+
 void write(const Json& results, const std::string& path) {
     std::ofstream out(path);
     out << results.dump(2) << '\n';
@@ -75,12 +82,15 @@ int main(int count, char** arguments) {
     app.add_option("--repeat", options.repeat, "runs of which the median is taken")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    app.add_flag("--growth", options.growth,
+                 "instead, how time and memory to solve grow from 1,000 to a million constraints; some minutes, 3 GB");
+    app.add_option("--most", options.most, "with --growth, the largest system")->capture_default_str();
     app.add_option("--json", options.json, "file to write to instead of standard output");
     CLI11_PARSE(app, count, arguments);
     if (options.quick) options.repeat = 1;
     restart_with_fitting_blas(arguments);
     try {
-        write(run(options), options.json);
+        write(options.growth ? run_growth(options) : run(options), options.json);
     } catch (const std::exception& error) {
         fmt::print(stderr, "kontur_bench: {}\n", error.what());
         return 1;

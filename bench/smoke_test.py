@@ -5,10 +5,12 @@ import os
 import pathlib
 import subprocess
 import sys
+import xml.etree.ElementTree
 
 import pytest
 
 TABLES = pathlib.Path(__file__).parent / "tables.py"
+GROWTH = TABLES.with_name("growth.py")
 DOCS = pathlib.Path(__file__).parent.parent / "docs"
 
 
@@ -75,3 +77,18 @@ def test_the_published_tables_are_made_from_the_published_results(tmp_path):
     copy.write_text(published)
     subprocess.run([sys.executable, TABLES, DOCS / "performance.json", copy], check=True)
     assert copy.read_text() == published
+
+
+def test_growth_is_measured_tabulated_and_drawn(tmp_path):
+    json_path, plot, document = tmp_path / "growth.json", tmp_path / "growth.svg", tmp_path / "performance.md"
+    subprocess.run(
+        [os.environ["KONTUR_BENCH"], "--growth", "--most", "2000", "--repeat", "1", "--json", json_path], check=True, timeout=100
+    )
+    growth = json.loads(json_path.read_text())["growth"]
+    assert [row["n"] for row in growth["rows"][:2]] == [1000, 2000] and len(growth["rows"]) == 4
+    assert all(row["residual_mm"] <= growth["tolerance_mm"] for row in growth["rows"])
+    document.write_text("before\n<!-- begin growth -->\nold\n<!-- end growth -->\nafter\n")
+    subprocess.run([sys.executable, GROWTH, json_path, plot, document], check=True)
+    text = document.read_text()
+    assert "old" not in text and text.startswith("before\n") and text.endswith("after\n") and text.count("| 2,000 |") == 1 + 1
+    assert xml.etree.ElementTree.parse(plot).getroot().tag.endswith("svg")

@@ -20,8 +20,7 @@ public:
     void multiply(std::span<const double> weights, std::span<double> out) const override;
     double megabytes() const override;
     bool is_exact() const override { return false; }
-    /// Evaluations of phi per product.
-    double evaluations() const { return evaluations_; }
+    double evaluations() const override { return evaluations_; }
 
 private:
     /// Blocks with the same left side.

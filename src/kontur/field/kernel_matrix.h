@@ -19,6 +19,8 @@ public:
     /// out[i] = sum_j weights[j] phi(|x_i - x_j|).
     virtual void multiply(std::span<const double> weights, std::span<double> out) const = 0;
     virtual double megabytes() const = 0;
+    /// Values of phi computed per product.
+    virtual double evaluations() const = 0;
     /// Whether products are exact to rounding.
     virtual bool is_exact() const = 0;
 };
@@ -32,6 +34,7 @@ public:
     std::size_t size() const override { return size_; }
     void multiply(std::span<const double> weights, std::span<double> out) const override;
     double megabytes() const override;
+    double evaluations() const override { return 0.5 * static_cast<double>(size_) * static_cast<double>(size_); }
     bool is_exact() const override { return true; }
 
 private:

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "kontur/field/solve.h"
@@ -32,6 +34,8 @@ struct Coefficients {
     double residual = 0;              ///< largest |f(c_i) + smoothing w_i - h_i|, in mm
     std::size_t residual_points = 0;  ///< see SolveReport
     double matrix_mb = 0;
+    double evaluations = 0;           ///< see SolveReport
+    std::vector<std::pair<std::string, double>> seconds = {};
 };
 
 /// Eq. 6 as printed, by dsysv (Bunch-Kaufman).

@@ -53,8 +53,7 @@ public:
     /// Multiplies the tolerance.
     void tighten(double factor);
     double tolerance() const { return tolerance_; }
-    bool is_exact() const { return matrix_->is_exact(); }
-    double megabytes() const { return matrix_->megabytes(); }
+    const KernelMatrix& matrix() const { return *matrix_; }
 
 private:
     Vector image(const KernelMatrix& matrix, const Vector& w) const;

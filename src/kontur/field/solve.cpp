@@ -94,7 +94,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
         if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
 
     Solution solution;
-    solution.report = {options.solver, system.size(), c.iterations, c.residual, c.residual_points, c.matrix_mb};
+    solution.report = {options.solver, system.size(), c.iterations, c.residual, c.residual_points, c.matrix_mb, c.evaluations,
+                       c.seconds};
     solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
     return solution;
 }

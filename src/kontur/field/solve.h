@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "kontur/base/progress.h"
 #include "kontur/field/constraints.h"
@@ -38,6 +41,8 @@ struct SolveReport {
     /// centres, it is that of the H2 matrix at all constraints plus the matrix's largest error at these.
     std::size_t residual_points = 0;
     double matrix_mb = 0;  ///< size of the factorised matrix or of the preconditioner
+    double evaluations = 0;  ///< iterative only: values of phi computed per product with the matrix
+    std::vector<std::pair<std::string, double>> seconds = {};  ///< iterative only: wall time by stage
 };
 
 struct Solution {

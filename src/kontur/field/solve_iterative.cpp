@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -49,6 +50,31 @@ std::array<double, 4> fit_linear(const LinearSystem& system, const Vector& value
     return {mean_value - dot(gradient, mean), gradient.x, gradient.y, gradient.z};
 }
 
+/// Wall time by stage, in the order in which stages first ran.
+class StageTimes {
+public:
+    /// The work's result; its time is added to the stage's.
+    template <class Work>
+    auto operator()(const char* stage, const Work& work) {
+        using Clock = std::chrono::steady_clock;
+        struct Timer {
+            double& sum;
+            Clock::time_point start = Clock::now();
+            ~Timer() { sum += std::chrono::duration<double>(Clock::now() - start).count(); }
+        } timer{of(stage)};
+        return work();
+    }
+    const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
+
+private:
+    double& of(const char* stage) {
+        for (auto& [name, sum] : seconds_)
+            if (name == stage) return sum;
+        return seconds_.emplace_back(stage, 0.0).second;
+    }
+    std::vector<std::pair<std::string, double>> seconds_;
+};
+
 /// Solves by conjugate gradients and checks what they have reached.
 class IterativeSolver {
 public:
@@ -57,10 +83,14 @@ public:
           progress_(progress),
           limit_(options.tolerance_mm),
           polynomials_(system.centers),
+          pattern_(times_("neighbours",
+                          [&] {
+                              return std::make_shared<PreconditionerPattern>(system.centers, PreconditionerOptions{},
+                                                                             options.threads, progress);
+                          })),
           preconditioner_(
-              system.kernel,
-              std::make_shared<PreconditionerPattern>(system.centers, PreconditionerOptions{}, options.threads, progress),
-              system.smoothing, options.threads, progress),
+              times_("factors",
+                     [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, options.threads, progress); })),
           weights_(system.size(), 0.0),
           target_(system.values),
           image_{.values = Vector(system.size()), .checked = system.size()} {
@@ -68,7 +98,8 @@ public:
         update_residual();
         start_ = std::max(residual_, limit_);
         // The preconditioner's first guess at the weights tells how large they are.
-        operator_.emplace(system, polynomials_, matrix_tolerance(precondition(r_), limit_), options, progress);
+        const double tolerance = matrix_tolerance(precondition(r_), limit_);
+        times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, progress); });
     }
 
     /// The recurrence's residual drifts from the true one, and H2 products are not exact: at the end the residual is
@@ -82,7 +113,7 @@ public:
             check_image();
             if (residual_ <= limit_) return;
             const bool to_blame = stuck || image_.deviation > 0.3 * limit_;
-            if (!operator_->is_exact() && to_blame && operator_->tolerance() > kFinest &&
+            if (!operator_->matrix().is_exact() && to_blame && operator_->tolerance() > kFinest &&
                 (stuck || image_.deviation < 0.5 * last_deviation))
                 tighten();
             else if (!(residual_ < 0.5 * last_residual)) return;
@@ -100,14 +131,16 @@ public:
         c.iterations = iterations_;
         c.residual = residual_;
         c.residual_points = image_.checked;
-        c.matrix_mb = preconditioner_.megabytes() + operator_->megabytes();
+        c.matrix_mb = preconditioner_.megabytes() + operator_->matrix().megabytes();
+        c.evaluations = operator_->matrix().evaluations();
+        c.seconds = times_.seconds();
         return c;
     }
 
 private:
-    Vector precondition(const Vector& r) const {
+    Vector precondition(const Vector& r) {
         Vector z(r.size());
-        preconditioner_.apply(r, z);
+        times_("preconditioning", [&] { preconditioner_.apply(r, z); });
         polynomials_.project_out(z);
         return z;
     }
@@ -117,7 +150,7 @@ private:
         Vector z = precondition(r_), direction = z;
         double rz = inner(r_, z), least = largest(r_);
         for (int idle = 0; largest(r_) > 0.5 * limit_ && iterations_ < options_.max_iterations && rz > 0; ++iterations_) {
-            const Vector step = (*operator_)(direction);
+            const Vector step = times_("products", [&] { return (*operator_)(direction); });
             const double curvature = inner(direction, step);
             if (!(curvature > 0) || idle == kMostIdle) return false;
             add_scaled(weights_, rz / curvature, direction);
@@ -136,12 +169,12 @@ private:
 
     void tighten() {
         const double factor = std::min(0.1, 0.2 * limit_ / std::max(image_.deviation, 0.02 * limit_));
-        operator_->tighten(std::max(factor, kFinest / operator_->tolerance()));
+        times_("matrix", [&] { operator_->tighten(std::max(factor, kFinest / operator_->tolerance())); });
         if (image_.uncertainty > 0) check_image();
     }
 
     void check_image() {
-        image_ = operator_->checked_image(weights_);
+        image_ = times_("check", [&] { return operator_->checked_image(weights_); });
         update_residual();
     }
 
@@ -154,8 +187,10 @@ private:
 
     const SolveOptions& options_;
     const Progress& progress_;
+    StageTimes times_;
     double limit_, start_ = 0;
     LinearPolynomials polynomials_;
+    std::shared_ptr<const PreconditionerPattern> pattern_;
     Preconditioner preconditioner_;
     std::optional<ProjectedOperator> operator_;
     Vector weights_, target_, r_;

@@ -67,6 +67,9 @@ public:
     void save_page_state(std::string_view json);
     void save_image(const ImageReference& image);
 
+    /// The file itself, for checks of it.
+    Database& database() { return database_; }
+
     /// A copy as a new file; the target must not exist.
     void copy_to(const std::filesystem::path& target) { database_.copy_to(target); }
 

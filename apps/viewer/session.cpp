@@ -212,6 +212,10 @@ json Session::surface_event(const Surface& surface) const {
                          {"contour", surface.worst_contour},
                          {"at", to_json(surface.worst_at)}};
     event["conflicts"] = json::array();
+    for (const Conflict& conflict : surface.conflicts)
+        event["conflicts"].push_back({{"at", to_json(conflict.at)},
+                                      {"distance_mm", conflict.disagreement_mm},
+                                      {"contours", {conflict.contour, conflict.other}}});
     return event;
 }
 

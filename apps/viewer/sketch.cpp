@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/error.h"
 #include "kontur/shape/spline.h"
@@ -15,7 +16,11 @@ namespace {
 constexpr double kThinning_mm = 0.1;
 constexpr double kSamePoint_mm = 1e-6;
 
-Vec3 projected(const Vec3& p, const Plane& plane) { return p - plane.distance_to(p) * plane.normal; }
+/// What lies on the plane to rounding keeps its last bits, so that drawing a contour again changes nothing.
+Vec3 projected(const Vec3& p, const Plane& plane) {
+    const double off = plane.distance_to(p);
+    return std::abs(off) <= 1e-9 ? p : p - off * plane.normal;
+}
 
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;

@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/surfaces.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <new>
+#include <fmt/format.h>
 
-#include "kontur/base/error.h"
-#include "kontur/extract/preview.h"
-#include "kontur/segment.h"
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/shape/crossings.h"
 
 namespace kontur::viewer {
 namespace {
 
-/// A hand that moves on within this time rests not yet.
-constexpr std::chrono::milliseconds kRest{250};
+constexpr std::size_t kMostConflicts = 20;
 
-constexpr double kPreviewCells = 48, kRefinedCells = 128;  ///< along the diagonal of the contours' box
-constexpr double kPreviewQuality = 0.4;
-
-std::vector<Vec3> all_points(const ContourSet& set) {
-    std::vector<Vec3> points;
-    for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
-    return points;
-}
-
-/// The contour's point where the function is farthest from 0.
+/// The contour's point where the surface passes farthest.
 Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
     std::vector<double> values(contour.points.size());
     function.values(contour.points, values);
@@ -34,24 +22,33 @@ Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
     return contour.points[static_cast<std::size_t>(worst - values.begin())];
 }
 
-Surface make_surface(const SurfaceTask& task, SurfaceStage stage, const Progress& progress) {
-    const bool is_preview = stage == SurfaceStage::preview;
-    const Box3 box = bounding_box(task.set);
-    const double cell = box.diagonal() / (is_preview ? kPreviewCells : kRefinedCells);
-    SegmentOptions options;
-    options.quality = is_preview ? kPreviewQuality : 1;
-    const double coarse = box.diagonal() / 16;
-    const Segmentation made = segment(task.set, grid_around(box, {coarse, coarse, coarse}, 4 * coarse), options, progress);
+/// Places where contours disagree by more than careful hands do, in large organs more than in small ones.
+std::vector<Conflict> conflicts(const SurfaceTask& task) {
+    const double least_mm = std::max(1.0, 0.01 * bounding_box(task.set).diagonal());
+    std::vector<Conflict> found;
+    for (const Crossing& crossing : find_crossings(task.set))
+        if (crossing.disagreement_mm >= least_mm)
+            found.push_back({task.ids[crossing.contour], task.ids[crossing.other],
+                             0.5 * (crossing.position + crossing.other_position), crossing.disagreement_mm});
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Conflict& a, const Conflict& b) { return a.disagreement_mm > b.disagreement_mm; });
+    if (found.size() > kMostConflicts) found.resize(kMostConflicts);
+    return found;
+}
 
+Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     Surface surface;
     surface.structure = task.structure;
-    surface.stage = stage;
-    surface.mesh = std::make_shared<const TriangleMesh>(
-        preview_surface(made.function, all_points(task.set), {.spacing_mm = cell}, progress));
+    if (update.kind == EditorUpdate::Kind::problem && !task.set.contours.empty()) surface.warnings.push_back(update.problem);
+    if (update.surface.mesh.triangles.empty()) return surface;
+    surface.stage = update.surface.refined ? SurfaceStage::refined : SurfaceStage::preview;
+    surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
+    if (!update.surface.refined) return surface;
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
-    surface.residual = made.report.residual;
-    surface.worst_contour = task.ids[made.report.residual.worst_contour];
-    surface.worst_at = worst_point(task.set.contours[made.report.residual.worst_contour], made.function);
+    surface.residual = update.surface.residual;
+    surface.worst_contour = task.ids[surface.residual.worst_contour];
+    surface.worst_at = worst_point(task.set.contours[surface.residual.worst_contour], update.surface.function);
+    surface.conflicts = conflicts(task);
     return surface;
 }
 
@@ -69,26 +66,25 @@ std::string_view name(SurfaceStage stage) noexcept {
     return "none";
 }
 
-Surfaces::Surfaces(SurfaceListener listener)
-    : listener_(std::move(listener)), worker_([this](const std::stop_token& stop) { work(stop); }) {}
-
-Surfaces::~Surfaces() {
-    worker_.request_stop();
-    const std::scoped_lock lock(mutex_);
-    cancel_.request_stop();
-}
-
 void Surfaces::follow(SurfaceTask task) {
     const std::scoped_lock lock(mutex_);
     const Id structure = task.structure;
-    if (running_ == structure) cancel_.request_stop();
-    pending_[structure] = {std::move(task), SurfaceStage::preview};
-    wake_.notify_all();
+    Follower& follower = followers_[structure];
+    if (!follower.editor)
+        follower.editor = std::make_unique<LiveEditor>(
+            EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); });
+    // The lock makes the editor's answer wait until its task is known.
+    const std::uint64_t number = follower.editor->edit(task.set);
+    follower.tasks[number] = std::move(task);
 }
 
 void Surfaces::wait() {
-    std::unique_lock lock(mutex_);
-    idle_.wait(lock, [&] { return pending_.empty() && running_ == 0; });
+    std::vector<LiveEditor*> editors;
+    {
+        const std::scoped_lock lock(mutex_);
+        for (const auto& [structure, follower] : followers_) editors.push_back(follower.editor.get());
+    }
+    for (LiveEditor* editor : editors) editor->wait();
 }
 
 std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
@@ -96,55 +92,33 @@ std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
     return latest_;
 }
 
-void Surfaces::work(const std::stop_token& stop) {
-    while (const std::optional<Pending> job = take(stop)) {
-        make(*job, cancel_.get_token());
-        bool is_idle = false;
-        {
-            const std::scoped_lock lock(mutex_);
-            running_ = 0;
-            is_idle = pending_.empty();
-        }
-        if (is_idle) listener_.status("");
-        idle_.notify_all();
+void Surfaces::hear(Id structure, const EditorUpdate& update) {
+    if (update.kind == EditorUpdate::Kind::progress) return show_progress(structure, update);
+    SurfaceTask task;
+    bool is_done = false;
+    {
+        const std::scoped_lock lock(mutex_);
+        Follower& follower = followers_[structure];
+        follower.tasks.erase(follower.tasks.begin(), follower.tasks.lower_bound(update.edit));
+        task = follower.tasks.at(update.edit);
+        is_done = follower.tasks.size() == 1 && update.kind != EditorUpdate::Kind::preview;
+        if (is_done) follower.stage.clear();
     }
+    publish(shown(task, update));
+    if (is_done) listener_.status("");
 }
 
-/// The next job: previews of all structures before the first fine surface, which waits for the hand to rest.
-std::optional<Surfaces::Pending> Surfaces::take(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    const auto preview = [&] {
-        return std::find_if(pending_.begin(), pending_.end(),
-                            [](const auto& item) { return item.second.next == SurfaceStage::preview; });
-    };
-    wake_.wait(lock, stop, [&] { return !pending_.empty(); });
-    if (!stop.stop_requested() && preview() == pending_.end())
-        wake_.wait_for(lock, stop, kRest, [&] { return preview() != pending_.end(); });
-    if (stop.stop_requested()) return std::nullopt;
-    const auto chosen = preview() != pending_.end() ? preview() : pending_.begin();
-    Pending job = chosen->second;
-    if (job.next == SurfaceStage::preview && !job.task.set.contours.empty()) chosen->second.next = SurfaceStage::refined;
-    else pending_.erase(chosen);
-    running_ = job.task.structure;
-    cancel_ = std::stop_source();
-    return job;
-}
-
-void Surfaces::make(const Pending& job, const std::stop_token& stop) {
-    Surface none;
-    none.structure = job.task.structure;
-    if (job.task.set.contours.empty()) return publish(std::move(none));
-    listener_.status((job.next == SurfaceStage::preview ? "Sketching " : "Refining ") + job.task.set.name);
-    try {
-        publish(make_surface(job.task, job.next, {{}, stop}));
-    } catch (const Error& error) {
-        if (error.kind() == ErrorKind::cancelled) return;
-        none.warnings.emplace_back(error.what());
-        publish(std::move(none));
-    } catch (const std::bad_alloc&) {
-        none.warnings.emplace_back("there is not enough memory for this surface");
-        publish(std::move(none));
+/// The first news of each stage only: the line shall be read, and a preview is over before it could be.
+void Surfaces::show_progress(Id structure, const EditorUpdate& update) {
+    std::string text;
+    {
+        const std::scoped_lock lock(mutex_);
+        Follower& follower = followers_[structure];
+        if (follower.stage == update.stage) return;
+        follower.stage = update.stage;
+        text = fmt::format("{}: {}", follower.tasks.at(update.edit).set.name, update.stage);
     }
+    listener_.status(text);
 }
 
 void Surfaces::publish(Surface surface) {

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "kontur/field/residual.h"
-#include "kontur/shape/mesh.h"
+#include "kontur/live_editor.h"
 #include "viewer/model.h"
 
 namespace kontur::viewer {
@@ -21,18 +16,26 @@ namespace kontur::viewer {
 enum class SurfaceStage { none, preview, refined };
 std::string_view name(SurfaceStage stage) noexcept;
 
+/// Two contours that contradict each other at a place.
+struct Conflict {
+    Id contour = 0, other = 0;
+    Vec3 at;
+    double disagreement_mm = 0;
+};
+
 /// What is shown of a structure's surface.
 struct Surface {
     Id structure = 0;
     std::int64_t revision = 0;
     SurfaceStage stage = SurfaceStage::none;
     std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
+    std::vector<std::string> warnings;
     // Known when refined:
     double volume_ml = 0;
     Residual residual;
     Id worst_contour = 0;  ///< where the residual is largest
     Vec3 worst_at;
-    std::vector<std::string> warnings;
+    std::vector<Conflict> conflicts;  ///< the largest first
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -42,48 +45,43 @@ struct SurfaceTask {
     std::vector<Id> ids;
 };
 
+/// Called from the threads that compute.
 struct SurfaceListener {
     std::function<void(std::shared_ptr<const Surface>)> surface;
-    std::function<void(const std::string& text)> status;  ///< what is being computed; empty when idle
+    std::function<void(const std::string& text)> status;  ///< what is being computed; empty when nothing is
 };
 
-/// Makes surfaces on a thread of its own: at once a coarse one, then, when no newer task has come for the moment that a hand
-/// rests, the fine one. A newer task of the same structure replaces a waiting one and cancels a running one. The listener is
-/// called from that thread.
+/// A LiveEditor for each structure: surfaces follow the contours, previews at once, the refined ones when the hand rests.
 class Surfaces {
 public:
-    explicit Surfaces(SurfaceListener listener);
-    ~Surfaces();
+    explicit Surfaces(SurfaceListener listener) : listener_(std::move(listener)) {}
     Surfaces(const Surfaces&) = delete;
     Surfaces& operator=(const Surfaces&) = delete;
 
+    /// The structure's contours are now these. Does not wait.
     void follow(SurfaceTask task);
-    /// Waits until nothing is left to do.
+    /// Waits until every surface is refined.
     void wait();
 
     /// The last surface of every structure that has had one.
     std::map<Id, std::shared_ptr<const Surface>> all() const;
 
 private:
-    struct Pending {
-        SurfaceTask task;
-        SurfaceStage next = SurfaceStage::preview;
+    struct Follower {
+        std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
+        std::string stage;                           ///< what the status line was told last
+        std::unique_ptr<LiveEditor> editor;
     };
 
-    void work(const std::stop_token& stop);
-    std::optional<Pending> take(const std::stop_token& stop);
-    void make(const Pending& job, const std::stop_token& stop);
+    void hear(Id structure, const EditorUpdate& update);
+    void show_progress(Id structure, const EditorUpdate& update);
     void publish(Surface surface);
 
-    SurfaceListener listener_;
+    const SurfaceListener listener_;
     mutable std::mutex mutex_;
-    std::condition_variable_any wake_, idle_;
-    std::map<Id, Pending> pending_;
     std::map<Id, std::shared_ptr<const Surface>> latest_;
-    Id running_ = 0;  ///< the structure being computed; 0: none
-    std::stop_source cancel_;
     std::int64_t revision_ = 0;
-    std::jthread worker_;  ///< last: it uses everything above
+    std::map<Id, Follower> followers_;  ///< last: their threads use all above
 };
 
 }  // namespace kontur::viewer

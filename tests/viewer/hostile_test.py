@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a hostile web page, a scanner or a broken client may send. Each must be refused, and the server must live on."""
+import json
+import os
+import random
+import socket
+import struct
+import time
+
+import numpy
+import pytest
+
+from support import Page, running
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    with running(tmp_path_factory.mktemp("hostile")) as one:
+        yield one
+        assert one.page().do("ping") == {}
+
+
+def raw(server, data, timeout=15):
+    """The status of the reply to these bytes; None when the server just closes."""
+    with socket.create_connection(("127.0.0.1", server.port), timeout=timeout) as connection:
+        connection.sendall(data)
+        reply = b""
+        try:
+            while b"\r\n" not in reply and (more := connection.recv(4096)):
+                reply += more
+        except ConnectionResetError:
+            return None
+    return int(reply.split()[1]) if reply else None
+
+
+def head(server, method="GET", target="/", version="HTTP/1.1", host=None, origin=None, token=True, extra=""):
+    lines = [f"{method} {target} {version}", f"Host: {server.host if host is None else host}"]
+    lines += [f"Origin: {origin}"] if origin else []
+    lines += [f"Authorization: Bearer {server.token}"] if token else []
+    return ("\r\n".join(lines) + "\r\n" + extra + "\r\n").encode()
+
+
+UPGRADE = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
+
+
+def upgrade(server, origin="own", protocol="own", host=None, target="/api/socket"):
+    origin = f"http://{server.host}" if origin == "own" else origin
+    protocol = f"kontur, {server.token}" if protocol == "own" else protocol
+    extra = UPGRADE + (f"Sec-WebSocket-Protocol: {protocol}\r\n" if protocol else "")
+    return head(server, target=target, host=host, origin=origin, token=False, extra=extra)
+
+
+BODY = b'{"plane": 1}'
+
+# name, bytes to send, statuses that are right
+REQUESTS = [
+    ("rebound name", lambda s: head(s, host="attacker.example"), {421}),
+    ("rebound name with our port", lambda s: head(s, host=f"attacker.example:{s.port}"), {421}),
+    ("another port", lambda s: head(s, host="127.0.0.1:1"), {421}),
+    ("no port", lambda s: head(s, host="127.0.0.1"), {421}),
+    ("empty host", lambda s: head(s, host=""), {421}),
+    ("user in host", lambda s: head(s, host=f"a@{s.host}"), {421}),
+    ("host in upper case with dot", lambda s: head(s, host=f"LOCALHOST.:{s.port}"), {421}),
+    ("private address", lambda s: head(s, host=f"192.168.0.1:{s.port}"), {421}),
+    ("all addresses", lambda s: head(s, host=f"0.0.0.0:{s.port}"), {421}),
+    ("no host", lambda s: b"GET / HTTP/1.1\r\n\r\n", {421}),
+    ("no host in HTTP/1.0", lambda s: b"GET / HTTP/1.0\r\n\r\n", {421}),
+    ("two hosts", lambda s: head(s, extra=f"Host: {s.host}\r\n"), {400, 421}),
+    ("absolute address of another host", lambda s: head(s, target="http://attacker.example/"), {400}),
+    ("foreign origin", lambda s: head(s, origin="http://attacker.example"), {403}),
+    ("null origin", lambda s: head(s, origin="null"), {403}),
+    ("origin with https", lambda s: head(s, origin=f"https://{s.host}"), {403}),
+    ("origin of another port", lambda s: head(s, origin="http://127.0.0.1:1"), {403}),
+    ("origin of the other loopback name", lambda s: head(s, origin=f"http://localhost:{s.port}"), {403}),
+    ("POST without origin", lambda s: head(s, "POST", "/api/slice", extra=f"Content-Length: {len(BODY)}\r\n") + BODY, {403}),
+    ("POST from a form", lambda s: head(s, "POST", "/api/slice", origin="http://attacker.example", token=False), {403}),
+    ("no token", lambda s: head(s, target="/api/mesh/1", token=False), {401}),
+    ("wrong token", lambda s: head(s, target="/api/mesh/1", token=False, extra="Authorization: Bearer wrong\r\n"), {401}),
+    ("prefix of the token", lambda s: head(s, target="/api/mesh/1", token=False, extra="Authorization: Bearer secre\r\n"), {401}),
+    ("token as basic authorization", lambda s: head(s, target="/api/mesh/1", token=False, extra="Authorization: Basic secret\r\n"), {401}),
+    ("token in the address", lambda s: head(s, target=f"/api/mesh/1?token={s.token}", token=False), {401}),
+    ("two authorizations", lambda s: head(s, target="/api/mesh/1", extra="Authorization: Bearer wrong\r\n"), {400, 401}),
+    ("socket without origin", lambda s: upgrade(s, origin=None), {403}),
+    ("socket with null origin", lambda s: upgrade(s, origin="null"), {403}),
+    ("socket of a foreign page", lambda s: upgrade(s, origin="http://attacker.example"), {403}),
+    ("socket by a rebound name", lambda s: upgrade(s, host="attacker.example"), {421}),
+    ("socket without token", lambda s: upgrade(s, protocol=None), {401}),
+    ("socket with a wrong token", lambda s: upgrade(s, protocol="kontur, wrong"), {401}),
+    ("socket at another address", lambda s: upgrade(s, target="/"), {404}),
+    ("plain GET of the socket", lambda s: head(s, target="/api/socket"), {404}),
+    ("a file of the system", lambda s: head(s, target="/../../../../etc/passwd"), {404}),
+    ("an encoded file of the system", lambda s: head(s, target="/%2e%2e/%2e%2e/etc/passwd"), {404}),
+    ("an export beside the list", lambda s: head(s, target="/api/export/..%2f..%2fetc%2fpasswd?structure=1"), {415}),
+    ("broken percent code", lambda s: head(s, target="/%zz"), {400}),
+    ("DELETE", lambda s: head(s, "DELETE"), {405}),
+    ("preflight", lambda s: head(s, "OPTIONS", origin="http://attacker.example"), {403}),
+    ("CONNECT", lambda s: head(s, "CONNECT", target="attacker.example:443"), {405, 400}),
+    ("header of 9 KiB", lambda s: head(s, extra=f"X: {'x' * 9216}\r\n"), {431}),
+    ("5000 headers", lambda s: head(s, extra="A: b\r\n" * 5000), {431, None}),
+    ("body beyond the limit", lambda s: head(s, "POST", "/api/slice", origin=f"http://{s.host}", extra="Content-Length: 70000\r\n"), {413}),
+    ("body of 2^63", lambda s: head(s, "POST", "/api/slice", origin=f"http://{s.host}", extra="Content-Length: 9223372036854775807\r\n"), {413}),
+    ("body of 2^64", lambda s: head(s, "POST", "/api/slice", origin=f"http://{s.host}", extra="Content-Length: 18446744073709551616\r\n"), {400}),
+    ("import beyond the limit", lambda s: head(s, "POST", "/api/import/mask?name=a.nii", origin=f"http://{s.host}", extra="Content-Length: 9000000000\r\n"), {413}),
+    ("negative length", lambda s: head(s, "POST", "/api/slice", origin=f"http://{s.host}", extra="Content-Length: -1\r\n"), {400}),
+    ("two lengths", lambda s: head(s, "POST", "/api/slice", origin=f"http://{s.host}", extra="Content-Length: 1\r\nContent-Length: 2\r\n"), {400}),
+    ("chunks beyond the limit", lambda s: head(s, "POST", "/api/slice", origin=f"http://{s.host}", extra="Transfer-Encoding: chunked\r\n") + b"20000\r\n" + b"x" * 0x20000 + b"\r\n0\r\n\r\n", {413, None}),
+    ("no HTTP", lambda s: b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", {400}),
+    ("HTTP/2 preface", lambda s: b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", {400, 421, None}),
+]
+
+
+@pytest.mark.parametrize("request_bytes, statuses", [pytest.param(r, s, id=name.replace(" ", "-")) for name, r, s in REQUESTS])
+def test_a_hostile_request_is_refused(server, request_bytes, statuses):
+    assert raw(server, request_bytes(server)) in statuses
+
+
+def test_at_least_40_hostile_requests_are_tried():
+    assert len(REQUESTS) >= 40
+
+
+def test_every_reply_carries_the_security_headers_and_none_opens_it_to_others(server):
+    for target in ("/", "/nothing", "/api/mesh/1"):
+        _, headers, _ = server.request("GET", target)
+        assert headers["Content-Security-Policy"].startswith("default-src 'self'") and f"ws://{server.host};" in headers["Content-Security-Policy"]
+        assert headers["X-Content-Type-Options"] == "nosniff" and headers["Cross-Origin-Resource-Policy"] == "same-origin"
+        assert headers["Cache-Control"] == "no-store"
+        assert not any(name.lower().startswith("access-control") for name in headers)
+
+
+SLICE = {"view": "v", "plane": {"origin": [0, 0, 0], "u": [1, 0, 0], "v": [0, 1, 0], "normal": [0, 0, 1], "mm_per_pixel": 1},
+         "width": 8, "height": 8, "window": {"center": 0, "width": 1}}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"width": 0}, {"width": 4097}, {"width": 1e99}, {"height": -1}, {"height": 1.5}, {"window": {"center": 0, "width": 0}},
+     {"window": None}, {"plane": {}}, {"plane": {**SLICE["plane"], "u": [2, 0, 0]}}, {"plane": {**SLICE["plane"], "v": [1, 0, 0]}},
+     {"plane": {**SLICE["plane"], "mm_per_pixel": 0}}, {"plane": {**SLICE["plane"], "origin": [1e9, 0, 0]}}, {"pixels": 1}],
+)
+def test_a_slice_that_makes_no_sense_is_refused(server, change):
+    status, _, body = server.request("POST", "/api/slice", json.dumps({**SLICE, **change}).encode())
+    assert status == 400 and json.loads(body)["error"]["kind"] == "invalid_input"
+
+
+def test_frames_beyond_the_limit_and_binary_ones_close_the_socket(server):
+    for payload, opcode, code in ((b" " * ((4 << 20) + 1), 1, 1009), (b"{}", 2, 1003)):
+        page = server.page()
+        with pytest.raises((ConnectionError, BrokenPipeError)) as closed:
+            page.send_frame(payload, opcode)
+            page.receive()
+        assert str(code) in str(closed.value) or isinstance(closed.value, (ConnectionResetError, BrokenPipeError))
+
+
+def test_a_declared_frame_of_an_exabyte_closes_the_socket(server):
+    page = server.page()
+    page.socket.sendall(b"\x81\xff" + struct.pack(">Q", 1 << 60) + b"\0\0\0\0")
+    with pytest.raises(ConnectionError):
+        page.receive()
+
+
+def test_messages_that_are_no_calls_are_answered(server):
+    page = server.page()
+    deep = b"[" * 100_000
+    for payload in (b"", b"null", b"[]", b"{", b'{"seq": 1}', b'{"call": 1}', b'{"call": "undo", "call": {}}', deep, b'{"call": "\\ud800"}', b"1e999"):
+        page.send_frame(payload)
+        assert page.receive()["error"]["kind"] == "invalid_input"
+
+
+def test_text_that_is_no_utf8_closes_the_socket(server):
+    page = server.page()
+    page.send_frame(b'{"call": "\xff\xfe"}')
+    with pytest.raises(ConnectionError):
+        page.receive()
+
+
+def test_random_paths_lead_nowhere(server):
+    choose = random.Random(7)
+    parts = ["..", "%2e%2e", "%2f", "/", "//", "api", "mesh", "export", "import", "etc", "passwd", "%00", "~", "\\", "index.html", "?", "&", "=", ".", "assets", "😀", "%e2"]
+    for _ in range(300):
+        target = "/" + "".join(choose.choice(parts) for _ in range(choose.randrange(1, 9)))
+        status = raw(server, head(server, target=target))
+        assert status in (200, 400, 404, 415) and (status != 200 or "index.html" in target or set(target.split("?")[0]) <= {"/"}), target
+
+
+def test_fuzzed_messages_change_nothing_that_was_not_asked_for(server):
+    choose = random.Random(11)
+    page = server.page()
+    calls = ["path", "contour.add", "contour.move_point", "contour.pull", "contour.redraw", "contour.copy", "contour.set", "structure.set", "value", "draft.drop"]
+    values = [None, -1, 0, 1, 1e308, "x", "", [], {}, [0, 0, 0], [[0, 0, 0]] * 3, True, SLICE["plane"], [{"at": [0, 0, 0], "kind": "wire"}] * 2]
+    names = ["id", "plane", "control", "at", "to", "from", "by", "path", "index", "structure", "closed", "offset_mm", "radius_mm", "draft"]
+    for _ in range(400):
+        reply = page.ask(choose.choice(calls), **{choose.choice(names): choose.choice(values) for _ in range(6)})
+        assert "result" in reply or reply["error"]["kind"] in ("invalid_input", "too_large")
+
+
+def test_a_slow_client_is_cut_off(server):
+    """A header that trickles in never holds a connection for longer than the limit."""
+    with socket.create_connection(("127.0.0.1", server.port), timeout=30) as connection:
+        connection.sendall(b"GET / HTTP/1.1\r\nHost: ")
+        started = time.monotonic()
+        try:
+            assert connection.recv(100) == b""
+        except ConnectionResetError:
+            pass
+        assert time.monotonic() - started < 25
+
+
+def test_connections_beyond_the_limit_are_closed_and_then_there_is_room_again(server):
+    many = [socket.create_connection(("127.0.0.1", server.port), timeout=15) for _ in range(40)]
+    closed = 0
+    for connection in many[32:]:
+        try:
+            closed += connection.recv(10) == b""
+        except ConnectionResetError:
+            closed += 1
+    for connection in many:
+        connection.close()
+    assert closed == 8
+    for _ in range(50):
+        if raw(server, head(server)) == 200:
+            return
+        time.sleep(0.1)
+    pytest.fail("no connection was freed")
+
+
+def test_a_page_that_reads_nothing_is_cut_off_and_costs_the_others_nothing(server):
+    """Events for a page that does not take them pile up to a limit, then the page is dropped."""
+    deaf, page = server.page(), server.page()
+    deaf.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    name = "x" * 90
+    for number in range(200):
+        page.do("structure.set", id=1, name=f"{name}{number}")
+    assert page.structures[1]["name"].endswith("199")
+    deaf.close()

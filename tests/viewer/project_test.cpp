@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/project.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "support/expect_error.h"
+#include "support/random.h"
+#include "support/temporary_folder.h"
+#include "viewer/drawn_contours.h"
+
+namespace kontur::viewer {
+namespace {
+
+using kontur::test::TemporaryFolder;
+using test::freehand_circle;
+
+const ImageReference kImage{"/images/ct.nii.gz", "8x8x8-int16-0123456789abcdef"};
+
+/// The rows themselves, not pointers to them.
+struct Snapshot {
+    std::map<Id, Structure> structures;
+    std::map<Id, DrawnContour> contours;
+    friend bool operator==(const Snapshot&, const Snapshot&) = default;
+};
+
+Snapshot snapshot(const Project& project) {
+    Snapshot copy{project.state().structures, {}};
+    for (const auto& [id, contour] : project.state().contours) copy.contours[id] = *contour;
+    return copy;
+}
+
+Id add_structure(Project& project, const std::string& name) {
+    const Structure structure{project.new_id(), name, "#123456", true};
+    project.commit({"Add " + name, {{structure.id, {}, structure}}, {}});
+    return structure.id;
+}
+
+DrawnContour add_contour(Project& project, Id structure, double radius_mm) {
+    DrawnContour contour = as_drawn({test::kPlane, test::circle(20, radius_mm), true, false});
+    contour.id = project.new_id();
+    contour.structure = structure;
+    project.commit({"Draw", {}, {{contour.id, {}, contour}}});
+    return contour;
+}
+
+/// Adds, changes or removes something.
+void edit_at_random(Project& project, Id structure, std::mt19937& random) {
+    const State& state = project.state();
+    if (state.contours.empty() || random() % 3 == 0) {
+        add_contour(project, structure, 1 + static_cast<double>(random() % 20));
+        return;
+    }
+    const DrawnContour before =
+        *std::next(state.contours.begin(), static_cast<std::ptrdiff_t>(random() % state.contours.size()))->second;
+    if (random() % 3 == 0) return project.commit({"Delete", {}, {{before.id, before, {}}}});
+    DrawnContour after = before;
+    after.hole = !after.hole;
+    for (Vec3& p : after.points) p.x += 0.1 * static_cast<double>(random() % 7);
+    after.control.front().at = after.points.front();
+    project.commit({"Move", {}, {{before.id, before, after}}});
+}
+
+TEST(Project, ReopensWithEverythingAndItsHistory) {
+    const TemporaryFolder folder;
+    Snapshot before;
+    {
+        Project project(folder.path() / "a.kontur", kImage);
+        EXPECT_TRUE(project.is_new());
+        add_contour(project, add_structure(project, "liver"), 12.345678901234567);
+        project.save_page_state("{\"layout\":1}");
+        before = snapshot(project);
+    }
+    Project project(folder.path() / "a.kontur", {});
+    EXPECT_FALSE(project.is_new());
+    EXPECT_EQ(snapshot(project), before);
+    EXPECT_EQ(project.image().path, kImage.path);
+    EXPECT_EQ(project.image().fingerprint, kImage.fingerprint);
+    EXPECT_EQ(project.page_state(), "{\"layout\":1}");
+    EXPECT_EQ(project.undo_label(), "Draw");
+    EXPECT_EQ(project.redo_label(), std::nullopt);
+}
+
+TEST(Project, UndoAndRedoWalkThroughEveryStateAcrossReopening) {
+    const TemporaryFolder folder;
+    std::mt19937 random = kontur::test::random_of_this_test();
+    std::vector<Snapshot> states;
+    {
+        Project project(folder.path() / "a.kontur", kImage);
+        states.push_back(snapshot(project));
+        const Id structure = add_structure(project, "liver");
+        states.push_back(snapshot(project));
+        for (int i = 0; i < 60; ++i) {
+            edit_at_random(project, structure, random);
+            states.push_back(snapshot(project));
+        }
+    }
+    std::size_t at = states.size() - 1;
+    for (int i = 0; i < 20; ++i) {
+        Project project(folder.path() / "a.kontur", {});
+        EXPECT_EQ(snapshot(project), states[at]);
+        for (int move = 0; move < 10; ++move) {
+            const bool back = random() % 2;
+            const auto moved = back ? project.undo() : project.redo();
+            EXPECT_EQ(moved.has_value(), back ? at > 0 : at + 1 < states.size());
+            if (moved) at = back ? at - 1 : at + 1;
+            ASSERT_EQ(snapshot(project), states[at]);
+        }
+    }
+}
+
+TEST(Project, AnEditAfterUndoDropsWhatWasUndone) {
+    const TemporaryFolder folder;
+    Project project(folder.path() / "a.kontur", kImage);
+    const Id structure = add_structure(project, "liver");
+    const Id dropped = add_contour(project, structure, 5).id;
+    project.undo();
+    EXPECT_EQ(project.redo_label(), "Draw");
+    const Id drawn = add_contour(project, structure, 6).id;
+    EXPECT_EQ(project.redo_label(), std::nullopt);
+    EXPECT_GT(drawn, dropped);
+    EXPECT_FALSE(project.redo());
+}
+
+TEST(Project, IdsAreNotUsedAgainAfterReopening) {
+    const TemporaryFolder folder;
+    Id last = 0;
+    {
+        Project project(folder.path() / "a.kontur", kImage);
+        last = add_contour(project, add_structure(project, "liver"), 5).id;
+        project.undo();
+    }
+    EXPECT_GT(Project(folder.path() / "a.kontur", {}).new_id(), last);
+}
+
+TEST(Project, IsOpenInOneProcessOnly) {
+    const TemporaryFolder folder;
+    const Project first(folder.path() / "a.kontur", kImage);
+    // SQLite's locks belong to the process, so another one must try.
+    const pid_t child = fork();
+    if (child == 0) {
+        int code = 1;
+        try {
+            const Project second(folder.path() / "a.kontur", kImage);
+        } catch (const Error& error) {
+            code = std::string(error.what()).find("open in another kontur") == std::string::npos ? 2 : 0;
+        }
+        _exit(code);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(Project, ForeignAndDamagedFilesAreRefused) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    std::ofstream(path) << std::string(5000, 'x');
+    EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::corrupt_file, "is no kontur project");
+    std::filesystem::remove(path);
+    { Database(path).run("CREATE TABLE mine (x)"); }
+    EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::corrupt_file, "is no kontur project");
+    EXPECT_KONTUR_ERROR(image_of_project(folder.path() / "none.kontur"), ErrorKind::corrupt_file, "is no kontur project");
+}
+
+TEST(Project, RowsThatMakeNoSenseAreRefusedBySentence) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    for (const char* damage : {"UPDATE contour SET data = '{'", "UPDATE contour SET data = '{}'", "DELETE FROM structure",
+                               "UPDATE setting SET value = '-1' WHERE key = 'position'", "DELETE FROM setting",
+                               "UPDATE contour SET data = replace(data, '\"index\":0', '\"index\":99')",
+                               "UPDATE structure SET data = replace(data, '#123456', 'javascript:')"}) {
+        std::filesystem::remove(path);
+        {
+            Project project(path, kImage);
+            add_contour(project, add_structure(project, "liver"), 5);
+        }
+        { Database(path).run(damage); }
+        EXPECT_KONTUR_ERROR(Project(path, {}), ErrorKind::corrupt_file, "damaged");
+    }
+    std::filesystem::remove(path);
+    { const Project project(path, kImage); }
+    { Database(path).run("PRAGMA user_version = 2"); }
+    EXPECT_KONTUR_ERROR(Project(path, {}), ErrorKind::unsupported, "newer kontur");
+}
+
+TEST(Project, EveryTruncationIsOpenedOrRefusedBySentence) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur", cut = folder.path() / "cut.kontur";
+    {
+        Project project(path, kImage);
+        const Id structure = add_structure(project, "liver");
+        for (int i = 0; i < 10; ++i) add_contour(project, structure, 5 + i);
+    }
+    const auto size = std::filesystem::file_size(path);
+    for (std::uintmax_t length = 0; length < size; length += 509) {
+        std::filesystem::copy_file(path, cut, std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::resize_file(cut, length);
+        try {
+            Project project(cut, kImage);
+            while (project.undo()) {
+            }
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::corrupt_file) << length << ": " << error.what();
+        }
+    }
+}
+
+TEST(Project, ACopyHoldsTheSame) {
+    const TemporaryFolder folder;
+    Project project(folder.path() / "a.kontur", kImage);
+    add_contour(project, add_structure(project, "liver"), 5);
+    project.copy_to(folder.path() / "b.kontur");
+    Project copy(folder.path() / "b.kontur", {});
+    EXPECT_EQ(snapshot(copy), snapshot(project));
+    EXPECT_EQ(copy.undo_label(), "Draw");
+}
+
+TEST(Project, AFullDiskIsToldAndChangesNothing) {
+    const TemporaryFolder folder;
+    Project project(folder.path() / "a.kontur", kImage);
+    const Id structure = add_structure(project, "liver");
+    const Snapshot before = snapshot(project);
+    {
+        Database& database = project.database();
+        database.run("PRAGMA max_page_count = 1");
+    }
+    std::string reason;
+    try {
+        for (int i = 0; i < 100; ++i) add_contour(project, structure, 5);
+    } catch (const Error& error) {
+        reason = error.what();
+    }
+    EXPECT_NE(reason.find("the disk is full"), std::string::npos) << reason;
+    project.database().run("PRAGMA max_page_count = 100000");
+    while (project.undo_label() == "Draw") project.undo();
+    EXPECT_EQ(snapshot(project), before);
+}
+
+/// A process that draws until it is killed, and tells the number of contours each time that a commit has returned.
+[[noreturn]] void draw_until_killed(const std::filesystem::path& path, int pipe_end) {
+    Project project(path, {});
+    const Id structure = project.state().structures.begin()->first;
+    for (;;) {
+        add_contour(project, structure, 1 + static_cast<double>(project.state().contours.size() % 20));
+        const auto count = static_cast<std::uint32_t>(project.state().contours.size());
+        if (write(pipe_end, &count, sizeof count) != sizeof count) _exit(0);
+    }
+}
+
+TEST(Project, NoAcknowledgedEditIsLostByKill9) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    {
+        Project project(path, kImage);
+        add_structure(project, "liver");
+    }
+    std::mt19937 random = kontur::test::random_of_this_test();
+    std::uint32_t acknowledged = 0;
+    for (int kill_number = 0; kill_number < 40; ++kill_number) {
+        int ends[2];
+        ASSERT_EQ(pipe(ends), 0);
+        const pid_t child = fork();
+        if (child == 0) draw_until_killed(path, ends[1]);
+        close(ends[1]);
+        for (unsigned i = 0; i < 1 + random() % 5; ++i)
+            if (std::uint32_t count = 0; read(ends[0], &count, sizeof count) == sizeof count) acknowledged = count;
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 2000));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        for (std::uint32_t count = 0; read(ends[0], &count, sizeof count) == sizeof count;) acknowledged = count;
+        close(ends[0]);
+
+        Project project(path, {});
+        const auto found = static_cast<std::uint32_t>(project.state().contours.size());
+        ASSERT_GE(found, acknowledged) << "after kill " << kill_number;
+        ASSERT_LE(found, acknowledged + 1) << "after kill " << kill_number;
+        ASSERT_EQ(project.database().number("SELECT count(*) FROM history"), found + 1);
+        ASSERT_EQ(project.database().number("SELECT integrity_check = 'ok' FROM pragma_integrity_check"), 1);
+    }
+}
+
+}  // namespace
+}  // namespace kontur::viewer

@@ -150,15 +150,52 @@ TEST_F(DicomSeriesTest, ReadsEveryUncompressedAndRunLengthEncoding) {
     }
 }
 
-TEST_F(DicomSeriesTest, ReadsJpegAndJpegLs) {
-    for (const char* name : {"axial", "bytes", "unsigned"})
-        for (const E_TransferSyntax syntax : {EXS_JPEGProcess14SV1, EXS_JPEGLSLossless}) {
+TEST_F(DicomSeriesTest, ReadsJpegJpegLsAndJpeg2000) {
+    for (const char* name : {"axial", "bytes", "unsigned", "enhanced"})
+        for (const E_TransferSyntax syntax : {EXS_JPEGProcess14SV1, EXS_JPEGLSLossless, EXS_JPEG2000LosslessOnly}) {
             SCOPED_TRACE(std::string(name) + " in " + DcmXfer(syntax).getXferName());
             const fs::path files = make(name);
             test::recompress(files, syntax);
             check(name);
             fs::remove_all(files.parent_path());
         }
+}
+
+TEST_F(DicomSeriesTest, KeepsTheValuesOfInvertedImagesAndSaysSo) {
+    EXPECT_TRUE(notes_mention(read_and_check("inverted").notes, "MONOCHROME1"));
+}
+
+TEST_F(DicomSeriesTest, ReadsTheFramesOfEnhancedImagesLikeSlices) {
+    for (const char* name : {"enhanced", "enhanced_files", "enhanced_rle"}) {
+        SCOPED_TRACE(name);
+        const DicomVolume volume = read_and_check(name);
+        EXPECT_TRUE(has_samples<std::int16_t>(volume));
+        EXPECT_EQ(volume.series.files.size(), 9u);
+        EXPECT_EQ(volume.series.frames.size(), 9u);
+        EXPECT_NE(volume.series.frames, (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9})) << "sorted by place";
+    }
+    EXPECT_TRUE(has_samples<float>(read_and_check("enhanced_slopes")));
+}
+
+TEST_F(DicomSeriesTest, TellsTheVolumesOfAnEnhancedImageApart) {
+    const fs::path files = make("enhanced_echoes");
+    const Truth truth = read_truth(folder_ / "enhanced_echoes");
+    const auto series = list_dicom_series(files);
+    ASSERT_EQ(series.size(), 2u);
+    EXPECT_EQ(series[0].distinction, "echo time 2.5");
+    EXPECT_EQ(series[1].distinction, "echo time 4.75");
+    for (int volume : {1, 2}) {
+        const DicomVolume read = read_dicom_series(files, {.volume = volume});
+        for (std::size_t n = 0; n < truth.values.size(); ++n)
+            ASSERT_EQ(sample(read.image, n), truth.values[n] + volume - 1) << "volume " << volume;
+    }
+}
+
+TEST_F(DicomSeriesTest, RefusesEnhancedImagesThatMakeNoVolume) {
+    EXPECT_REFUSED(refusal(make("enhanced_missing")), unsupported, "slices are missing between");
+    EXPECT_REFUSED(refusal(make("enhanced_ambiguous")), unsupported, "and nothing tells them apart: enhanced0.dcm, frame ");
+    EXPECT_REFUSED(refusal(make("enhanced_incomplete")), corrupt_file,
+                   "frame 6: PlanePositionSequence (0020,9113) is missing");
 }
 
 TEST_F(DicomSeriesTest, LeavesOutFilesThatAreNoImagesAndSaysSo) {
@@ -207,9 +244,7 @@ TEST_F(DicomSeriesTest, TellsVolumesAtTheSamePositionsApart) {
 
 TEST_F(DicomSeriesTest, RefusesDuplicatesAndUnsupportedVariantsByName) {
     EXPECT_REFUSED(refusal(make("duplicated")), unsupported, "two slices lie at z = 112.5 mm, and nothing tells them apart");
-    EXPECT_REFUSED(refusal(make("enhanced")), unsupported, "enhanced.dcm is an enhanced multi-frame image");
-    EXPECT_REFUSED(refusal(make("jpeg2000")), unsupported, "the compression 'JPEG 2000 (Lossless only)' is not supported");
-    EXPECT_REFUSED(refusal(make("inverted")), unsupported, "'MONOCHROME1'");
+    EXPECT_REFUSED(refusal(make("mpeg")), unsupported, "the compression 'MPEG2 Main Profile @ Main Level' is not supported");
     EXPECT_REFUSED(refusal(make("colour")), unsupported, "'RGB'");
 }
 
@@ -232,9 +267,12 @@ class DamagedDicomTest : public DicomSeriesTest, public testing::WithParamInterf
 
 TEST_P(DamagedDicomTest, EndsInAnErrorOrAVolume) {
     const std::string kind = GetParam();
-    const fs::path files = make(kind == "rle" || kind == "deflated" || kind == "implicit" ? kind : "axial");
+    const fs::path files = make(kind == "rle" || kind == "deflated" || kind == "implicit" || kind == "enhanced" ? kind
+                                : kind == "frames_2000"                                                         ? "enhanced"
+                                                                                                                : "axial");
     if (kind == "jpeg") test::recompress(files, EXS_JPEGProcess14SV1);
     if (kind == "jpeg_ls") test::recompress(files, EXS_JPEGLSLossless);
+    if (kind == "jpeg_2000" || kind == "frames_2000") test::recompress(files, EXS_JPEG2000LosslessOnly);
     const std::string bytes = test::read_bytes(fs::directory_iterator(files)->path());
     const fs::path alone = folder_ / "alone";
     fs::create_directory(alone);
@@ -254,7 +292,8 @@ TEST_P(DamagedDicomTest, EndsInAnErrorOrAVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Encodings, DamagedDicomTest,
-                         testing::Values("axial", "implicit", "deflated", "rle", "jpeg", "jpeg_ls"));
+                         testing::Values("axial", "implicit", "deflated", "rle", "jpeg", "jpeg_ls", "jpeg_2000", "enhanced",
+                                         "frames_2000"));
 
 }  // namespace
 }  // namespace kontur

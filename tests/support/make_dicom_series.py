@@ -125,12 +125,12 @@ def make(case, folder):
             d.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.1.99"
         if case == "rle":
             d.compress(RLELossless)
-        if case == "jpeg2000":  # refused by name, so the pixels need not be real
-            d.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.90"
-            d.PixelData = encapsulate([b"\0" * 64])
-            d["PixelData"].is_undefined_length = True
         if case == "inverted":
             d.PhotometricInterpretation = "MONOCHROME1"
+        if case == "mpeg":  # refused by name, so the pixels need not be real
+            d.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.100"
+            d.PixelData = encapsulate([b"\0" * 64])
+            d["PixelData"].is_undefined_length = True
         if case == "colour":
             d.PhotometricInterpretation, d.SamplesPerPixel, d.PlanarConfiguration = "RGB", 3, 0
             d.BitsAllocated, d.BitsStored, d.HighBit, d.PixelRepresentation = 8, 8, 7, 0
@@ -170,30 +170,71 @@ def make(case, folder):
         save(d, "capture.dcm")
 
     affine = np.column_stack([row * SPACING[1], column * SPACING[0], step, ORIGIN])
+    write_truth(folder, affine, truth)
+
+
+def group(**values):
+    item = Dataset()
+    for word, value in values.items():
+        setattr(item, word, value)
+    return Sequence([item])
+
+
+def make_enhanced(case, folder):
+    """Frames in no order in one file ("enhanced_files": in two), whose order in the file never is that in space."""
+    files = folder / "dicom"
+    files.mkdir(parents=True)
+    rng = random.Random(case)
+    c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
+    row, column = np.array((c, s, 0)), np.array((-s * c, c * c, s))
+    normal = np.cross(row, column)
+    column = np.cross(normal / np.linalg.norm(normal), row)
+    normal = np.cross(row, column)
+    stored = stored_values()
+    truth = stored - 1024.0
+    volumes = 2 if case in ("enhanced_echoes", "enhanced_ambiguous") else 1
+    order = [(v, k) for v in range(volumes) for k in range(NZ) if not (case == "enhanced_missing" and k == 4)]
+    rng.shuffle(order)
+    halves = [order[:5], order[5:]] if case == "enhanced_files" else [order]
+    for number, half in enumerate(halves):
+        d = new_slice(case, f"frames {number}")
+        d.SOPClassUID = d.file_meta.MediaStorageSOPClassUID = CT + ".1" if case != "enhanced_echoes" else "1.2.840.10008.5.1.4.1.1.4.1"
+        for word in ("PixelSpacing", "SliceThickness", "RescaleSlope", "RescaleIntercept"):
+            delattr(d, word)
+        d.NumberOfFrames = len(half)
+        shared = Dataset()
+        shared.PlaneOrientationSequence = group(ImageOrientationPatient=[f"{v:.9f}" for v in (*row, *column)])
+        shared.PixelMeasuresSequence = group(PixelSpacing=list(SPACING), SliceThickness=STEP)
+        if case != "enhanced_slopes":
+            shared.PixelValueTransformationSequence = group(RescaleIntercept=-1024, RescaleSlope=1, RescaleType="HU")
+        d.SharedFunctionalGroupsSequence = Sequence([shared])
+        frames = []
+        for v, k in half:
+            frame = Dataset()
+            frame.PlanePositionSequence = group(ImagePositionPatient=[f"{p:.6f}" for p in ORIGIN + k * STEP * normal])
+            if case == "enhanced_echoes":
+                frame.MREchoSequence = group(EffectiveEchoTime=(2.5, 4.75)[v])
+            if case == "enhanced_slopes":
+                frame.PixelValueTransformationSequence = group(RescaleIntercept=k, RescaleSlope=1 + k / 4, RescaleType="US")
+                truth[k] = stored[k] * (1 + k / 4) + k
+            if case == "enhanced_incomplete" and len(frames) == 5:
+                del frame.PlanePositionSequence
+            frames.append(frame)
+        d.PerFrameFunctionalGroupsSequence = Sequence(frames)
+        set_pixels(d, np.array([stored[k] + v for v, k in half]))
+        if case == "enhanced_rle":
+            d.compress(RLELossless)
+        d.save_as(files / f"enhanced{number}.dcm", write_like_original=False)
+    write_truth(folder, np.column_stack([row * SPACING[1], column * SPACING[0], STEP * normal, ORIGIN]), truth)
+
+
+def write_truth(folder, affine, truth):
     lines = [f"{NX} {NY} {NZ}"] + [" ".join(repr(float(v)) for v in line) for line in affine]
     (folder / "truth.txt").write_text("\n".join(lines) + "\n")
     (folder / "truth.raw").write_bytes(truth.astype("<f8").tobytes())
 
 
-def make_enhanced(folder):
-    files = folder / "dicom"
-    files.mkdir(parents=True)
-    d = new_slice("enhanced", "frames")
-    d.SOPClassUID = d.file_meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2.1"
-    d.NumberOfFrames = NZ
-    frames = []
-    for k in range(NZ):
-        position = Dataset()
-        position.ImagePositionPatient = [0, 0, STEP * k]
-        frame = Dataset()
-        frame.PlanePositionSequence = Sequence([position])
-        frames.append(frame)
-    d.PerFrameFunctionalGroupsSequence = Sequence(frames)
-    set_pixels(d, stored_values())
-    d.save_as(files / "enhanced.dcm", write_like_original=False)
-
-
 case, folder = sys.argv[1], Path(sys.argv[2])
 if case == "odd":  # slices of 63 pixels: bits of one do not fill its last byte
     NY, NX = 9, 7
-make_enhanced(folder) if case == "enhanced" else make(case, folder)
+make_enhanced(case, folder) if case.startswith("enhanced") else make(case, folder)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom_document.h"
 
+#include <array>
+#include <map>
 #include <stdexcept>
 
 #include "kontur/base/error.h"
@@ -100,9 +102,14 @@ void start_document(DcmItem& document, const DicomSeries& images, const char* cl
     put(document, DCM_SoftwareVersions, KONTUR_VERSION);
 }
 
-void put_image_reference(DcmItem& item, const DicomHeader& slice) {
+void put_file_reference(DcmItem& item, const DicomHeader& slice) {
     put(item, DCM_ReferencedSOPClassUID, slice.sop_class_uid);
     put(item, DCM_ReferencedSOPInstanceUID, slice.sop_instance_uid);
+}
+
+void put_image_reference(DcmItem& item, const DicomHeader& slice) {
+    put_file_reference(item, slice);
+    if (slice.frame) put(item, DCM_ReferencedFrameNumber, *slice.frame);
 }
 
 void save(DcmFileFormat& file, const std::filesystem::path& path, E_TransferSyntax syntax) {
@@ -115,17 +122,31 @@ void save(DcmFileFormat& file, const std::filesystem::path& path, E_TransferSynt
 }  // namespace kontur::dcmtk
 
 namespace kontur {
+namespace {
+
+std::vector<DicomHeader> slices_of_file(const std::filesystem::path& path) {
+    auto content = read_dicom_headers(path);
+    auto* slices = std::get_if<std::vector<DicomHeader>>(&content);
+    if (!slices || slices->front().sop_class_uid.empty() || slices->front().sop_instance_uid.empty() ||
+        slices->front().series_uid.empty())
+        throw Error(ErrorKind::invalid_input,
+                    path.string() + " lacks the identifiers by which a DICOM object refers to an image");
+    return std::move(*slices);
+}
+
+}  // namespace
 
 std::vector<DicomHeader> read_slice_headers(const DicomSeries& images) {
     if (images.files.empty()) throw Error(ErrorKind::invalid_input, "the image series has no files");
+    std::map<std::filesystem::path, std::vector<DicomHeader>> slices_of;
     std::vector<DicomHeader> headers;
-    for (const std::filesystem::path& path : images.files) {
-        auto content = read_dicom_header(path);
-        auto* header = std::get_if<DicomHeader>(&content);
-        if (!header || header->sop_class_uid.empty() || header->sop_instance_uid.empty() || header->series_uid.empty())
-            throw Error(ErrorKind::invalid_input,
-                        path.string() + " lacks the identifiers by which a DICOM object refers to an image");
-        headers.push_back(std::move(*header));
+    for (std::size_t k = 0; k < images.files.size(); ++k) {
+        const std::filesystem::path& path = images.files[k];
+        if (!slices_of.contains(path)) slices_of[path] = slices_of_file(path);
+        const auto frame = static_cast<std::size_t>(k < images.frames.size() ? images.frames[k] : 1);
+        if (frame < 1 || frame > slices_of[path].size())
+            throw Error(ErrorKind::invalid_input, path.string() + " has no frame " + std::to_string(frame));
+        headers.push_back(slices_of[path][frame - 1]);
     }
     return headers;
 }

@@ -37,7 +37,10 @@ void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
                     const std::string& series_description);
 
-/// Refers to a slice's file, and to its frame where that has several.
+/// Refers to a slice's file.
+void put_file_reference(DcmItem& item, const DicomHeader& slice);
+
+/// Refers to a slice: its file, and its frame where that has several.
 void put_image_reference(DcmItem& item, const DicomHeader& slice);
 
 /// Writes the file, whole or not at all. Throws Error(io).
@@ -47,7 +50,7 @@ void save(DcmFileFormat& file, const std::filesystem::path& path, E_TransferSynt
 
 namespace kontur {
 
-/// The headers of a series' slices, in the order of k. Throws what `read_dicom_header` throws, and Error(invalid_input) for
+/// The headers of a series' slices, in the order of k. Throws what `read_dicom_headers` throws, and Error(invalid_input) for
 /// a series without files or a file without identifiers.
 std::vector<DicomHeader> read_slice_headers(const DicomSeries& images);
 

@@ -3,7 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <dcmtk/dcmdata/dcpixel.h>
+#include <dcmtk/dcmdata/dcpixseq.h>
+#include <dcmtk/dcmdata/dcpxitem.h>
+
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "kontur/base/error.h"
 
@@ -26,6 +32,50 @@ DcmItem* first_item(DcmItem* item, const DcmTagKey& sequence) {
     if (!item) return nullptr;
     const std::vector<DcmItem*> found = items(*item, sequence);
     return found.empty() ? nullptr : found.front();
+}
+
+/// The items of encapsulated pixel data: the offset table, then the fragments (PS3.5 A.4).
+std::vector<std::span<const Uint8>> fragments(DcmDataset& dataset) {
+    DcmElement* element = nullptr;
+    DcmPixelSequence* sequence = nullptr;
+    dataset.findAndGetElement(DCM_PixelData, element);
+    auto* pixels = dynamic_cast<DcmPixelData*>(element);
+    if (!pixels || pixels->getEncapsulatedRepresentation(dataset.getCurrentXfer(), nullptr, sequence).bad() || !sequence)
+        throw corrupt("the file ends before its pixels");
+    std::vector<std::span<const Uint8>> items;
+    for (unsigned long n = 0; n < sequence->card(); ++n) {
+        DcmPixelItem* item = nullptr;
+        Uint8* bytes = nullptr;
+        if (sequence->getItem(item, n).bad() || !item || (item->getLength() > 0 && item->getUint8Array(bytes).bad()))
+            throw corrupt("its compressed pixels are damaged");
+        items.emplace_back(bytes, bytes ? item->getLength() : 0);
+    }
+    return items;
+}
+
+std::uint32_t little_endian(std::span<const Uint8> bytes) {
+    return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 | std::uint32_t{bytes[3]} << 24;
+}
+
+/// Index of the first fragment at this distance from the start of the first one.
+std::size_t fragment_at(const std::vector<std::span<const Uint8>>& items, std::uint64_t offset) {
+    constexpr std::uint64_t kItemHeader = 8;
+    std::uint64_t at = 0;
+    for (std::size_t n = 1; n < items.size(); at += kItemHeader + items[n++].size())
+        if (at == offset) return n;
+    throw corrupt(fmt::format("no compressed frame starts at offset {}", offset));
+}
+
+/// [first, end) of the items that hold a frame: all of them, one each, or what the offset table says.
+std::pair<std::size_t, std::size_t> fragments_of_frame(const std::vector<std::span<const Uint8>>& items, std::int64_t frame,
+                                                       std::int64_t frames) {
+    const auto index = static_cast<std::size_t>(frame), count = static_cast<std::size_t>(frames);
+    if (count == 1) return {1, items.size()};
+    if (items.size() == count + 1) return {index, index + 1};
+    if (items.empty() || items[0].size() != 4 * count)
+        throw corrupt(fmt::format("{} fragments without an offset table hold {} frames", items.size() - 1, count));
+    const auto start = [&](std::size_t n) { return fragment_at(items, little_endian(items[0].subspan(4 * (n - 1), 4))); };
+    return {start(index), index == count ? items.size() : start(index + 1)};
 }
 
 }  // namespace
@@ -55,6 +105,14 @@ std::vector<Frame> frames_of(DcmItem& dataset) {
     std::vector<Frame> frames;
     for (DcmItem* item : own) frames.emplace_back(item, shared);
     return frames;
+}
+
+std::vector<Uint8> compressed_frame(DcmDataset& dataset, std::int64_t frame, std::int64_t frames) {
+    const std::vector<std::span<const Uint8>> items = fragments(dataset);
+    const auto [first, end] = fragments_of_frame(items, frame, frames);
+    std::vector<Uint8> code;
+    for (std::size_t n = first; n < end; ++n) code.insert(code.end(), items[n].begin(), items[n].end());
+    return code;
 }
 
 SlicePlacement read_placement(DcmItem& position_item, DcmItem& orientation_item, DcmItem& measures) {

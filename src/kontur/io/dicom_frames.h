@@ -31,6 +31,10 @@ private:
 /// As many as NumberOfFrames says. Throws Error(corrupt_file) when the groups of some frame are missing.
 std::vector<Frame> frames_of(DcmItem& dataset);
 
+/// The code of one frame (from 1) of compressed pixel data, its fragments joined. Throws Error(corrupt_file) when the
+/// fragments cannot be told to belong to frames.
+std::vector<Uint8> compressed_frame(DcmDataset& dataset, std::int64_t frame, std::int64_t frames);
+
 /// A placement out of the items that hold position, orientation and pixel spacing; one item in a single-frame image.
 /// Throws Error(corrupt_file), naming the element, for a missing or contradictory one.
 SlicePlacement read_placement(DcmItem& position, DcmItem& orientation, DcmItem& measures);

@@ -60,8 +60,8 @@ void refuse_duplicates(const DicomStack& stack, const std::vector<double>& posit
     for (std::size_t k = 1; k < positions.size(); ++k)
         if (positions[k] - positions[k - 1] <= kSamePositionMm)
             refuse(fmt::format("two slices lie at {}, and nothing tells them apart: {} and {}",
-                               PositionNames(stack).at(stack.slices[k]), stack.slices[k - 1].path.filename().string(),
-                               stack.slices[k].path.filename().string()));
+                               PositionNames(stack).at(stack.slices[k]), name_of(stack.slices[k - 1]),
+                               name_of(stack.slices[k])));
 }
 
 [[noreturn]] void refuse_gaps(const DicomStack& stack, const std::vector<double>& steps, double usual) {
@@ -144,9 +144,6 @@ Vec3 slice_step(const DicomStack& stack, std::vector<std::string>& notes) {
 
 StackGrid stack_grid(const DicomStack& stack) {
     const DicomHeader& first = stack.slices.front();
-    if (first.multi_frame)
-        refuse(fmt::format("{} is an enhanced multi-frame image, which is not supported; only one slice per file is",
-                           first.path.filename().string()));
     StackGrid result;
     result.notes = stack.notes;
     result.grid.size = {first.columns, first.rows, static_cast<std::int64_t>(stack.slices.size())};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom_header.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "kontur/base/error.h"
@@ -29,6 +30,8 @@ void read_transfer_syntax(const DcmXfer& syntax, DicomHeader& header) {
         case EXS_JPEGLSLossless:
         case EXS_JPEGLSLossy:
         case EXS_RLELossless:
+        case EXS_JPEG2000LosslessOnly:
+        case EXS_JPEG2000:
             header.decodable = true;
             break;
         default:
@@ -39,7 +42,7 @@ void read_transfer_syntax(const DcmXfer& syntax, DicomHeader& header) {
 /// Only for pixels that lie in the file as they are; what a compressed slice unpacks to is checked when it is decoded.
 void check_pixels_fit(const DicomHeader& header, const DcmXfer& syntax, std::int64_t bits_allocated) {
     if (syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none) return;
-    const auto claimed = header.rows * header.columns * (bits_allocated / 8);
+    const auto claimed = header.frames * header.rows * header.columns * (bits_allocated / 8);
     const auto held = static_cast<std::int64_t>(std::filesystem::file_size(header.path));
     if (claimed > held)
         throw corrupt("the header claims " + std::to_string(claimed) + " bytes of pixels, the file has " +
@@ -52,11 +55,44 @@ bool is_placed(DcmDataset& dataset) {
 }
 
 /// Some scanners put a sequence of frames beside the placement of a single one, which then counts.
-bool is_multi_frame(DcmDataset& dataset) {
-    return dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1 ||
-           (dataset.tagExists(DCM_PerFrameFunctionalGroupsSequence) && !is_placed(dataset));
+bool has_placed_frames(DcmDataset& dataset) {
+    return dataset.tagExists(DCM_PerFrameFunctionalGroupsSequence) &&
+           (!is_placed(dataset) || dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1);
 }
 
+std::optional<double> decimal_of_group(const dcmtk::Frame& frame, const DcmTagKey& group, const DcmTagKey& tag) {
+    DcmItem* found = frame.group(group);
+    return found ? dcmtk::first_decimal(*found, tag) : std::nullopt;
+}
+
+std::optional<std::int64_t> integer_of_group(const dcmtk::Frame& frame, const DcmTagKey& group, const DcmTagKey& tag) {
+    DcmItem* found = frame.group(group);
+    return found ? dcmtk::integer(*found, tag) : std::nullopt;
+}
+
+std::string frame_type(const dcmtk::Frame& frame) {
+    for (const DcmTagKey& group : {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence, DCM_PETFrameTypeSequence})
+        if (DcmItem* found = frame.group(group)) return dcmtk::text(*found, DCM_FrameType);
+    return {};
+}
+
+/// The file's header with what the frame says about itself.
+DicomHeader read_frame_header(DicomHeader header, const dcmtk::Frame& frame, std::int64_t number) {
+    header.frame = number;
+    header.instance_number = number;
+    header.placement = frame.placement();
+    header.thickness_mm = decimal_of_group(frame, DCM_PixelMeasuresSequence, DCM_SliceThickness);
+    if (DcmItem* values = frame.group(DCM_PixelValueTransformationSequence)) header.rescale = read_rescale(*values);
+    header.frame_type = frame_type(frame);
+    header.temporal_position = integer_of_group(frame, DCM_FrameContentSequence, DCM_TemporalPositionIndex);
+    header.acquisition_number = integer_of_group(frame, DCM_FrameContentSequence, DCM_FrameAcquisitionNumber);
+    header.trigger_time_ms = decimal_of_group(frame, DCM_CardiacSynchronizationSequence, DCM_NominalCardiacTriggerDelayTime);
+    header.echo_time_ms = decimal_of_group(frame, DCM_MREchoSequence, DCM_EffectiveEchoTime);
+    header.b_value = decimal_of_group(frame, DCM_MRDiffusionSequence, DCM_DiffusionBValue);
+    return header;
+}
+
+/// All but the placement.
 DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
     DicomHeader header;
     header.path = path;
@@ -72,7 +108,7 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     if (header.rows < 1 || header.columns < 1)
         throw corrupt("the image has " + std::to_string(header.rows) + " rows and " + std::to_string(header.columns) +
                       " columns");
-    header.multi_frame = is_multi_frame(dataset);
+    header.frames = std::max<std::int64_t>(1, dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1));
     header.bits_stored = dcmtk::integer(dataset, DCM_BitsStored).value_or(0);
     header.is_signed = dcmtk::integer(dataset, DCM_PixelRepresentation).value_or(0) == 1;
     header.photometric_interpretation = dcmtk::text(dataset, DCM_PhotometricInterpretation);
@@ -85,8 +121,26 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
     header.instance_number = dcmtk::integer(dataset, DCM_InstanceNumber);
     check_pixels_fit(header, syntax, dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
-    if (!header.multi_frame) header.placement = dcmtk::read_placement(dataset, dataset, dataset);
     return header;
+}
+
+std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmDataset& dataset) {
+    DicomHeader header = read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
+    if (!has_placed_frames(dataset)) {
+        header.placement = dcmtk::read_placement(dataset, dataset, dataset);
+        return {std::move(header)};
+    }
+    const std::vector<dcmtk::Frame> frames = dcmtk::frames_of(dataset);
+    std::vector<DicomHeader> slices;
+    for (const dcmtk::Frame& frame : frames) {
+        const auto number = static_cast<std::int64_t>(slices.size()) + 1;
+        try {
+            slices.push_back(read_frame_header(header, frame, number));
+        } catch (const Error& error) {
+            throw error.with_context("frame " + std::to_string(number));
+        }
+    }
+    return slices;
 }
 
 /// Empty for an image that can be placed in space.
@@ -94,7 +148,9 @@ std::string reason_to_skip(DcmDataset& dataset) {
     const std::string modality = dcmtk::text(dataset, DCM_Modality);
     if (modality == "SEG" || modality == "RTDOSE") return modality;
     if (!dataset.tagExists(DCM_Rows)) return modality.empty() ? "DICOM without an image" : modality;
-    return is_placed(dataset) || is_multi_frame(dataset) ? "" : "image without a position in space";
+    if (has_placed_frames(dataset)) return "";
+    if (dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1) return "frames without a position in space";
+    return is_placed(dataset) ? "" : "image without a position in space";
 }
 
 }  // namespace
@@ -105,14 +161,19 @@ bool has_dicom_prefix(const std::filesystem::path& path) {
     return file.read(start.data(), start.size()) && std::string_view(&start[128], 4) == "DICM";
 }
 
-std::variant<DicomHeader, NotAnImage> read_dicom_header(const std::filesystem::path& path) {
+std::string name_of(const DicomHeader& slice) {
+    const std::string name = slice.path.filename().string();
+    return slice.frame ? name + ", frame " + std::to_string(*slice.frame) : name;
+}
+
+std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std::filesystem::path& path) {
     if (!has_dicom_prefix(path)) return NotAnImage{"not a DICOM file"};
     DcmFileFormat file;
     dcmtk::load(file, path, DCM_PixelData);
     DcmDataset& dataset = *file.getDataset();
     try {
         if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
-        return read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
+        return read_slices(path, dataset);
     } catch (const Error& error) {
         throw error.with_context(path.string());
     }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "kontur/base/geometry.h"
 
@@ -30,6 +31,7 @@ struct DicomRescale {
     double intercept = 0;
 };
 
+/// A slice: a file of its own, or one frame of an enhanced multi-frame image.
 struct DicomHeader {
     std::filesystem::path path;
     std::string sop_class_uid;
@@ -42,15 +44,19 @@ struct DicomHeader {
     bool decodable = true;        ///< false: compressed in a way that cannot be read here
     std::int64_t rows = 0;
     std::int64_t columns = 0;
-    bool multi_frame = false;  ///< an enhanced image: its frames carry their own placement, which is not read here
+    std::int64_t frames = 1;              ///< in the file
+    std::optional<std::int64_t> frame{};  ///< which of them this is, from 1; unset: the file holds one slice
     std::int64_t bits_stored = 0;
     bool is_signed = false;
     std::string photometric_interpretation;
     bool has_lookup_table = false;  ///< a ModalityLUTSequence instead of slope and intercept
     DicomRescale rescale;
-    SlicePlacement placement;  ///< meaningless for a multi-frame image
+    SlicePlacement placement;
     std::optional<double> thickness_mm;
     // What tells slices at one position apart (time, echo, acquisition, ...).
+    std::string frame_type;  ///< such as "ORIGINAL\\PRIMARY\\M\\NONE"; of frames only
+    std::optional<double> echo_time_ms;
+    std::optional<double> b_value;
     std::optional<std::int64_t> temporal_position;
     std::optional<std::int64_t> acquisition_number;
     std::optional<std::int64_t> echo_number;
@@ -66,9 +72,13 @@ struct NotAnImage {
 /// True when the file starts as a DICOM file does (preamble and "DICM").
 bool has_dicom_prefix(const std::filesystem::path& path);
 
-/// Reads everything before the pixels. Throws Error(corrupt_file), naming file and element, for a truncated or
-/// contradictory header: orientation vectors that are not perpendicular unit vectors, a spacing that is not positive, a
-/// slope of 0, or more uncompressed pixels than the file has bytes.
-std::variant<DicomHeader, NotAnImage> read_dicom_header(const std::filesystem::path& path);
+/// "slice.dcm", or "enhanced.dcm, frame 7".
+std::string name_of(const DicomHeader& slice);
+
+/// Reads everything before the pixels: one header for each slice in the file, in the order of its frames. Throws
+/// Error(corrupt_file), naming file and element, for a truncated or contradictory header: orientation vectors that are not
+/// perpendicular unit vectors, a spacing that is not positive, a slope of 0, or more uncompressed pixels than the file has
+/// bytes.
+std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std::filesystem::path& path);
 
 }  // namespace kontur

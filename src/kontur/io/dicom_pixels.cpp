@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 
 #include "kontur/base/error.h"
-#include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_frames.h"
+#include "kontur/io/jpeg2000.h"
 
 namespace kontur {
 namespace {
@@ -48,13 +50,18 @@ void check_expansion(const DicomHeader& header, std::int64_t bytes) {
         throw corrupt(fmt::format("the header claims {} bytes of pixels, the file has {} bytes", bytes, file_bytes));
 }
 
+bool is_jpeg2000(DcmDataset& dataset) {
+    const E_TransferSyntax syntax = dataset.getCurrentXfer();
+    return syntax == EXS_JPEG2000LosslessOnly || syntax == EXS_JPEG2000;
+}
+
 void decompress(DcmDataset& dataset) {
     if (!DcmXfer(dataset.getCurrentXfer()).isEncapsulated()) return;
     const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
     if (decoded.bad()) throw corrupt(fmt::format("the compressed pixels cannot be decoded ({})", decoded.text()));
 }
 
-/// The pixel data, little-endian. The bytes belong to `dataset`.
+/// The pixel data of all frames, little-endian. The bytes belong to `dataset`.
 std::span<const Uint8> pixel_bytes(DcmDataset& dataset, std::int64_t expected) {
     DcmElement* element = nullptr;
     if (dataset.findAndGetElement(DCM_PixelData, element).bad()) throw corrupt("the file ends before its pixels");
@@ -65,40 +72,88 @@ std::span<const Uint8> pixel_bytes(DcmDataset& dataset, std::int64_t expected) {
     return {bytes, static_cast<std::size_t>(expected)};
 }
 
-/// The integer of the layout in little-endian bytes, sign-extended.
-std::int64_t stored_value(std::span<const Uint8> bytes, const PixelLayout& layout) {
-    std::uint64_t raw = 0;
-    for (std::size_t byte = 0; byte < bytes.size(); ++byte) raw |= std::uint64_t{bytes[byte]} << (8 * byte);
-    raw = (raw >> layout.shift) & ((std::uint64_t{1} << layout.bits) - 1);
+/// The lowest bits as a number, sign-extended where the layout is signed.
+std::int64_t extended(std::uint64_t raw, const PixelLayout& layout) {
+    raw &= (std::uint64_t{1} << layout.bits) - 1;
     const bool negative = layout.is_signed && (raw >> (layout.bits - 1)) != 0;
     return static_cast<std::int64_t>(raw) - (negative ? std::int64_t{1} << layout.bits : 0);
 }
 
-/// One slice in modality units.
-std::vector<double> read_values(DcmDataset& dataset, const DicomHeader& header) {
-    const std::int64_t pixels = header.rows * header.columns;
-    check_expansion(header, pixels * dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0) / 8);
-    decompress(dataset);
-    // A decoder may change the layout, so it counts as it stands after decoding.
-    const PixelLayout layout = read_layout(dataset);
-    const auto stride = static_cast<std::size_t>(layout.bytes);
-    const std::span<const Uint8> bytes = pixel_bytes(dataset, pixels * layout.bytes);
-    std::vector<double> values(static_cast<std::size_t>(pixels));
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = static_cast<double>(stored_value(bytes.subspan(i * stride, stride), layout)) * header.rescale.slope +
-                    header.rescale.intercept;
-    return values;
+/// The integer of the layout in little-endian bytes, sign-extended.
+std::int64_t stored_value(std::span<const Uint8> bytes, const PixelLayout& layout) {
+    std::uint64_t raw = 0;
+    for (std::size_t byte = 0; byte < bytes.size(); ++byte) raw |= std::uint64_t{bytes[byte]} << (8 * byte);
+    return extended(raw >> layout.shift, layout);
 }
 
-std::vector<double> read_slice(const DicomHeader& header) {
-    DcmFileFormat file;
-    dcmtk::load(file, header.path);
-    try {
-        return read_values(*file.getDataset(), header);
-    } catch (const Error& error) {
-        throw error.with_context(header.path.string());
+/// A file with its pixels, for as long as slices are read from it one after another.
+class PixelFile {
+public:
+    explicit PixelFile(const DicomHeader& any_slice) : path_(any_slice.path) {
+        dcmtk::load(file_, path_);
+        check_expansion(any_slice, any_slice.frames * any_slice.rows * any_slice.columns *
+                                       dcmtk::integer(dataset(), DCM_BitsAllocated).value_or(0) / 8);
+        if (!is_jpeg2000(dataset())) decompress(dataset());
+        // A decoder may change the layout, so it counts as it stands after decoding.
+        layout_ = read_layout(dataset());
     }
-}
+
+    const std::filesystem::path& path() const { return path_; }
+
+    std::vector<std::int64_t> stored_values(const DicomHeader& slice) {
+        return is_jpeg2000(dataset()) ? decoded_values(slice) : plain_values(slice);
+    }
+
+private:
+    DcmDataset& dataset() { return *file_.getDataset(); }
+
+    std::vector<std::int64_t> plain_values(const DicomHeader& slice) {
+        const std::int64_t pixels = slice.rows * slice.columns, frame = slice.frame.value_or(1);
+        const auto stride = static_cast<std::size_t>(layout_.bytes);
+        const auto first = static_cast<std::size_t>((frame - 1) * pixels) * stride;
+        const std::span<const Uint8> bytes = pixel_bytes(dataset(), frame * pixels * layout_.bytes).subspan(first);
+        std::vector<std::int64_t> values(static_cast<std::size_t>(pixels));
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = stored_value(bytes.subspan(i * stride, stride), layout_);
+        return values;
+    }
+
+    /// The decoded bits mean what the header says, whatever sign the code stream claims.
+    std::vector<std::int64_t> decoded_values(const DicomHeader& slice) {
+        const std::vector<Uint8> code = dcmtk::compressed_frame(dataset(), slice.frame.value_or(1), slice.frames);
+        const std::vector<std::int32_t> decoded = decode_jpeg2000(code, slice.columns, slice.rows);
+        std::vector<std::int64_t> values(decoded.size());
+        std::transform(decoded.begin(), decoded.end(), values.begin(),
+                       [&](std::int32_t value) { return extended(static_cast<std::uint32_t>(value), layout_); });
+        return values;
+    }
+
+    std::filesystem::path path_;
+    DcmFileFormat file_;
+    PixelLayout layout_;
+};
+
+/// Keeps the file that it read last: the frames of one come one after another.
+class SliceReader {
+public:
+    /// One slice in modality units.
+    std::vector<double> read(const DicomHeader& slice) {
+        try {
+            if (!file_ || file_->path() != slice.path) file_ = std::make_unique<PixelFile>(slice);
+            const std::vector<std::int64_t> stored = file_->stored_values(slice);
+            std::vector<double> values(stored.size());
+            std::transform(stored.begin(), stored.end(), values.begin(), [&](std::int64_t value) {
+                return static_cast<double>(value) * slice.rescale.slope + slice.rescale.intercept;
+            });
+            return values;
+        } catch (const Error& error) {
+            if (std::string_view(error.what()).starts_with(slice.path.string())) throw;
+            throw error.with_context(slice.path.string());
+        }
+    }
+
+private:
+    std::unique_ptr<PixelFile> file_;
+};
 
 bool is_integer(double value) { return value == std::floor(value); }
 
@@ -165,9 +220,9 @@ void check_pixel_formats(const DicomStack& stack) {
             throw Error(ErrorKind::unsupported, fmt::format("{}: {} is not supported", slice.path.string(), what));
         };
         if (!slice.decodable) refuse(fmt::format("the compression '{}'", slice.transfer_syntax));
-        if (slice.photometric_interpretation != "MONOCHROME2")
-            refuse(
-                fmt::format("the photometric interpretation '{}' (only MONOCHROME2 is)", slice.photometric_interpretation));
+        const std::string& meaning = slice.photometric_interpretation;
+        if (meaning != "MONOCHROME2" && meaning != "MONOCHROME1")
+            refuse(fmt::format("the photometric interpretation '{}' (only MONOCHROME2 and MONOCHROME1 are)", meaning));
         if (slice.has_lookup_table) refuse("a modality lookup table");
         if (slice.bits_stored < 1 || slice.bits_stored > 32) refuse(fmt::format("a depth of {} bits", slice.bits_stored));
     }
@@ -178,9 +233,10 @@ Image::Samples read_pixels(const DicomStack& stack, const Progress& progress) {
     const DicomHeader& first = stack.slices.front();
     const bool integral = std::all_of(stack.slices.begin(), stack.slices.end(), has_integer_rescale);
     GrowingSamples samples(!integral, slices * static_cast<std::size_t>(first.rows * first.columns));
+    SliceReader reader;
     for (std::size_t k = 0; k < slices; ++k) {
         progress.report("read slices", static_cast<double>(k) / static_cast<double>(slices));
-        samples.append(read_slice(stack.slices[k]));
+        samples.append(reader.read(stack.slices[k]));
     }
     progress.report("read slices", 1);
     return std::move(samples).take();

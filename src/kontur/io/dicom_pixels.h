@@ -10,7 +10,7 @@
 namespace kontur {
 
 /// Throws Error(unsupported), naming the variant and the file, when the pixels of some slice cannot be read: colour,
-/// MONOCHROME1, a lookup table, an unknown compression, more than 32 bits.
+/// a lookup table, an unknown compression, more than 32 bits.
 void check_pixel_formats(const DicomStack& stack);
 
 /// The samples of all slices in modality units, slice after slice, in the narrowest type that holds them; float when some

@@ -20,6 +20,7 @@ namespace {
 using dcmtk::append_item;
 using dcmtk::put;
 using dcmtk::put_code;
+using dcmtk::put_file_reference;
 using dcmtk::put_image_reference;
 
 constexpr dcmtk::Code kTissue{"85756007", "SCT", "Tissue"};  // what other programs write for want of a better word
@@ -156,7 +157,7 @@ public:
         std::set<std::string> named;
         for (const DicomHeader& slice : slices_)
             if (named.insert(slice.sop_instance_uid).second)
-                put_image_reference(append_item(series, DCM_ReferencedInstanceSequence), slice);
+                put_file_reference(append_item(series, DCM_ReferencedInstanceSequence), slice);
     }
 
     void put_dimensions() {

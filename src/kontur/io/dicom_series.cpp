@@ -42,8 +42,9 @@ FolderContent read_folder(const fs::path& folder, const Progress& progress) {
     const std::vector<fs::path> files = files_in(folder);
     for (std::size_t n = 0; n < files.size(); ++n) {
         progress.report("read headers", static_cast<double>(n) / static_cast<double>(files.size()));
-        auto content = read_dicom_header(files[n]);
-        if (auto* header = std::get_if<DicomHeader>(&content)) headers.push_back(std::move(*header));
+        auto content = read_dicom_headers(files[n]);
+        if (auto* slices = std::get_if<std::vector<DicomHeader>>(&content))
+            std::move(slices->begin(), slices->end(), std::back_inserter(headers));
         else left_out[std::get<NotAnImage>(content).reason].push_back(files[n].filename().string());
     }
     FolderContent result{group_into_stacks(std::move(headers)), {}};
@@ -63,7 +64,10 @@ DicomSeries describe(const DicomStack& stack) {
     series.frame_of_reference_uid = first.frame_of_reference_uid;
     series.columns = first.columns;
     series.rows = first.rows;
-    for (const DicomHeader& slice : stack.slices) series.files.push_back(slice.path);
+    for (const DicomHeader& slice : stack.slices) {
+        series.files.push_back(slice.path);
+        series.frames.push_back(slice.frame.value_or(1));
+    }
     return series;
 }
 
@@ -174,6 +178,9 @@ std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
 DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
     Located located = locate(path, options, progress);
     check_pixel_formats(located.stack);
+    if (located.stack.slices.front().photometric_interpretation == "MONOCHROME1")
+        located.geometry.notes.push_back(
+            "MONOCHROME1: shown with low values bright elsewhere; the values are kept as they are");
     DicomVolume volume;
     volume.image = {located.geometry.grid, read_pixels(located.stack, progress)};
     volume.series = describe(located.stack);

@@ -17,9 +17,7 @@ constexpr double kSameDirection = 1e-4;
 bool near(const Vec3& a, const Vec3& b) { return distance(a, b) <= kSameDirection; }
 
 bool same_geometry(const DicomHeader& a, const DicomHeader& b) {
-    if (std::tie(a.series_uid, a.rows, a.columns, a.multi_frame) != std::tie(b.series_uid, b.rows, b.columns, b.multi_frame))
-        return false;
-    if (a.multi_frame) return false;
+    if (std::tie(a.series_uid, a.rows, a.columns) != std::tie(b.series_uid, b.rows, b.columns)) return false;
     const SlicePlacement &p = a.placement, &q = b.placement;
     return near(p.row_direction, q.row_direction) && near(p.column_direction, q.column_direction) &&
            std::abs(p.spacing_mm[0] - q.spacing_mm[0]) <= kSameDirection * p.spacing_mm[0] &&
@@ -66,6 +64,7 @@ std::vector<Slices> runs_at_one_position(const Slices& sorted) {
 std::vector<DicomStack> split_by_rank(std::vector<Slices> runs) {
     const auto order = [](const DicomHeader& s) { return std::tie(s.trigger_time_ms, s.instance_number); };
     const std::size_t count = runs.front().size();
+    if (runs.front().front().frame) return {};  // the order of frames in a file means nothing
     std::vector<DicomStack> stacks(count);
     for (Slices& run : runs) {
         std::sort(run.begin(), run.end(), [&](const auto& a, const auto& b) { return order(a) < order(b); });
@@ -83,8 +82,16 @@ std::vector<DicomStack> split_by_rank(std::vector<Slices> runs) {
 
 std::vector<DicomStack> split_collisions(Slices slices);
 
+std::string text_of(const std::string& value) { return value.empty() ? "not given" : value; }
+
+template <class Number>
+std::string text_of(const std::optional<Number>& value) {
+    return value ? fmt::format("{}", *value) : "not given";
+}
+
+template <class Value>
 std::vector<DicomStack> split_by_tag(const Slices& slices, std::size_t positions, std::string_view name,
-                                     std::optional<std::int64_t> DicomHeader::*tag) {
+                                     Value DicomHeader::*tag) {
     auto parts = partition_by(slices, tag);
     // A tag that differs from slice to slice tells nothing about volumes.
     const bool shatters = std::any_of(parts.begin(), parts.end(), [&](const auto& part) {
@@ -94,10 +101,25 @@ std::vector<DicomStack> split_by_tag(const Slices& slices, std::size_t positions
     std::vector<DicomStack> stacks;
     for (auto& [value, part] : parts)
         for (DicomStack& stack : split_collisions(std::move(part))) {
-            const std::string own = fmt::format("{} {}", name, value ? std::to_string(*value) : "not given");
+            const std::string own = fmt::format("{} {}", name, text_of(value));
             stack.distinction = stack.distinction.empty() ? own : own + ", " + stack.distinction;
             stacks.push_back(std::move(stack));
         }
+    return stacks;
+}
+
+/// By the first of these that sets volumes apart; the rest is tried on each part.
+std::vector<DicomStack> split_by_tags(const Slices& slices, std::size_t positions) {
+    std::vector<DicomStack> stacks;
+    const auto split = [&](std::string_view name, auto tag) {
+        if (stacks.empty()) stacks = split_by_tag(slices, positions, name, tag);
+    };
+    split("temporal position", &DicomHeader::temporal_position);
+    split("echo", &DicomHeader::echo_number);
+    split("echo time", &DicomHeader::echo_time_ms);
+    split("b-value", &DicomHeader::b_value);
+    split("frame type", &DicomHeader::frame_type);
+    split("acquisition", &DicomHeader::acquisition_number);
     return stacks;
 }
 
@@ -105,10 +127,7 @@ std::vector<DicomStack> split_collisions(Slices slices) {
     sort_by_position(slices);
     std::vector<Slices> runs = runs_at_one_position(slices);
     if (runs.size() < slices.size()) {
-        for (const auto& [name, tag] :
-             {std::pair{"temporal position", &DicomHeader::temporal_position}, std::pair{"echo", &DicomHeader::echo_number},
-              std::pair{"acquisition", &DicomHeader::acquisition_number}})
-            if (auto stacks = split_by_tag(slices, runs.size(), name, tag); !stacks.empty()) return stacks;
+        if (auto stacks = split_by_tags(slices, runs.size()); !stacks.empty()) return stacks;
         if (auto stacks = split_by_rank(std::move(runs)); !stacks.empty()) return stacks;
     }
     return {DicomStack{std::move(slices), "", {}}};

@@ -129,7 +129,10 @@ void put_image_hierarchy(DcmItem& document, const std::vector<DicomHeader>& slic
     put(study, DCM_ReferencedSOPInstanceUID, dcmtk::text(document, DCM_StudyInstanceUID));
     DcmItem& series = append_item(study, DCM_RTReferencedSeriesSequence);
     put(series, DCM_SeriesInstanceUID, slices.front().series_uid);
-    for (const DicomHeader& slice : slices) put_image_reference(append_item(series, DCM_ContourImageSequence), slice);
+    std::set<std::string> named;
+    for (const DicomHeader& slice : slices)
+        if (named.insert(slice.sop_instance_uid).second)
+            dcmtk::put_file_reference(append_item(series, DCM_ContourImageSequence), slice);
 }
 
 class RoiWriter {

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "kontur/base/error.h"
+#include "slicer.h"
 
 namespace kontur::app {
 namespace {
@@ -123,12 +124,11 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
     sub.add_option("--tolerance-mm", o.tolerance_mm, "Largest error of the iterative solver at its constraints")
         ->type_name("MM")
         ->capture_default_str();
-    add_choice<Voxelizer>(sub, "--voxelizer", o.voxelizer,
-                          {{"adaptive", Voxelizer::adaptive},
-                           {"tracked", Voxelizer::tracked},
-                           {"exhaustive", Voxelizer::exhaustive}},
-                          "Follow the surface from the contours, computing values where needed or at every voxel it "
-                          "passes; or compute all voxels");
+    add_choice<Voxelizer>(
+        sub, "--voxelizer", o.voxelizer,
+        {{"adaptive", Voxelizer::adaptive}, {"tracked", Voxelizer::tracked}, {"exhaustive", Voxelizer::exhaustive}},
+        "Follow the surface from the contours, computing values where needed or at every voxel it "
+        "passes; or compute all voxels");
     sub.add_option("--threads", o.threads, "Threads; 0: as many as the machine has")->type_name("N")->capture_default_str();
 }
 
@@ -159,6 +159,20 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
     bind.quiet();
+}
+
+/// 3D Slicer's parser knows no hyphens in flags.
+void add_slicer(CLI::App& app, Invocation& invocation) {
+    Binder<SlicerCommand> bind(app, invocation, "slicer", "Work as a command-line module of 3D Slicer (docs/slicer.md)",
+                               "kontur slicer --xml");
+    SlicerCommand& c = *bind.command;
+    bind.sub->set_version_flag("--xml", slicer_description(c), "Print the module's description");
+    bind.option("--reference", c.reference, "FILE", "Image that was drawn on")->required();
+    bind.option("--contour", c.contours, "FILE", "Closed curves (.mrk.json); again for more")->allow_extra_args(false);
+    bind.option("--mask", c.output_mask, "FILE", "Label map to write");
+    bind.option("--model", c.output_model, "FILE", "Surface to write");
+    bind.option("--returnparameterfile", c.return_parameters, "FILE", "Values to write for 3D Slicer");
+    add_segment_method(*bind.sub, c.options);
 }
 
 void add_trace(CLI::App& app, Invocation& invocation) {
@@ -263,6 +277,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
     add_segment(app, invocation);
+    add_slicer(app, invocation);
     add_trace(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);

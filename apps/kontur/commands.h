@@ -39,6 +39,16 @@ struct SegmentCommand {
 };
 void run(const SegmentCommand& command, Console& console);
 
+/// 3D Slicer's command-line module: speaks its language on stdout, with the file names that it passes.
+struct SlicerCommand {
+    std::filesystem::path reference;
+    std::vector<std::filesystem::path> contours;
+    std::filesystem::path output_mask, output_model;  ///< empty: not asked for
+    std::filesystem::path return_parameters;          ///< where 3D Slicer looks for values to show; empty: nowhere
+    SegmentOptions options;
+};
+void run(const SlicerCommand& command, Console& console);
+
 /// Cuts a mask by planes into contours.
 struct TraceCommand {
     std::filesystem::path mask;

@@ -23,6 +23,9 @@ public:
     /// For long library calls: cancelled by Ctrl-C, drawn as a bar when stderr is a terminal.
     Progress progress();
 
+    /// What `progress` is cancelled by.
+    const std::stop_token& stop_token() const { return stop_; }
+
     /// Text on stdout, unless quiet.
     void print(std::string_view text);
     /// One line on stderr, "kontur: warning: SENTENCE".

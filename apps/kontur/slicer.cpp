@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "commands.h"
+#include "kontur/base/error.h"
+#include "kontur/io/atomic_file.h"
+#include "kontur/io/mesh.h"
+#include "kontur/segment.h"
+#include "outputs.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kName = "Kontur Segment";
+
+/// 3D Slicer reads the last of these tags on stdout, at any time.
+void tell(const std::string& tags) {
+    std::fwrite(tags.data(), 1, tags.size(), stdout);
+    std::fflush(stdout);
+}
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '<') result += "&lt;";
+        else if (c == '>') result += "&gt;";
+        else if (c == '&') result += "&amp;";
+        else result += c;
+    }
+    return result;
+}
+
+/// Stages follow one another without anyone knowing how many are to come: each takes half of what is left of the bar.
+class TagProgress {
+public:
+    Progress progress(const std::stop_token& stop) {
+        Progress progress;
+        progress.stop = stop;
+        progress.callback = [this](std::string_view stage, double fraction) { report(stage, fraction); };
+        return progress;
+    }
+
+private:
+    void report(std::string_view stage, double fraction) {
+        if (stage != stage_) {
+            stage_ = stage;
+            done_before_ = done_;
+            tell(fmt::format("<filter-comment>{}</filter-comment>\n", escaped(stage)));
+        }
+        const double done = done_before_ + 0.5 * (1 - done_before_) * fraction;
+        if (done < done_ + 0.005) return;
+        done_ = done;
+        tell(
+            fmt::format("<filter-progress>{:.4f}</filter-progress>\n<filter-stage-progress>{:.4f}</filter-stage-progress>\n",
+                        done, fraction));
+    }
+
+    std::string stage_;
+    double done_before_ = 0, done_ = 0;
+};
+
+/// Values that 3D Slicer shows in the panel: lines NAME = VALUE.
+std::string return_parameters(const SegmentReport& report) {
+    return fmt::format("volumeMl = {:.4f}\nresidualMaxMm = {:.4f}\ncomponents = {}\n", report.mask_volume_ml,
+                       report.residual.max_mm, report.mask_components);
+}
+
+void check(const SlicerCommand& command) {
+    if (command.contours.empty()) throw Error(ErrorKind::invalid_input, "no contours were chosen");
+    if (command.output_mask.empty() && command.output_model.empty())
+        throw Error(ErrorKind::invalid_input, "neither a label map nor a model was chosen for the result");
+    if (!command.output_mask.empty()) check_output_kind(command.output_mask, FileKind::image);
+    if (!command.output_model.empty()) check_output_kind(command.output_model, FileKind::mesh);
+}
+
+void write_outputs(const SlicerCommand& command, const Segmentation& result) {
+    Outputs outputs;
+    if (!command.output_mask.empty())
+        outputs.write(command.output_mask, [&](const fs::path& path) { write_mask(path, result.mask); });
+    if (!command.output_model.empty())
+        outputs.write(command.output_model, [&](const fs::path& path) { write_mesh(path, *result.mesh); });
+    if (!command.return_parameters.empty())
+        outputs.write(command.return_parameters,
+                      [&](const fs::path& path) { write_file_atomically(path, return_parameters(result.report)); });
+    outputs.commit();
+}
+
+Segmentation fit(const SlicerCommand& command, const Progress& progress) {
+    const ReadContours contours = read_contours(command.contours);
+    const Grid grid = read_grid(command.reference, {}, progress);
+    SegmentOptions options = command.options;
+    options.mesh = !command.output_model.empty();
+    return segment(contours.contours, grid, options, progress);
+}
+
+}  // namespace
+
+void run(const SlicerCommand& command, Console& console) {
+    using Clock = std::chrono::steady_clock;
+    check(command);
+    const auto start = Clock::now();
+    tell(fmt::format(
+        "<filter-start>\n<filter-name>{}</filter-name>\n<filter-comment>reading</filter-comment>\n</filter-start>\n",
+        kName));
+    TagProgress tags;
+    const Segmentation result = fit(command, tags.progress(console.stop_token()));
+    write_outputs(command, result);
+    for (const std::string& warning : result.report.warnings)
+        tell(fmt::format("<filter-comment>{}</filter-comment>\nwarning: {}\n", escaped(warning), warning));
+    tell(
+        fmt::format("<filter-progress>1</filter-progress>\n<filter-end>\n<filter-name>{}</filter-name>\n"
+                    "<filter-time>{:.2f}</filter-time>\n</filter-end>\n",
+                    kName, std::chrono::duration<double>(Clock::now() - start).count()));
+}
+
+std::string slicer_description(const SlicerCommand& defaults) {
+    const SegmentOptions& o = defaults.options;
+    return fmt::format(R"(<?xml version="1.0" encoding="utf-8"?>
+<executable>
+  <category>Segmentation</category>
+  <title>{title}</title>
+  <description><![CDATA[Smooth surface and mask of an object from closed curves drawn in slices of any orientation. Research software, not a medical device.]]></description>
+  <version>{version}</version>
+  <license>Apache-2.0</license>
+  <contributor>The kontur authors</contributor>
+  <acknowledgements><![CDATA[After Heckel, Konrad and Peitgen, Fast and Smooth Interactive Segmentation of Medical Images Using Variational Interpolation, VCBM 2010.]]></acknowledgements>
+  <parameters>
+    <label>Input and output</label>
+    <description><![CDATA[What is drawn, on what, and what becomes of it]]></description>
+    <image>
+      <name>referenceVolume</name>
+      <label>Reference volume</label>
+      <longflag>--reference</longflag>
+      <channel>input</channel>
+      <description><![CDATA[The image that was drawn on; the label map has its voxels]]></description>
+    </image>
+    <pointfile multiple="true" type="closedcurve" fileExtensions=".mrk.json" coordinateSystem="lps">
+      <name>contours</name>
+      <label>Closed curves</label>
+      <longflag>--contour</longflag>
+      <channel>input</channel>
+      <description><![CDATA[Closed curves of one object, each drawn in one slice view. Straight lines join their points: resample curves with few points]]></description>
+    </pointfile>
+    <image type="label">
+      <name>outputMask</name>
+      <label>Label map</label>
+      <longflag>--mask</longflag>
+      <channel>output</channel>
+      <description><![CDATA[The object as a label map]]></description>
+    </image>
+    <geometry fileExtensions=".ply">
+      <name>outputModel</name>
+      <label>Model</label>
+      <longflag>--model</longflag>
+      <channel>output</channel>
+      <description><![CDATA[The object's surface]]></description>
+    </geometry>
+  </parameters>
+  <parameters advanced="true">
+    <label>Method</label>
+    <description><![CDATA[How the surface runs through the curves]]></description>
+    <string-enumeration>
+      <name>kernel</name>
+      <label>Kernel</label>
+      <longflag>--kernel</longflag>
+      <description><![CDATA[Radial function: triharmonic (r^3) or biharmonic (r)]]></description>
+      <default>{kernel}</default>
+      <element>triharmonic</element>
+      <element>biharmonic</element>
+    </string-enumeration>
+    <string-enumeration>
+      <name>normals</name>
+      <label>Normals</label>
+      <longflag>--normals</longflag>
+      <description><![CDATA[Direction of the surface at a curve: from all curves together (surface), or in the curve's own plane (in-plane)]]></description>
+      <default>{normals}</default>
+      <element>surface</element>
+      <element>in-plane</element>
+    </string-enumeration>
+    <double>
+      <name>quality</name>
+      <label>Quality</label>
+      <longflag>--quality</longflag>
+      <description><![CDATA[Fraction of each curve's points that is used]]></description>
+      <default>{quality}</default>
+      <constraints>
+        <minimum>0.05</minimum>
+        <maximum>1</maximum>
+        <step>0.05</step>
+      </constraints>
+    </double>
+    <integer>
+      <name>threads</name>
+      <label>Threads</label>
+      <longflag>--threads</longflag>
+      <description><![CDATA[0: as many as the machine has]]></description>
+      <default>{threads}</default>
+      <constraints>
+        <minimum>0</minimum>
+        <maximum>256</maximum>
+        <step>1</step>
+      </constraints>
+    </integer>
+  </parameters>
+  <parameters>
+    <label>Result</label>
+    <description><![CDATA[What was found]]></description>
+    <double>
+      <name>volumeMl</name>
+      <label>Volume (ml)</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[Volume of the label map]]></description>
+    </double>
+    <double>
+      <name>residualMaxMm</name>
+      <label>Largest residual (mm)</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[Largest distance of the surface from a drawn point]]></description>
+    </double>
+    <integer>
+      <name>components</name>
+      <label>Components</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[Connected parts of the label map]]></description>
+    </integer>
+  </parameters>
+</executable>
+)",
+                       fmt::arg("title", kName), fmt::arg("version", KONTUR_VERSION), fmt::arg("kernel", name(o.kernel)),
+                       fmt::arg("normals", name(o.normals)), fmt::arg("quality", o.quality), fmt::arg("threads", o.threads));
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur as a command-line module of 3D Slicer: the published rules of such modules, and a run as 3D Slicer runs one."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import numpy
+import pytest
+from support import CENTER, KONTUR, RADIUS, ball_array, ball_planes, dice, kontur, write_nifti
+
+MODULE = pathlib.Path(KONTUR).parent.parent / "lib" / "slicer" / "KonturSegment"
+
+# What 3D Slicer's parser knows (ModuleDescriptionParser), as far as it concerns us; anything else is an error there.
+HEADER = {"category", "title", "description", "version", "documentation-url", "license", "contributor", "acknowledgements"}
+FILES = {"image": {"multiple", "type", "fileExtensions"}, "geometry": {"multiple", "type", "fileExtensions"},
+         "pointfile": {"multiple", "type", "fileExtensions", "coordinateSystem"}}
+SIMPLE = {"integer", "float", "double", "boolean", "string", "string-enumeration"}
+FIELDS = {"name", "label", "description", "longflag", "flag", "index", "channel", "default", "constraints", "element"}
+IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+def description():
+    """As 3D Slicer asks for it: what is not XML from the first byte, or says a word on stderr, is no module."""
+    result = subprocess.run([MODULE, "--xml"], capture_output=True, timeout=5, env={"ITK_AUTOLOAD_PATH": ""})
+    assert (result.returncode, result.stderr) == (0, b"")
+    assert result.stdout.startswith(b"<?xml")
+    return ElementTree.fromstring(result.stdout)
+
+
+def parameters():
+    return [p for group in description().findall("parameters") for p in group if p.tag not in ("label", "description")]
+
+
+def check_value(parameter):
+    kind, default = parameter.tag, parameter.findtext("default")
+    assert default is not None, "3D Slicer needs a default for every simple value"
+    if kind in ("integer", "double"):
+        value = int(default) if kind == "integer" else float(default)
+        limits = parameter.find("constraints")
+        if limits is not None:
+            assert [e.tag for e in limits] == ["minimum", "maximum", "step"]
+            assert float(limits.findtext("minimum")) <= value <= float(limits.findtext("maximum"))
+    if kind == "string-enumeration":
+        assert default in [e.text for e in parameter.findall("element")]
+
+
+def test_the_name_is_one_that_3d_slicer_runs():
+    assert "." not in MODULE.name
+    assert os.access(MODULE, os.X_OK)
+
+
+def test_the_description_follows_every_rule():
+    root = description()
+    assert root.tag == "executable"
+    assert {e.tag for e in root} <= HEADER | {"parameters"}
+    assert {"title", "description", "category", "version"} <= {e.tag for e in root}
+    names, flags = [], []
+    for group in root.findall("parameters"):
+        assert set(group.attrib) <= {"advanced"}
+        assert group[0].tag == "label" and group[1].tag == "description"
+    for parameter in parameters():
+        assert parameter.tag in FILES or parameter.tag in SIMPLE, parameter.tag
+        assert set(parameter.attrib) <= FILES.get(parameter.tag, set())
+        assert {e.tag for e in parameter} <= FIELDS
+        for needed in ("name", "label", "description"):
+            assert parameter.findtext(needed), (parameter.findtext("name"), needed)
+        names.append(parameter.findtext("name"))
+        assert IDENTIFIER.fullmatch(names[-1])
+        channel = parameter.findtext("channel")
+        returned = parameter.tag in SIMPLE and channel == "output"
+        flag = parameter.findtext("longflag")
+        assert (flag is None) == returned, "all but returned values are passed by a flag"
+        if flag:
+            assert IDENTIFIER.fullmatch(flag.removeprefix("--")), "3D Slicer's parser refuses hyphens"
+            flags.append(flag)
+        if parameter.tag in FILES:
+            assert channel in ("input", "output")
+            assert all(e.startswith(".") for e in parameter.get("fileExtensions", ".x").split(","))
+        else:
+            check_value(parameter)
+    assert len(set(names)) == len(names)
+    assert len(set(flags)) == len(flags)
+
+
+def test_the_defaults_are_those_of_segment():
+    help_text = kontur("segment", "--help").stdout
+    for parameter in parameters():
+        flag = parameter.findtext("longflag")
+        if flag and parameter.tag in SIMPLE:
+            assert re.search(rf"{flag} \S+ \[?{re.escape(parameter.findtext('default'))}\b|{flag} .*{parameter.findtext('default')}", help_text), flag
+
+
+@pytest.fixture
+def scene(tmp_path):
+    """Files as 3D Slicer leaves them for a module: an image, and each curve in a file of its own."""
+    folder = tmp_path / "Slicer temp"
+    folder.mkdir()
+    write_nifti(folder / "image.nii.gz", ball_array())
+    assert kontur("convert", folder / "image.nii.gz", folder / "reference.nrrd").returncode == 0
+    for n, plane in enumerate(ball_planes()):
+        curve = {
+            "type": "ClosedCurve",
+            "coordinateSystem": "LPS",
+            "coordinateUnits": "mm",
+            "controlPoints": [{"position": p, "positionStatus": "defined"} for p in plane["contours"][0]["points"]],
+        }
+        schema = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#"
+        (folder / f"curve {n}.mrk.json").write_text(json.dumps({"@schema": schema, "markups": [curve]}))
+    return folder
+
+
+def run_module(scene, **outputs):
+    """With the flags that 3D Slicer makes of the description."""
+    files = {"referenceVolume": [scene / "reference.nrrd"], "contours": sorted(scene.glob("*.mrk.json")), **outputs}
+    words = []
+    for parameter in parameters():
+        for value in files.get(parameter.findtext("name"), []):
+            words += [parameter.findtext("longflag"), value]
+        if parameter.tag in SIMPLE and parameter.findtext("channel") != "output":
+            words += [parameter.findtext("longflag"), parameter.findtext("default")]
+    words += ["--returnparameterfile", scene / "returned.params"]
+    return subprocess.run([MODULE, *map(str, words)], capture_output=True, text=True, timeout=60)
+
+
+def read_ply_points(path):
+    head, body = path.read_bytes().split(b"end_header\n")
+    assert b"SPACE=LPS" in head
+    count = int(re.search(rb"element vertex (\d+)", head)[1])
+    properties = re.findall(rb"property (double|float) \w+", head)
+    row = numpy.dtype([(str(n), "<f8" if p == b"double" else "<f4") for n, p in enumerate(properties)])
+    points = numpy.frombuffer(body, row, count)
+    return numpy.stack([points[a] for a in "012"], axis=1)
+
+
+def test_a_run_makes_label_map_and_model_where_the_curves_are(scene):
+    result = run_module(scene, outputMask=[scene / "mask.nrrd"], outputModel=[scene / "model.ply"])
+    assert (result.returncode, result.stderr) == (0, ""), result
+    assert kontur("convert", scene / "mask.nrrd", scene / "mask.nii.gz").returncode == 0
+    import nibabel
+
+    assert dice(numpy.asarray(nibabel.load(scene / "mask.nii.gz").dataobj), ball_array()) > 0.995
+    distance = numpy.linalg.norm(read_ply_points(scene / "model.ply") - CENTER, axis=1)
+    assert numpy.abs(distance - RADIUS).max() < 0.5
+
+    progress = [float(v) for v in re.findall("<filter-progress>(.*?)</filter-progress>", result.stdout)]
+    assert len(progress) > 3
+    assert progress == sorted(progress) and progress[0] >= 0 and progress[-1] == 1
+    assert all(0 <= float(v) <= 1 for v in re.findall("<filter-stage-progress>(.*?)</filter-stage-progress>", result.stdout))
+    for tag in ("filter-start", "filter-end", "filter-name", "filter-comment", "filter-time"):
+        assert result.stdout.count(f"<{tag}>") == result.stdout.count(f"</{tag}>") > 0
+
+    returned = dict(line.split(" = ") for line in (scene / "returned.params").read_text().splitlines())
+    wanted = {p.findtext("name") for p in parameters() if p.tag in SIMPLE and p.findtext("channel") == "output"}
+    assert set(returned) == wanted
+    assert float(returned["volumeMl"]) == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.02)
+
+
+def test_one_output_is_enough_and_none_is_an_error(scene):
+    assert run_module(scene, outputModel=[scene / "model.ply"]).returncode == 0
+    assert not (scene / "mask.nrrd").exists()
+    result = run_module(scene)
+    assert result.returncode == 65
+    assert "neither a label map nor a model" in result.stderr
+
+
+def test_a_failure_has_an_exit_code_a_reason_and_no_output(scene):
+    (scene / "curve 3.mrk.json").write_text("{}")
+    result = run_module(scene, outputMask=[scene / "mask.nrrd"])
+    assert result.returncode not in (0, None)
+    assert "curve 3.mrk.json" in result.stderr
+    assert not (scene / "mask.nrrd").exists()
+
+
+def test_the_module_runs_through_a_link(scene, tmp_path):
+    (tmp_path / "modules").mkdir()
+    (tmp_path / "modules" / "KonturSegment").symlink_to(MODULE)
+    result = subprocess.run([tmp_path / "modules" / "KonturSegment", "--xml"], capture_output=True)
+    assert result.stdout.startswith(b"<?xml")

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "viewer/image_identity.h"
+#include "viewer/page.h"
 #include "viewer/server.h"
 #include "viewer/session.h"
 
@@ -155,6 +156,9 @@ void run(const OpenCommand& command, Console& console) {
     viewer::Session session(std::move(image), project);
     fill(session, command, words, console);
 
+    if (!viewer::has_page())
+        console.warn(
+            "this kontur was built without its page, because Node.js or npm was missing: there is nothing to draw on");
     viewer::Server server(session, command.server);
     console.print(
         fmt::format("{}\nproject {}; every edit is saved at once, Ctrl+C ends\n", server.address(), project.string()));

@@ -26,4 +26,6 @@ const PageFile* find_page_file(std::string_view path) {
     return nullptr;
 }
 
+bool has_page() { return kPageEntryCount > 1; }
+
 }  // namespace kontur::viewer

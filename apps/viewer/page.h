@@ -15,4 +15,7 @@ struct PageFile {
 /// null when the page has no such file.
 const PageFile* find_page_file(std::string_view path);
 
+/// Whether the page itself is embedded, not only the file that says why it is missing.
+bool has_page();
+
 }  // namespace kontur::viewer

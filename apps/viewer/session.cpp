@@ -135,8 +135,8 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       edges_(image_),
       project_(project, opened.reference),
       surfaces_({[this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
-                 [this](const std::string& text) {
-                     tell({{"event", "status"}, {"text", text}, {"fraction", nullptr}});
+                 [this](const std::string& text, std::optional<double> fraction) {
+                     tell({{"event", "status"}, {"text", text}, {"fraction", fraction ? json(*fraction) : json(nullptr)}});
                  }}) {
     if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
@@ -236,8 +236,9 @@ std::string Session::call(std::string_view message) {
         const auto found = calls().find(m.text("call", 64));
         if (found == calls().end())
             return failed(name(ErrorKind::invalid_input), fmt::format("there is no call '{}'", m.text("call", 64)));
-        const std::scoped_lock lock(mutex_);
-        return to_text({{"seq", seq}, {"result", (this->*found->second)(m)}});
+        std::unique_lock lock(mutex_, std::defer_lock);
+        if (found->second.needs_project) lock.lock();
+        return to_text({{"seq", seq}, {"result", (this->*found->second.method)(m)}});
     } catch (const json::exception&) {
         return failed(name(ErrorKind::invalid_input), "the message is no JSON that kontur understands");
     } catch (const Error& error) {
@@ -251,26 +252,26 @@ std::string Session::call(std::string_view message) {
 
 const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
     static const std::map<std::string, Call, std::less<>> table{
-        {"path", &Session::path},
-        {"contour.add", &Session::add_contour},
-        {"contour.move_point", &Session::move_control_point},
-        {"contour.insert_point", &Session::insert_control_point},
-        {"contour.delete_point", &Session::delete_control_point},
-        {"contour.pull", &Session::pull_contour},
-        {"contour.redraw", &Session::redraw_contour},
-        {"contour.translate", &Session::translate_contour},
-        {"contour.copy", &Session::copy_contour},
-        {"contour.set", &Session::set_contour},
-        {"contour.remove", &Session::remove_contours},
-        {"structure.add", &Session::add_structure},
-        {"structure.set", &Session::set_structure},
-        {"structure.remove", &Session::remove_structure},
-        {"draft.drop", &Session::drop_draft},
-        {"undo", &Session::undo},
-        {"redo", &Session::redo},
-        {"value", &Session::value},
-        {"page.save", &Session::save_page},
-        {"ping", &Session::ping},
+        {"path", {&Session::path, false}},
+        {"contour.add", {&Session::add_contour}},
+        {"contour.move_point", {&Session::move_control_point}},
+        {"contour.insert_point", {&Session::insert_control_point}},
+        {"contour.delete_point", {&Session::delete_control_point}},
+        {"contour.pull", {&Session::pull_contour}},
+        {"contour.redraw", {&Session::redraw_contour}},
+        {"contour.translate", {&Session::translate_contour}},
+        {"contour.copy", {&Session::copy_contour}},
+        {"contour.set", {&Session::set_contour}},
+        {"contour.remove", {&Session::remove_contours}},
+        {"structure.add", {&Session::add_structure}},
+        {"structure.set", {&Session::set_structure}},
+        {"structure.remove", {&Session::remove_structure}},
+        {"draft.drop", {&Session::drop_draft}},
+        {"undo", {&Session::undo}},
+        {"redo", {&Session::redo}},
+        {"value", {&Session::value, false}},
+        {"page.save", {&Session::save_page}},
+        {"ping", {&Session::ping, false}},
     };
     return table;
 }

@@ -78,7 +78,10 @@ public:
     void wait_for_surfaces() { surfaces_.wait(); }
 
 private:
-    using Call = nlohmann::json (Session::*)(const Members&);
+    struct Call {
+        nlohmann::json (Session::*method)(const Members&);
+        bool needs_project = true;  ///< false: it only looks at the image, and edits and slices need not wait for it
+    };
     static const std::map<std::string, Call, std::less<>>& calls();
 
     nlohmann::json path(const Members& m);

@@ -102,23 +102,25 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
         follower.tasks.erase(follower.tasks.begin(), follower.tasks.lower_bound(update.edit));
         task = follower.tasks.at(update.edit);
         is_done = follower.tasks.size() == 1 && update.kind != EditorUpdate::Kind::preview;
-        if (is_done) follower.stage.clear();
+        if (is_done) follower.stage = {};
     }
     publish(shown(task, update));
-    if (is_done) listener_.status("");
+    if (is_done) listener_.status("", std::nullopt);
 }
 
-/// The first news of each stage only: the line shall be read, and a preview is over before it could be.
+/// News by the tenth: more would only cost the page time.
 void Surfaces::show_progress(Id structure, const EditorUpdate& update) {
+    const int tenths = static_cast<int>(10 * update.done);
     std::string text;
     {
         const std::scoped_lock lock(mutex_);
         Follower& follower = followers_[structure];
-        if (follower.stage == update.stage) return;
+        if (follower.stage == update.stage && follower.tenths == tenths) return;
         follower.stage = update.stage;
+        follower.tenths = tenths;
         text = fmt::format("{}: {}", follower.tasks.at(update.edit).set.name, update.stage);
     }
-    listener_.status(text);
+    listener_.status(text, tenths / 10.0);
 }
 
 void Surfaces::publish(Surface surface) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,8 @@ struct SurfaceTask {
 /// Called from the threads that compute.
 struct SurfaceListener {
     std::function<void(std::shared_ptr<const Surface>)> surface;
-    std::function<void(const std::string& text)> status;  ///< what is being computed; empty when nothing is
+    /// What is being computed, and how much of it is done; an empty text when nothing is.
+    std::function<void(const std::string& text, std::optional<double> fraction)> status;
 };
 
 /// A LiveEditor for each structure: surfaces follow the contours, previews at once, the refined ones when the hand rests.
@@ -69,7 +71,8 @@ public:
 private:
     struct Follower {
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
-        std::string stage;                           ///< what the status line was told last
+        std::string_view stage;                      ///< what the status line was told last ...
+        int tenths = 0;                              ///< ... and how far it was
         std::unique_ptr<LiveEditor> editor;
     };
 

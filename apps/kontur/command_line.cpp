@@ -115,6 +115,11 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
         ->capture_default_str();
     sub.add_option("--smoothing", o.smoothing, "0 passes through every point exactly; without unit [by --normals]")
         ->type_name("S");
+    add_choice<Conflicts>(
+        sub, "--conflicts", o.conflicts,
+        {{"reconcile", Conflicts::reconcile}, {"newest-wins", Conflicts::newest_wins}, {"exact", Conflicts::exact}},
+        "Which contours yield where those of different planes contradict each other: both, the one that "
+        "comes first in the file, none");
     add_choice<Solver>(sub, "--solver", o.solver,
                        {{"automatic", Solver::automatic},
                         {"iterative", Solver::iterative},

@@ -52,6 +52,7 @@ Facts report_json(const SegmentReport& report) {
         {"normals", name(report.normals)},
         {"normal_offset_mm", report.normal_offset_mm},
         {"smoothing", report.smoothing},
+        {"conflicts", name(report.conflicts)},
         {"quality", report.quality},
         {"solver", name(report.solver)},
         {"solves", report.solves},

@@ -72,7 +72,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress)
     if (drawn.contours.empty()) return {};
     const ContourSet contours = cleaned(drawn);
     Fitting fitting = fitting_for(contours, options_.segment);
-    const PreparedContours prepared = prepare(contours, fitting.prepare);
+    const PreparedContours prepared = prepare(contours, fitting);
     fitting.fit.most_points = options_.preview_points;
     fitting.fit.tilt_points = options_.preview_points;
     fitting.fit.solve.tolerance_mm *= kPreviewTolerance;
@@ -92,7 +92,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) 
     if (drawn.contours.empty()) return surface;
     const ContourSet contours = cleaned(drawn);
     const Fitting fitting = fitting_for(contours, options_.segment);
-    const PreparedContours prepared = prepare(contours, fitting.prepare);
+    const PreparedContours prepared = prepare(contours, fitting);
     const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 2;
     surface = surface_of(fit(prepared, contours, fitting.fit, progress), contours, prepared, spacing_mm,
                          options_.segment.threads, progress);

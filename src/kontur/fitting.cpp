@@ -47,7 +47,16 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
     const FitOptions fit = fit_options(options, bounding_box(contours).diagonal());
-    return {prepare_options(options, fit), fit};
+    const ReconcileOptions reconcile{
+        .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
+        .offset_mm = kOffsetFraction * bounding_box(contours).diagonal()};
+    return {prepare_options(options, fit), reconcile, fit};
+}
+
+PreparedContours prepare(const ContourSet& contours, const Fitting& fitting) {
+    PreparedContours prepared = prepare(contours, fitting.prepare);
+    reconcile(prepared.points, find_crossings(contours), fitting.reconcile);
+    return prepared;
 }
 
 std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kontur/field/fit.h"
+#include "kontur/field/reconcile.h"
 #include "kontur/segment.h"
 
 namespace kontur {
@@ -11,11 +12,15 @@ namespace kontur {
 /// The options of `segment` spelled out for its first stages.
 struct Fitting {
     PrepareOptions prepare;
+    ReconcileOptions reconcile;
     FitOptions fit;
 };
 
 /// Lengths that are not given follow the contours' size. Throws Error(invalid_input) when the normal offset is not above 0.
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options);
+
+/// The contours as the fit sees them, reconciled where they contradict each other.
+PreparedContours prepare(const ContourSet& contours, const Fitting& fitting);
 
 /// Where the surface is known to pass: every drawn point and point of the fit, and each edge of each lobe where contours
 /// cross themselves.

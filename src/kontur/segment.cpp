@@ -122,7 +122,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
 
     const ContourSet contours = cleaned(drawn, grid, report.warnings);
     const Fitting fitting = fitting_for(contours, options);
-    const PreparedContours prepared = prepare(contours, fitting.prepare);
+    const PreparedContours prepared = prepare(contours, fitting);
     watch.lap("prepare");
     const Fit fitted = fit(prepared, contours, fitting.fit, progress);
     result.function = fitted.function;
@@ -139,6 +139,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.points = point_count(contours);
     report.quality = options.quality;
     report.voxelizer = options.voxelizer;
+    report.conflicts = fitting.reconcile.conflicts;
     describe_fit(prepared, fitted, fitting.fit, report);
     report.residual = residual(result.function, contours, options.threads);
     describe_crossings(contours, grid, report);

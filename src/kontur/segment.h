@@ -9,6 +9,7 @@
 #include "kontur/base/progress.h"
 #include "kontur/extract/voxelize.h"
 #include "kontur/field/fit.h"
+#include "kontur/field/reconcile.h"
 #include "kontur/field/residual.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
@@ -25,6 +26,7 @@ struct SegmentOptions {
     std::optional<double>
         normal_offset_mm;             ///< length of the normal constraints; unset: 0.3 % of the contours' box diagonal
     std::optional<double> smoothing;  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
+    Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
     double quality = 1.0;             ///< fraction of each contour's points that the fit uses, in (0, 1]
     Solver solver = Solver::automatic;
     double tolerance_mm = 1e-3;  ///< of the iterative solver, at all constraints
@@ -44,6 +46,7 @@ struct SegmentReport {
     Normals normals = Normals::surface;
     double normal_offset_mm = 0;
     double smoothing = 0;
+    Conflicts conflicts = Conflicts::reconcile;
     double quality = 1;
     Solver solver = Solver::automatic;
     Voxelizer voxelizer = Voxelizer::adaptive;

@@ -115,7 +115,8 @@ TEST(Preconditioner, IsTheExactInverseOfASmallSystem) {
             const std::vector<double> w = admissible_weights(points, random);
             std::vector<double> found(w.size());
             const auto pattern = std::make_shared<PreconditionerPattern>(points);
-            Preconditioner(kernel, pattern, diagonal).apply(matrix_times(kernel, points, diagonal, w), found);
+            Preconditioner(kernel, pattern, std::vector(points.size(), diagonal))
+                .apply(matrix_times(kernel, points, diagonal, w), found);
             for (std::size_t i = 0; i < w.size(); ++i) ASSERT_NEAR(found[i], w[i], 1e-5) << name(kernel) << " " << diagonal;
         }
 }
@@ -126,7 +127,8 @@ TEST(Preconditioner, IsSymmetricDefiniteAndTheSameForAnyNumberOfThreads) {
     const PointArrays points = random_points(1500, random);
     const auto made_with = [&](int threads) {
         return Preconditioner(Kernel::triharmonic,
-                              std::make_shared<PreconditionerPattern>(points, PreconditionerOptions{}, threads), 0, threads);
+                              std::make_shared<PreconditionerPattern>(points, PreconditionerOptions{}, threads),
+                              std::vector(points.size(), 0.0), threads);
     };
     const Preconditioner one = made_with(1);
     std::vector<double> a(points.size()), b(points.size()), ma(a.size()), mb(a.size()), again(a.size());
@@ -156,8 +158,9 @@ TEST(Preconditioner, OnePatternServesAllDiagonalsAndKernels) {
     std::vector<double> r(points.size(), 1.0), shared(r.size()), own(r.size());
     for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
         for (const double diagonal : {0.0, 1e-3, 1.0}) {
-            Preconditioner(kernel, pattern, diagonal).apply(r, shared);
-            Preconditioner(kernel, std::make_shared<PreconditionerPattern>(points), diagonal).apply(r, own);
+            Preconditioner(kernel, pattern, std::vector(points.size(), diagonal)).apply(r, shared);
+            Preconditioner(kernel, std::make_shared<PreconditionerPattern>(points), std::vector(points.size(), diagonal))
+                .apply(r, own);
             EXPECT_EQ(shared, own) << name(kernel) << " " << diagonal;
         }
 }

@@ -52,7 +52,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
                                     std::span<const PointConstraint> single_points, const PlaceOptions& options) {
     PlacedConstraints result;
     SpacingFilter filter(options.merge_distance_mm);
-    const auto place = [&](const Vec3& at, double value, ConstraintKind kind) {
+    const auto place = [&](const Vec3& at, double value, ConstraintKind kind, double trust = 1) {
         if (!filter.accept(at)) {
             ++result.merged;
             return false;
@@ -60,15 +60,18 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         result.constraints.centers.push_back(at);
         result.constraints.values.push_back(value);
         result.constraints.kinds.push_back(kind);
+        result.constraints.trust.push_back(trust);
         return true;
     };
 
     const double offset = options.normal_offset_mm;
     std::vector<bool> kept(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) kept[i] = place(points[i].position, 0, ConstraintKind::boundary);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        kept[i] = place(points[i].position, 0, ConstraintKind::boundary, points[i].trust);
     for (std::size_t i = 0; i < points.size(); ++i)
         if (kept[i])
-            place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal);
+            place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal,
+                  points[i].trust);
     for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind);
     return result;
 }

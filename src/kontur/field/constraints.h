@@ -15,6 +15,7 @@ struct BoundaryPoint {
     Vec3 inplane_normal;   ///< unit, outward, in the contour's plane (Eq. 7)
     Vec3 plane_normal;     ///< unit normal of the contour's plane: the direction in which the surface may tilt
     std::int32_t contour;  ///< index into ContourSet::contours
+    double trust = 1;      ///< > 0: how closely the surface is to follow, against smoothness
 };
 
 enum class ConstraintKind : std::uint8_t {
@@ -38,6 +39,7 @@ struct ConstraintSet {
     std::vector<Vec3> centers;
     std::vector<double> values;
     std::vector<ConstraintKind> kinds;
+    std::vector<double> trust;  ///< > 0, the smoothing of a constraint is divided by it; empty: all 1
 
     std::size_t size() const { return centers.size(); }
 };

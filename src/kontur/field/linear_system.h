@@ -13,25 +13,25 @@ namespace kontur {
 /// The interpolation problem in unit-box coordinates, as the solvers see it.
 struct LinearSystem {
     Kernel kernel;
-    double smoothing;
-    PointArrays centers;         ///< unit-box coordinates
-    std::vector<double> values;  ///< mm
+    std::vector<double> smoothing;  ///< of every constraint
+    PointArrays centers;            ///< unit-box coordinates
+    std::vector<double> values;     ///< mm
 
     std::size_t size() const { return values.size(); }
     double entry(std::size_t i, std::size_t j) const {
         const double dx = centers.x[i] - centers.x[j], dy = centers.y[i] - centers.y[j], dz = centers.z[i] - centers.z[j];
         const double phi = kernel_value(kernel, std::sqrt(dx * dx + dy * dy + dz * dz));
-        return i == j ? phi + diagonal() : phi;
+        return i == j ? phi + diagonal(i) : phi;
     }
     /// Smoothing enters with the kernel's sign: it must add to the definite direction.
-    double diagonal() const { return kernel_sign(kernel) * smoothing; }
+    double diagonal(std::size_t i) const { return kernel_sign(kernel) * smoothing[i]; }
 };
 
 struct Coefficients {
     std::vector<double> weights;
     std::array<double, 4> polynomial{};
     int iterations = 0;
-    double residual = 0;              ///< largest |f(c_i) + smoothing w_i - h_i|, in mm
+    double residual = 0;              ///< largest |f(c_i) + smoothing_i w_i - h_i|, in mm
     std::size_t residual_points = 0;  ///< see SolveReport
     double matrix_mb = 0;
     double evaluations = 0;           ///< see SolveReport

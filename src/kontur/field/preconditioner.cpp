@@ -48,10 +48,10 @@ double degree_scale(Kernel kernel, double radius) {
     return kernel == Kernel::triharmonic ? radius * radius * radius : radius;
 }
 
-/// Lower triangle of sign phi + weight (1 + x.y) + diagonal I, as small_cholesky wants it. The polynomial part changes
+/// Lower triangle of sign phi + weight (1 + x.y), as small_cholesky wants it. The polynomial part changes
 /// nothing on weights that satisfy the side conditions and makes the matrix definite on all others.
-KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p, double diagonal, double weight,
-                                             double* __restrict a, int n) {
+KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p, double weight, double* __restrict a,
+                                             int n) {
     const double *x = p.x.data(), *y = p.y.data(), *z = p.z.data();
     const bool cubic = kernel == Kernel::triharmonic;
     const int lead = padded_rows(n);
@@ -63,8 +63,14 @@ KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p
             const double signed_phi = std::sqrt(r2) * (cubic ? r2 : -1.0);
             a[i] = signed_phi + weight * (1 + (x[i] * xj + y[i] * yj + z[i] * zj));
         }
-        a[j] += diagonal;
     }
+}
+
+/// Adds the points' own diagonal entries.
+void add_diagonal(std::span<const double> diagonal, std::span<const std::int32_t> columns, double scale, double* a) {
+    const auto n = static_cast<int>(columns.size());
+    const auto stride = static_cast<std::size_t>(padded_rows(n)) + 1;
+    for (std::size_t j = 0; j < columns.size(); ++j) a[j * stride] += diagonal[static_cast<std::size_t>(columns[j])] / scale;
 }
 
 /// out = rows^T rows in, for m rows of n.
@@ -85,15 +91,17 @@ KONTUR_EVERY_INSTRUCTION_SET void apply_rows(const float* rows, std::int32_t m, 
 
 }  // namespace
 
-Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern, double diagonal,
-                               int threads, const Progress& progress)
+Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern,
+                               std::span<const double> diagonal, int threads, const Progress& progress)
     : pattern_(std::move(pattern)), threads_(threads) {
-    factorise_top(kernel, diagonal);
+    std::vector<double> ordered;
+    for (const std::int32_t point : pattern_->order()) ordered.push_back(diagonal[static_cast<std::size_t>(point)]);
+    factorise_top(kernel, ordered);
     progress.check();
-    factorise_supernodes(kernel, diagonal, progress);
+    factorise_supernodes(kernel, ordered, progress);
 }
 
-void Preconditioner::factorise_top(Kernel kernel, double diagonal) {
+void Preconditioner::factorise_top(Kernel kernel, std::span<const double> diagonal) {
     const int top = pattern_->top();
     std::vector<std::int32_t> columns(static_cast<std::size_t>(top));
     std::iota(columns.begin(), columns.end(), 0);
@@ -102,13 +110,14 @@ void Preconditioner::factorise_top(Kernel kernel, double diagonal) {
     const double scale = degree_scale(kernel, local.radius);
     top_scale_ = 1 / scale;
     top_factor_.resize(columns.size() * static_cast<std::size_t>(padded_rows(top)));
-    fill_local(kernel, local, diagonal / scale, pattern_->options().polynomial_weight, top_factor_.data(), top);
+    fill_local(kernel, local, pattern_->options().polynomial_weight, top_factor_.data(), top);
+    add_diagonal(diagonal, columns, scale, top_factor_.data());
     if (!small_cholesky(top_factor_.data(), top))
         throw Error(ErrorKind::singular_system,
                     "the coarse part of the system is not positive definite; constraints coincide");
 }
 
-void Preconditioner::factorise_supernodes(Kernel kernel, double diagonal, const Progress& progress) {
+void Preconditioner::factorise_supernodes(Kernel kernel, std::span<const double> diagonal, const Progress& progress) {
     const std::vector<PreconditionerPattern::Supernode>& nodes = pattern_->supernodes();
     rows_begin_.resize(nodes.size() + 1);
     for (std::size_t s = 0; s < nodes.size(); ++s)
@@ -125,7 +134,8 @@ void Preconditioner::factorise_supernodes(Kernel kernel, double diagonal, const 
             const double scale = degree_scale(kernel, local.radius);
             matrix.resize(static_cast<std::size_t>(padded_rows(n)) * static_cast<std::size_t>(n));
             inverse_rows.resize(rows_begin_[s + 1] - rows_begin_[s]);
-            fill_local(kernel, local, diagonal / scale, pattern_->options().polynomial_weight, matrix.data(), n);
+            fill_local(kernel, local, pattern_->options().polynomial_weight, matrix.data(), n);
+            add_diagonal(diagonal, pattern_->columns(nodes[s]), scale, matrix.data());
             if (!small_cholesky(matrix.data(), n)) continue;  // its rows stay zero: no preconditioning of these points
             last_rows_of_inverse(matrix.data(), n, nodes[s].members, inverse_rows.data());
             const double factor = 1 / std::sqrt(scale);

@@ -70,9 +70,9 @@ private:
 /// coarsest points are factorised densely, which carries the global part. O(n) memory; set-up O(n k^2) for k neighbours.
 class Preconditioner {
 public:
-    /// `sign` * phi + `diagonal` on the pattern's points is the matrix; see kernel_sign.
-    Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern, double diagonal, int threads = 0,
-                   const Progress& progress = {});
+    /// `sign` * phi on the pattern's points, and `diagonal` (one per given point) added, is the matrix; see kernel_sign.
+    Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern, std::span<const double> diagonal,
+                   int threads = 0, const Progress& progress = {});
 
     /// z = M^-1 r. The same bytes for any number of threads.
     void apply(std::span<const double> r, std::span<double> z) const;
@@ -80,8 +80,8 @@ public:
     double megabytes() const;
 
 private:
-    void factorise_top(Kernel kernel, double diagonal);
-    void factorise_supernodes(Kernel kernel, double diagonal, const Progress& progress);
+    void factorise_top(Kernel kernel, std::span<const double> diagonal);
+    void factorise_supernodes(Kernel kernel, std::span<const double> diagonal, const Progress& progress);
 
     std::shared_ptr<const PreconditionerPattern> pattern_;
     int threads_;

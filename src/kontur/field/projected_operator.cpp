@@ -64,7 +64,7 @@ Vector ProjectedOperator::image(const KernelMatrix& matrix, const Vector& w) con
     Vector out(w.size());
     matrix.multiply(w, out);
     const double sign = kernel_sign(system_.kernel);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = sign * out[i] + system_.smoothing * w[i];
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = sign * out[i] + system_.smoothing[i] * w[i];
     return out;
 }
 
@@ -105,7 +105,8 @@ double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image
         Vector exact(points.size());
         sum_kernel(system_.kernel, system_.centers, w, PointArrays(positions), exact, options_.threads);
         for (std::size_t s = 0; s < points.size(); ++s)
-            largest = std::max(largest, std::abs(sign * exact[s] + system_.smoothing * w[points[s]] - image[points[s]]));
+            largest = std::max(largest,
+                               std::abs(sign * exact[s] + system_.smoothing[points[s]] * w[points[s]] - image[points[s]]));
     }
     return largest;
 }

@@ -33,6 +33,11 @@ void check(const ConstraintSet& constraints, const SolveOptions& options) {
     for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!is_finite(constraints.centers[i]) || !std::isfinite(constraints.values[i]))
             throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
+    for (std::size_t i = 0; i < constraints.trust.size(); ++i)
+        if (!(constraints.trust[i] > 0 && std::isfinite(constraints.trust[i])))
+            throw Error(ErrorKind::invalid_input, "the trust in constraint " + std::to_string(i + 1) + " is " +
+                                                      std::to_string(constraints.trust[i]) +
+                                                      "; it must be finite and above 0");
     check_distinct(constraints.centers);
     if (!(options.tolerance_mm > 0))
         throw Error(ErrorKind::invalid_input,
@@ -61,6 +66,12 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
     return c;
 }
 
+std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options) {
+    std::vector<double> smoothing(constraints.size(), options.smoothing);
+    for (std::size_t i = 0; i < constraints.trust.size(); ++i) smoothing[i] /= constraints.trust[i];
+    return smoothing;
+}
+
 }  // namespace
 
 std::string_view name(Solver solver) noexcept {
@@ -86,8 +97,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     progress.check();
 
     const UnitFrame frame = unit_frame(constraints.centers);
-    const LinearSystem system{options.kernel, options.smoothing, PointArrays(frame.to_unit(constraints.centers)),
-                              constraints.values};
+    const LinearSystem system{options.kernel, smoothing_of(constraints, options),
+                              PointArrays(frame.to_unit(constraints.centers)), constraints.values};
     static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane, which dsysv may not notice
     Coefficients c = run(system, options, progress);
     for (const double w : c.weights)

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/reconcile.h"
+
+#include <algorithm>
+
+namespace kontur {
+namespace {
+
+/// A place about which a contour is not trusted.
+struct Doubt {
+    Vec3 position, other_position;
+    double radius_mm;
+    double weight;  ///< added to 1 in the middle
+};
+
+std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> crossings, const ReconcileOptions& options) {
+    std::vector<std::vector<Doubt>> doubts;
+    const auto add = [&](std::size_t contour, const Doubt& doubt) {
+        if (doubts.size() <= contour) doubts.resize(contour + 1);
+        doubts[contour].push_back(doubt);
+    };
+    for (const Crossing& crossing : crossings) {
+        if (!crossing.matched || !(crossing.disagreement_mm > 0)) continue;
+        const double relative = crossing.disagreement_mm / options.offset_mm;
+        const Doubt doubt{crossing.position, crossing.other_position, options.reach * crossing.disagreement_mm,
+                          options.strength * relative * relative};
+        add(std::min(crossing.contour, crossing.other), doubt);
+        if (options.conflicts == Conflicts::reconcile) add(std::max(crossing.contour, crossing.other), doubt);
+    }
+    return doubts;
+}
+
+double trust_at(const Vec3& p, const std::vector<Doubt>& doubts) {
+    double doubted = 0;
+    for (const Doubt& doubt : doubts) {
+        const double away = std::min(distance(p, doubt.position), distance(p, doubt.other_position));
+        doubted = std::max(doubted, doubt.weight * (1 - away / doubt.radius_mm));
+    }
+    return 1 / (1 + doubted);
+}
+
+}  // namespace
+
+std::string_view name(Conflicts conflicts) noexcept {
+    switch (conflicts) {
+        case Conflicts::reconcile:
+            return "reconcile";
+        case Conflicts::newest_wins:
+            return "newest-wins";
+        case Conflicts::exact:
+            return "exact";
+    }
+    return "?";
+}
+
+void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options) {
+    if (options.conflicts == Conflicts::exact) return;
+    const std::vector<std::vector<Doubt>> doubts = doubts_by_contour(crossings, options);
+    for (BoundaryPoint& point : points)
+        if (const auto contour = static_cast<std::size_t>(point.contour); contour < doubts.size())
+            point.trust *= trust_at(point.position, doubts[contour]);
+}
+
+}  // namespace kontur

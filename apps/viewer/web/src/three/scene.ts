@@ -33,7 +33,7 @@ export class Scene {
   private readonly center: Vec3;
   private queued = false;
   private aspect = 1;
-  private framed = false;
+  private touched = false; // the user has turned, zoomed or shifted the view: it stays as he wants it
 
   /** Throws where the browser has no WebGL. */
   constructor(
@@ -48,6 +48,7 @@ export class Scene {
     this.controls = new TrackballControls(this.camera, canvas);
     Object.assign(this.controls, { rotateSpeed: 3, zoomSpeed: 1.2, panSpeed: 0.9, staticMoving: true });
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => (this.touched = true));
     this.viewFrom([0.55, -1, 0.45], this.center, this.extent_mm);
     canvas.addEventListener("pointermove", () => this.controls.update());
     canvas.addEventListener("wheel", () => requestAnimationFrame(() => this.controls.update()));
@@ -72,7 +73,7 @@ export class Scene {
     const mesh = this.surfaces.get(structure) ?? this.addMesh(structure);
     mesh.geometry.dispose();
     mesh.geometry = geometry;
-    if (!this.framed) this.frame();
+    if (!this.touched && !this.isInSight()) this.frame();
     this.draw();
   }
 
@@ -152,13 +153,23 @@ export class Scene {
 
   /** Turns the camera to look at the surfaces, or at the whole image without any. */
   frame(): void {
+    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
+    const sphere = this.surfaceSphere();
+    if (!sphere) return this.viewFrom(towards.toArray(), this.center, this.extent_mm);
+    this.viewFrom(towards.toArray(), sphere.center.toArray(), sphere.radius * 1.05);
+  }
+
+  private surfaceSphere(): THREE.Sphere | null {
     const box = new THREE.Box3();
     for (const mesh of this.surfaces.values()) if (mesh.visible) box.expandByObject(mesh);
-    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
-    if (box.isEmpty()) return this.viewFrom(towards.toArray(), this.center, this.extent_mm);
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    this.framed = true;
-    this.viewFrom(towards.toArray(), sphere.center.toArray(), sphere.radius * 1.35);
+    return box.isEmpty() ? null : box.getBoundingSphere(new THREE.Sphere());
+  }
+
+  /** Whether the surfaces lie within the view and fill a good part of it. */
+  private isInSight(): boolean {
+    const sphere = this.surfaceSphere();
+    if (!sphere) return true;
+    return sphere.center.distanceTo(this.controls.target) + sphere.radius <= 1.1 * this.radius && sphere.radius > 0.3 * this.radius;
   }
 
   /** Looks from this direction (LPS), head up. */

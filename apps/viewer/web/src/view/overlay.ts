@@ -15,6 +15,7 @@ export class OverlayPainter {
   constructor(
     private readonly ctx: CanvasRenderingContext2D,
     private readonly screen: Screen,
+    private readonly fontPixels = 13,
   ) {}
 
   /** Where the computed surfaces cut the plane: thin, filled. */
@@ -124,17 +125,16 @@ export class OverlayPainter {
   }
 
   scaleBar(): void {
-    const { ctx, screen } = this;
+    const { screen } = this;
     const bar = scaleBar(screen.mm_per_pixel, Math.min(140, screen.width / 3));
     const x = 12, y = screen.height - 13;
     const path = new Path2D(`M${x} ${y - 4}V${y}H${x + bar.pixels}V${y - 4}`);
     this.stroke(path, SHADE, 4);
     this.stroke(path, INK, 1.5);
-    ctx.font = "11px system-ui, sans-serif";
-    this.text(bar.label, [x + 1, y - 7], "left", "bottom", "11px system-ui, sans-serif");
+    this.text(bar.label, [x + 1, y - 7], "left", "bottom", `${0.85 * this.fontPixels}px system-ui, sans-serif`);
   }
 
-  private text(text: string, [x, y]: Point2, align: CanvasTextAlign, baseline: CanvasTextBaseline, font = "600 13px system-ui, sans-serif"): void {
+  private text(text: string, [x, y]: Point2, align: CanvasTextAlign, baseline: CanvasTextBaseline, font = `600 ${this.fontPixels}px system-ui, sans-serif`): void {
     const { ctx } = this;
     ctx.font = font;
     ctx.textAlign = align;

@@ -51,6 +51,7 @@ export class SliceView {
   private paintQueued = false;
   private width = 0;
   private height = 0;
+  private fontPixels = 13;
 
   constructor(
     readonly name: ViewName,
@@ -124,6 +125,7 @@ export class SliceView {
     if (box.width === this.width && box.height === this.height) return;
     this.width = box.width;
     this.height = box.height;
+    this.fontPixels = Number.parseFloat(getComputedStyle(this.element).fontSize);
     const ratio = this.ratio();
     for (const canvas of [this.image, this.overlay]) {
       canvas.width = Math.round(this.width * ratio);
@@ -231,7 +233,7 @@ export class SliceView {
     const ratio = this.ratio();
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
-    const painter = new OverlayPainter(context, screen);
+    const painter = new OverlayPainter(context, screen, this.fontPixels);
     if (this.slice && areParallel(this.slice.plane, screen.axes)) {
       const { header, outlinePoints, crossingPoints, plane } = this.slice;
       const shown = { ...header, outlines: header.outlines.filter(({ structure }) => project.structures.get(structure)?.visible) };

@@ -12,7 +12,7 @@
 namespace kontur {
 namespace {
 
-constexpr double kStride = 4;  ///< along the axis with the smallest spacing; 3 and 5 need more values
+constexpr double kStride = 4;  ///< in units of the geometric mean of the spacings; 3 and 5 need more values
 // Smaller objects have fewer corners on their surface than the coarse lattice needs nodes.
 constexpr double kLeastExtentVoxels = 20;
 
@@ -23,15 +23,16 @@ constexpr double kDoubtPerError = 2;
 constexpr int kPasses = 4;
 // Coarse cells without a change of sign are looked into when a corner is this close, in coarse spacings: the surface can
 // bulge through a face.
-constexpr double kBulge = 0.45;
+constexpr double kBulge = 0.25;
 
-// Error of the fast function in voxels; values below what it is found to be are computed by the direct sum.
+// Error of the fast function in voxels; values below a part of what it is found to be are computed by the direct sum.
 constexpr double kFastTolerance = 0.02;
+constexpr double kUnsurePerError = 0.5;  ///< the largest error of hundreds is about three standard deviations
 
 /// The stride that brings each axis close to the same coarse spacing in mm.
 Index3 strides(const Grid& grid) {
     const Vec3 spacing = grid.spacing_mm();
-    const double target = kStride * std::min({spacing.x, spacing.y, spacing.z});
+    const double target = kStride * std::cbrt(spacing.x * spacing.y * spacing.z);
     Index3 stride;
     for (int axis = 0; axis < 3; ++axis) stride[axis] = std::max<std::int64_t>(1, std::llround(target / spacing[axis]));
     return stride;
@@ -230,7 +231,7 @@ private:
         std::vector<std::size_t> unsure;
         std::vector<Vec3> positions;
         for (std::size_t i = 0; i < points.size(); ++i)
-            if (std::abs(values[i]) <= fast_.error_mm()) {
+            if (std::abs(values[i]) <= kUnsurePerError * fast_.error_mm()) {
                 unsure.push_back(i);
                 positions.push_back(points[i]);
             }

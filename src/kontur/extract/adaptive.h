@@ -10,12 +10,13 @@
 namespace kontur {
 
 /// What track_surface finds, from about a quarter of the function values. The surface is followed first on a coarse lattice
-/// (every fourth voxel, fewer along axes with a larger spacing); in the coarse cells that it passes, values are interpolated
-/// by cubics and computed where that leaves the sign in doubt. How large a value may be and still be in doubt follows from
-/// the interpolation's errors where f is known: at the starts, where it is 0, and at every value computed. Then the surface
-/// is tracked on the full lattice as track_surface does; values that are still missing are computed. So no sheet or bubble
-/// away from the starts is found, no component that a start touches is lost, and masks differ from track_surface's in single
-/// voxels within a fraction of a percent of a voxel of the surface. Objects of few voxels are left to track_surface.
+/// (about every fourth voxel, more or fewer along axes with another spacing); in the coarse cells that it passes, values are
+/// interpolated by cubics and computed where that leaves the sign in doubt. How large a value may be and still be in doubt
+/// follows from the interpolation's errors where f is known: at the starts, where it is 0, and at every value computed. Then
+/// the surface is tracked on the full lattice as track_surface does; values that are still missing are computed. So no sheet
+/// or bubble away from the starts is found, no component that a start touches is lost, and masks differ from track_surface's
+/// in single voxels within a fraction of a percent of a voxel of the surface. Objects of few voxels are left to
+/// track_surface.
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         int threads, const Progress& progress = {});
 

@@ -110,6 +110,9 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
                         "Direction of the surface at a contour: from all contours together, or the contour's alone");
     sub.add_option("--normal-offset-mm", o.normal_offset_mm, "Length of the normal constraints [from the contours' extent]")
         ->type_name("MM");
+    add_choice<FillRule>(sub, "--fill-rule", o.fill_rule,
+                         {{"even-odd", FillRule::even_odd}, {"declared", FillRule::declared}},
+                         "Contours inside others: every other one is a hole, or only those declared to be one");
     sub.add_option("--quality", o.quality, "Fraction of each contour's points to fit, above 0 up to 1")
         ->type_name("Q")
         ->capture_default_str();

@@ -213,8 +213,6 @@ PreparedContours
 Parameters
 ----------
 prepared : PreparedContours
-contours : ContourSet
-    Gives the interior and exterior points.
 progress, stop : optional
     As for `segment`.
 @options
@@ -223,12 +221,12 @@ Returns
 -------
 Fit
 )",
-        [fitting](const PreparedContours& prepared, const ContourSet& contours, const py::object& progress,
-                  const py::object& stop, const py::kwargs& given) {
+        [fitting](const PreparedContours& prepared, const py::object& progress, const py::object& stop,
+                  const py::kwargs& given) {
             const FitOptions options = fitting.parse("fit", given);
-            return run({progress, stop}, [&](const Progress& p) { return fit(prepared, contours, options, p); });
+            return run({progress, stop}, [&](const Progress& p) { return fit(prepared, options, p); });
         },
-        py::arg("prepared"), py::arg("contours"), py::kw_only(), kProgress, kStop, KeywordText(fitting));
+        py::arg("prepared"), py::kw_only(), kProgress, kStop, KeywordText(fitting));
     const auto solving = solve_keywords();
     define(
         m, "solve", R"(The variational interpolant through constraints (Turk and O'Brien 2002).

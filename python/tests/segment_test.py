@@ -29,7 +29,7 @@ def test_the_kidney(case, kidney):
 def test_the_stages_make_what_segment_makes(case, kidney):
     diagonal = numpy.linalg.norm(numpy.diff(case.contours.bounding_box, axis=0))
     prepared = kontur.prepare(case.contours)
-    fitted = kontur.fit(prepared, case.contours, normal_offset_mm=kidney.report.normal_offset_mm,
+    fitted = kontur.fit(prepared, normal_offset_mm=kidney.report.normal_offset_mm,
                         merge_distance_mm=4e-4 * diagonal, smoothing=kidney.report.smoothing)
     starts = numpy.concatenate([contour.points for contour in case.contours.contours])
     surface = kontur.track_surface_adaptively(fitted.function, case.grid, starts)

@@ -14,9 +14,10 @@ constexpr double kPreviewTolerance = 50;  // times that of the refined surface
 constexpr double kSpacingFraction = 1.0 / 150;
 
 /// The contours as `segment` sees them.
-ContourSet cleaned(ContourSet contours) {
+ContourSet cleaned(ContourSet contours, FillRule fill_rule) {
     drop_duplicate_points(contours);
     check_contours(contours);
+    apply_fill_rule(contours, fill_rule);
     return contours;
 }
 
@@ -44,19 +45,24 @@ double Editor::preview_spacing(const ContourSet& contours) const {
 
 /// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.
 std::vector<double> Editor::known_slopes(const ContourSet& contours, const PreparedContours& prepared) const {
-    std::vector<double> slopes(prepared.points.size(), 1.0);
-    bool any = false;
-    auto point = prepared.points.begin();
-    for (std::size_t c = 0; c < contours.contours.size(); ++c) {
-        const auto end = std::find_if(point, prepared.points.end(),
-                                      [&](const BoundaryPoint& p) { return p.contour != static_cast<std::int32_t>(c); });
+    const std::size_t count = contours.contours.size();
+    std::vector<std::size_t> points(count, 0), used(count, 0);
+    for (const BoundaryPoint& p : prepared.points)
+        if (p.contour != kNoContour) ++points[static_cast<std::size_t>(p.contour)];
+    std::vector<const Known*> matches(count, nullptr);
+    for (std::size_t c = 0; c < count; ++c) {
         const auto known = std::find_if(known_.begin(), known_.end(),
                                         [&](const Known& k) { return same_drawing(k.contour, contours.contours[c]); });
-        if (known != known_.end() && static_cast<std::ptrdiff_t>(known->slopes.size()) == end - point) {
-            std::copy(known->slopes.begin(), known->slopes.end(), slopes.begin() + (point - prepared.points.begin()));
-            any = true;
-        }
-        point = end;
+        if (known != known_.end() && known->slopes.size() == points[c]) matches[c] = &*known;
+    }
+    std::vector<double> slopes(prepared.points.size(), 1.0);
+    bool any = false;
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        if (prepared.points[i].contour == kNoContour) continue;
+        const auto c = static_cast<std::size_t>(prepared.points[i].contour);
+        if (!matches[c]) continue;
+        slopes[i] = matches[c]->slopes[used[c]++];
+        any = true;
     }
     return any ? slopes : std::vector<double>();
 }
@@ -65,12 +71,13 @@ void Editor::remember(const ContourSet& contours, const PreparedContours& prepar
     known_.clear();
     for (const Contour& contour : contours.contours) known_.push_back({contour, {}});
     for (std::size_t i = 0; i < prepared.points.size(); ++i)
-        known_[static_cast<std::size_t>(prepared.points[i].contour)].slopes.push_back(slopes[i]);
+        if (prepared.points[i].contour != kNoContour)
+            known_[static_cast<std::size_t>(prepared.points[i].contour)].slopes.push_back(slopes[i]);
 }
 
 EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress) {
     if (drawn.contours.empty()) return {};
-    const ContourSet contours = cleaned(drawn);
+    const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
     Fitting fitting = fitting_for(contours, options_.segment);
     const PreparedContours prepared = prepare(contours, fitting);
     fitting.fit.most_points = options_.preview_points;
@@ -79,7 +86,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress)
     fitting.fit.early_tolerance_factor = 2;
     fitting.fit.start_slopes = known_slopes(contours, prepared);
     if (!fitting.fit.start_slopes.empty()) fitting.fit.rounds = std::min(fitting.fit.rounds, 1);
-    const Fit fitted = fit(prepared, contours, fitting.fit, progress);
+    const Fit fitted = fit(prepared, fitting.fit, progress);
     EditedSurface surface =
         surface_of(fitted, contours, prepared, preview_spacing(contours), options_.segment.threads, progress);
     remember(contours, prepared, fitted.slopes);
@@ -90,12 +97,12 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) 
     EditedSurface surface;
     surface.refined = true;
     if (drawn.contours.empty()) return surface;
-    const ContourSet contours = cleaned(drawn);
+    const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
     const Fitting fitting = fitting_for(contours, options_.segment);
     const PreparedContours prepared = prepare(contours, fitting);
     const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 2;
-    surface = surface_of(fit(prepared, contours, fitting.fit, progress), contours, prepared, spacing_mm,
-                         options_.segment.threads, progress);
+    surface =
+        surface_of(fit(prepared, fitting.fit, progress), contours, prepared, spacing_mm, options_.segment.threads, progress);
     surface.refined = true;
     surface.residual = residual(surface.function, contours, options_.segment.threads);
     return surface;

@@ -34,10 +34,12 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
 
 /// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
 PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
-    PrepareOptions prepare{.quality = options.quality};
+    PrepareOptions prepare{
+        .quality = options.quality, .fill_rule = options.fill_rule, .click_margin_mm = fitting.place.normal_offset_mm};
     if (options.normals == Normals::in_plane) {
         prepare.least_segments = 0;
         prepare.caps = false;
+        prepare.gaps = false;
         prepare.copy_shift_mm = fitting.place.normal_offset_mm;
     }
     return prepare;

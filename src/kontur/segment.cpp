@@ -11,6 +11,7 @@
 #include "kontur/base/error.h"
 #include "kontur/extract/adaptive.h"
 #include "kontur/extract/polygonize.h"
+#include "kontur/field/clicks.h"
 #include "kontur/fitting.h"
 #include "kontur/measure/components.h"
 
@@ -33,13 +34,26 @@ private:
     Clock::time_point last_ = Clock::now();
 };
 
-/// The contours without repeated points, checked, with a word on what was changed.
-ContourSet cleaned(ContourSet set, const Grid& grid, std::vector<std::string>& warnings) {
+void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+void note_filling(const FillChanges& changes, std::vector<std::string>& warnings) {
+    if (changes.holes > 0) warnings.push_back(fmt::format("{} contours inside others became holes", changes.holes));
+    if (changes.removed > 0)
+        warnings.push_back(fmt::format("{} contours inside the object were left out: they are not holes", changes.removed));
+    for (const auto& [a, b] : changes.crossings)
+        warnings.push_back(fmt::format("contours {} and {} overlap in part", a + 1, b + 1));
+}
+
+/// The contours without repeated points, checked, with their holes found and a word on what was changed.
+ContourSet cleaned(ContourSet set, const Grid& grid, FillRule fill_rule, std::vector<std::string>& warnings) {
     if (const std::size_t dropped = drop_duplicate_points(set); dropped > 0)
         warnings.push_back(fmt::format("{} repeated points were left out", dropped));
     check_contours(set);
     check_grid(grid);
     if (const auto warning = check_contours_inside(set, grid)) warnings.push_back(*warning);
+    note_filling(apply_fill_rule(set, fill_rule), warnings);
     return set;
 }
 
@@ -120,11 +134,11 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     SegmentReport& report = result.report;
     Stopwatch watch(report.seconds);
 
-    const ContourSet contours = cleaned(drawn, grid, report.warnings);
+    const ContourSet contours = cleaned(drawn, grid, options.fill_rule, report.warnings);
     const Fitting fitting = fitting_for(contours, options);
     const PreparedContours prepared = prepare(contours, fitting);
     watch.lap("prepare");
-    const Fit fitted = fit(prepared, contours, fitting.fit, progress);
+    const Fit fitted = fit(prepared, fitting.fit, progress);
     result.function = fitted.function;
     watch.lap("fit");
     const SurfaceLattice surface = find_surface(result.function, grid, start_points(contours, prepared), options, progress);
@@ -140,6 +154,8 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.quality = options.quality;
     report.voxelizer = options.voxelizer;
     report.conflicts = fitting.reconcile.conflicts;
+    append(report.warnings, prepared.notes);
+    append(report.warnings, missed_clicks(contours, result.function));
     describe_fit(prepared, fitted, fitting.fit, report);
     report.residual = residual(result.function, contours, options.threads);
     describe_crossings(contours, grid, report);

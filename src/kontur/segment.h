@@ -12,6 +12,7 @@
 #include "kontur/field/reconcile.h"
 #include "kontur/field/residual.h"
 #include "kontur/shape/contour.h"
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/volume.h"
@@ -27,7 +28,8 @@ struct SegmentOptions {
         normal_offset_mm;             ///< length of the normal constraints; unset: 0.3 % of the contours' box diagonal
     std::optional<double> smoothing;  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
     Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
-    double quality = 1.0;             ///< fraction of each contour's points that the fit uses, in (0, 1]
+    FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
+    double quality = 1.0;                        ///< fraction of each contour's points that the fit uses, in (0, 1]
     Solver solver = Solver::automatic;
     double tolerance_mm = 1e-3;  ///< of the iterative solver, at all constraints
     Voxelizer voxelizer = Voxelizer::adaptive;

@@ -80,7 +80,7 @@ const ImplicitFunction& crossing_function() {
         FitOptions options;
         options.place.normal_offset_mm = 0.2;
         options.solve.smoothing = 1e-5;
-        return fit(prepare(set), set, options).function;
+        return fit(prepare(set), options).function;
     }();
     return function;
 }

@@ -36,9 +36,9 @@ TEST(Fit, FindsTheTiltOfTheSurfaceFromAllContoursTogether) {
         const PhantomCase c = phantom_case(name);
         const PreparedContours prepared = prepare(c.contours, {.least_segments = 0});
         FitOptions options = options_for(c);
-        const Fit surface = fit(prepared, c.contours, options);
+        const Fit surface = fit(prepared, options);
         options.normals = Normals::in_plane;
-        const Fit in_plane = fit(prepared, c.contours, options);
+        const Fit in_plane = fit(prepared, options);
         EXPECT_LT(mean_tilt_error(c, prepared, surface), 1.5) << name;
         EXPECT_GT(mean_tilt_error(c, prepared, in_plane), 8) << name << " leaves something to find";
         EXPECT_LT(surface.tilt_change_degrees, 1) << name;
@@ -56,7 +56,7 @@ TEST(Fit, FewIterationsOnThePapersLargestCase) {
     const PhantomCase c = phantom_case("liver_orthogonal14");
     FitOptions options = options_for(c);
     options.rounds = 1;
-    const Fit fitted = fit(prepare(c.contours), c.contours, options);
+    const Fit fitted = fit(prepare(c.contours), options);
     EXPECT_GT(fitted.constraints, 13000u);
     EXPECT_LE(fitted.iterations, 15 * fitted.solves);
 }

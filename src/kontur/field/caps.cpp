@@ -5,37 +5,13 @@
 #include <array>
 #include <optional>
 
-#include "kontur/shape/section.h"
+#include "kontur/field/section_probes.h"
+#include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 namespace {
 
 constexpr double kParallel = 0.995;  // cosine between normals: planes tilted by less than 6 degrees count as parallel
-
-/// A point well inside of a section.
-struct Probe {
-    Point2 at;
-    double depth;  ///< distance to the nearest outline
-};
-
-/// A lattice of some hundred points over the section, those inside of it.
-std::vector<Probe> probes(const Section& section) {
-    Point2 low{1e300, 1e300}, high{-1e300, -1e300};
-    for (const Polygon2& outline : section.outlines)
-        for (const Point2& p : outline)
-            for (std::size_t axis = 0; axis < 2; ++axis) {
-                low[axis] = std::min(low[axis], p[axis]);
-                high[axis] = std::max(high[axis], p[axis]);
-            }
-    const double width = high[0] - low[0], height = high[1] - low[1];
-    const double step = std::max(std::sqrt(width * height / 150), std::max(width, height) / 100);
-    std::vector<Probe> result;
-    for (double v = low[1] + step / 2; v < high[1]; v += step)
-        for (double u = low[0] + step / 2; u < high[0]; u += step)
-            if (const Point2 at{u, v}; section.contains(at))
-                if (const double depth = section.clearance(at); depth > step / 2) result.push_back({at, depth});
-    return result;
-}
 
 /// One side of a section's plane.
 class Side {
@@ -132,6 +108,11 @@ bool is_incomplete(const Section& section, const std::vector<Section>& sections,
     return false;
 }
 
+bool has_open_contour(const ContourSet& set, const Plane& plane, double tolerance) {
+    return std::any_of(set.contours.begin(), set.contours.end(),
+                       [&](const Contour& c) { return !c.closed && coincide(c.plane, plane, tolerance); });
+}
+
 void append_leak_probes(const Section& section, const Box3& box, double step, std::vector<Cap>& probes) {
     const Point2 center = section.plane.to_uv(box.center());
     const int reach = static_cast<int>(std::ceil(box.diagonal() / 2 / step));
@@ -165,7 +146,8 @@ std::vector<Cap> find_leak_probes(const ContourSet& set) {
     const Box3 box = bounding_box(set).padded(diagonal / 3);
     const std::vector<Section> sections = sections_of(set, 1e-3 * diagonal);
     for (const Section& section : sections)
-        if (!is_incomplete(section, sections, 0.05 * diagonal)) append_leak_probes(section, box, diagonal / 24, probes);
+        if (!has_open_contour(set, section.plane, 1e-3 * diagonal) && !is_incomplete(section, sections, 0.05 * diagonal))
+            append_leak_probes(section, box, diagonal / 24, probes);
     return probes;
 }
 

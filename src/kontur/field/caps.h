@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <vector>
 
+#include "kontur/field/constraints.h"
 #include "kontur/shape/contour.h"
 
 namespace kontur {
 
-/// A point that the object should not reach: f must not exceed `most_mm` there.
+/// A point where f is bounded: it should not exceed `most_mm` nor fall below `least_mm`.
 struct Cap {
     Vec3 position;
     double most_mm;
     double value_mm;  ///< what is prescribed if it does
+    double least_mm = -std::numeric_limits<double>::infinity();
+    bool from_start = false;  ///< prescribed whether or not it does
+    ConstraintKind kind = ConstraintKind::cap;
+
+    bool allows(double f) const { return f >= least_mm && f <= most_mm; }
 };
 
 /// Limits to extrapolation. Contours say nothing about the space beyond the last of them, where a smooth interpolant runs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/constraints.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace kontur {
@@ -64,14 +65,15 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         return true;
     };
 
-    const double offset = options.normal_offset_mm;
     std::vector<bool> kept(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         kept[i] = place(points[i].position, 0, ConstraintKind::boundary, points[i].trust);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (kept[i])
-            place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal,
-                  points[i].trust);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
+        const double offset = std::min(options.normal_offset_mm, points[i].gap_mm / 2);
+        place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal,
+              points[i].trust);
+    }
     for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind);
     return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -9,13 +10,16 @@
 
 namespace kontur {
 
-/// A point of a contour that takes part in the fit, with what its contour says about the surface there.
+inline constexpr std::int32_t kNoContour = -1;
+
+/// A point of the surface that takes part in the fit, with what was drawn of the surface's direction there.
 struct BoundaryPoint {
-    Vec3 position;         ///< mm
-    Vec3 inplane_normal;   ///< unit, outward, in the contour's plane (Eq. 7)
-    Vec3 plane_normal;     ///< unit normal of the contour's plane: the direction in which the surface may tilt
-    std::int32_t contour;  ///< index into ContourSet::contours
-    double trust = 1;      ///< > 0: how closely the surface is to follow, against smoothness
+    Vec3 position;           ///< mm
+    Vec3 inplane_normal{};   ///< unit, outward, in the contour's plane (Eq. 7); zero: not known, no normal constraint
+    Vec3 plane_normal{};     ///< unit normal of the contour's plane: where the surface may tilt; zero: it may not
+    std::int32_t contour{};  ///< index into ContourSet::contours; kNoContour for a single point
+    double trust = 1;        ///< > 0: how closely the surface is to follow, against smoothness
+    double gap_mm = std::numeric_limits<double>::infinity();  ///< along the normal to the next drawn line of the plane
 };
 
 enum class ConstraintKind : std::uint8_t {
@@ -55,9 +59,10 @@ struct PlacedConstraints {
 };
 
 /// Boundary constraints f = 0 at all points, and for each one normal constraint f = -d s at the distance d outside along
-/// its in-plane normal; then the single points. `slopes` holds s in (0, 1], one per
-/// point: how fast f falls along the in-plane normal, which for a distance-like f is the cosine of the surface's tilt
-/// against the contour's plane. All ones is the paper's choice.
+/// its in-plane normal; then the single points. The distance is the offset, but no more than half of the point's gap, so
+/// that in a narrow cleft each wall keeps its side. `slopes` holds s in (0, 1], one per point: how fast f falls along the
+/// in-plane normal, which for a distance-like f is the cosine of the surface's tilt against the contour's plane. All ones
+/// is the paper's choice.
 ///
 /// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
 /// distance of an earlier one is dropped; boundary constraints come first and win.

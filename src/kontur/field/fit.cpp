@@ -71,18 +71,12 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
     return change / static_cast<double>(after.size()) * 180 / M_PI;
 }
 
-std::vector<PointConstraint> interior_and_exterior(const ContourSet& set, double offset_mm) {
-    std::vector<PointConstraint> points;
-    for (const Vec3& p : set.interior) points.push_back({p, offset_mm, ConstraintKind::interior});
-    for (const Vec3& p : set.exterior) points.push_back({p, -offset_mm, ConstraintKind::exterior});
-    return points;
-}
-
 /// The caps and leak probes, and which of them have become constraints.
 class ActiveCaps {
 public:
     explicit ActiveCaps(const PreparedContours& contours) : caps_(contours.caps) {
-        active_.assign(caps_.size(), contours.coplanar);
+        for (const Cap& cap : caps_)
+            active_.push_back(cap.from_start || (contours.coplanar && cap.kind == ConstraintKind::cap));
         caps_.insert(caps_.end(), contours.leak_probes.begin(), contours.leak_probes.end());
         active_.resize(caps_.size(), false);
         for (const Cap& cap : caps_) positions_.push_back(cap.position);
@@ -93,13 +87,13 @@ public:
         std::vector<double> values(caps_.size());
         function.values(positions_, values, threads);
         const std::size_t before = count();
-        for (std::size_t i = 0; i < caps_.size(); ++i) active_[i] = active_[i] || values[i] > caps_[i].most_mm;
+        for (std::size_t i = 0; i < caps_.size(); ++i) active_[i] = active_[i] || !caps_[i].allows(values[i]);
         return count() > before;
     }
 
     void append_to(std::vector<PointConstraint>& points) const {
         for (std::size_t i = 0; i < caps_.size(); ++i)
-            if (active_[i]) points.push_back({caps_[i].position, caps_[i].value_mm, ConstraintKind::cap});
+            if (active_[i]) points.push_back({caps_[i].position, caps_[i].value_mm, caps_[i].kind});
     }
     std::size_t count() const { return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true)); }
 
@@ -112,13 +106,13 @@ private:
 /// The solves of one fit, with what they share and what they leave behind.
 class Fitter {
 public:
-    Fitter(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress)
-        : all_(contours.points), set_(set), options_(options), progress_(progress), caps_(contours) {}
+    Fitter(const PreparedContours& contours, const FitOptions& options, const Progress& progress)
+        : all_(contours.points), options_(options), progress_(progress), caps_(contours) {}
 
     /// Solves for points with these slopes; true if the function exceeds caps that it did not exceed before.
     bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes,
                    const SolveOptions& solving) {
-        std::vector<PointConstraint> single_points = interior_and_exterior(set_, options_.place.normal_offset_mm);
+        std::vector<PointConstraint> single_points;
         caps_.append_to(single_points);
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
         const Solution solution = solve(placed.constraints, solving, progress_of_next_solve());
@@ -184,7 +178,6 @@ private:
     }
 
     const std::vector<BoundaryPoint>& all_;
-    const ContourSet& set_;
     const FitOptions& options_;
     const Progress& progress_;
     ActiveCaps caps_;
@@ -195,8 +188,8 @@ private:
 
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
-Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress) {
-    return Fitter(contours, set, options, progress).run();
+Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+    return Fitter(contours, options, progress).run();
 }
 
 }  // namespace kontur

@@ -53,7 +53,7 @@ struct Fit {
 /// contradicts itself.
 ///
 /// Where f exceeds the limit of a cap or leak probe after a round, the limit becomes a constraint of the later rounds; on
-/// coplanar contours all do from the start. `set` gives the interior and exterior points.
-Fit fit(const PreparedContours& contours, const ContourSet& set, const FitOptions& options, const Progress& progress = {});
+/// coplanar contours all caps do from the start. Interior and exterior points are bounds of the same kind.
+Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress = {});
 
 }  // namespace kontur

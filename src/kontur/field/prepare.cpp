@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/prepare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/field/clicks.h"
+#include "kontur/field/ends.h"
+#include "kontur/field/gaps.h"
 #include "kontur/field/orient.h"
 #include "kontur/field/reduce.h"
+#include "kontur/field/sides.h"
+#include "kontur/field/tidy.h"
 
 namespace kontur {
 namespace {
 
 bool is_coplanar(const ContourSet& set) {
     const Plane& plane = set.contours.front().plane;
-    const double tolerance = 1e-6 * bounding_box(set).diagonal();
+    const double tolerance = std::max(1e-6 * bounding_box(set).diagonal(), 1e-3);
+    const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > tolerance; };
     for (const Contour& contour : set.contours)
-        for (const Vec3& p : contour.points)
-            if (std::abs(plane.distance_to(p)) > std::max(tolerance, 1e-3)) return false;
-    return true;
+        if (std::any_of(contour.points.begin(), contour.points.end(), off_plane)) return false;
+    return std::none_of(set.surface.begin(), set.surface.end(),
+                        [&](const SurfacePoint& p) { return off_plane(p.position); });
 }
 
 Contour shifted(Contour contour, const Vec3& by) {
@@ -25,9 +33,17 @@ Contour shifted(Contour contour, const Vec3& by) {
     return contour;
 }
 
-void append(const Contour& drawn, std::int32_t index, const PrepareOptions& options, PreparedContours& prepared) {
-    const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
-    const Contour contour = refine(reduce(drawn, {options.quality}), least_segments);
+void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
+    if (tidied.spike_points > 0)
+        notes.push_back(fmt::format("{} points of spikes, which enclose nothing, were left out", tidied.spike_points));
+    if (tidied.thinned_contours > 0)
+        notes.push_back(
+            fmt::format("{} contours with very many points were thinned: {} points left out, none farther than "
+                        "{:.2g} mm from the contour that was kept",
+                        tidied.thinned_contours, tidied.thinned_points, tidied.thinned_mm));
+}
+
+void append_closed(const Contour& contour, std::int32_t index, PreparedContours& prepared) {
     const ContourOrientation orientation = orient(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
         prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});
@@ -38,21 +54,67 @@ void append(const Contour& drawn, std::int32_t index, const PrepareOptions& opti
     append_to(prepared.between_crossings, orientation.between_crossings);
 }
 
-}  // namespace
+void append_open(const Contour& contour, std::int32_t index, PreparedContours& prepared) {
+    const std::vector<Vec3> left = left_normals(contour);
+    const double outward = contour.inside == Hand::left ? -1 : 1;
+    for (std::size_t i = 0; i < contour.points.size(); ++i)
+        prepared.points.push_back({contour.points[i], outward * left[i], contour.plane.normal, index});
+}
 
-PreparedContours prepare(const ContourSet& set, const PrepareOptions& options) {
-    PreparedContours prepared;
+void append_surface_points(const ContourSet& set, PreparedContours& prepared) {
+    for (const SurfacePoint& p : set.surface)
+        prepared.points.push_back(
+            {.position = p.position, .inplane_normal = p.outward.value_or(Vec3{}), .contour = kNoContour});
+}
+
+/// Contours beyond the drawn ones are copies of the first.
+void append_boundary(ContourSet& set, std::size_t drawn, PreparedContours& prepared) {
+    const auto index = [&](std::size_t c) { return static_cast<std::int32_t>(c < drawn ? c : 0); };
     for (std::size_t c = 0; c < set.contours.size(); ++c)
-        append(set.contours[c], static_cast<std::int32_t>(c), options, prepared);
-    prepared.coplanar = !set.contours.empty() && is_coplanar(set);
-    if (prepared.coplanar && options.copy_shift_mm > 0) {
-        const Contour& first = set.contours.front();
-        append(shifted(first, options.copy_shift_mm * first.plane.normal), 0, options, prepared);
-    }
+        if (set.contours[c].closed) append_closed(set.contours[c], index(c), prepared);
+    append_surface_points(set, prepared);
+    const std::vector<std::string> notes = find_sides(set, prepared.points);
+    prepared.notes.insert(prepared.notes.end(), notes.begin(), notes.end());
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (!set.contours[c].closed) append_open(set.contours[c], index(c), prepared);
+}
+
+void append_limits(const ContourSet& set, const PrepareOptions& options, PreparedContours& prepared) {
     if (options.caps) {
         prepared.caps = find_caps(set);
         prepared.leak_probes = find_leak_probes(set);
+        const Ends ends = find_ends(set);
+        prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
+        prepared.caps.insert(prepared.caps.end(), ends.guards.begin(), ends.guards.end());
+        prepared.notes.insert(prepared.notes.end(), ends.notes.begin(), ends.notes.end());
     }
+    const std::vector<Cap> clicks = click_bounds(set, options.click_margin_mm);
+    prepared.caps.insert(prepared.caps.end(), clicks.begin(), clicks.end());
+    const std::vector<std::string> doubts = contradictory_clicks(set, options.click_margin_mm);
+    prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
+}
+
+}  // namespace
+
+PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options) {
+    PreparedContours prepared;
+    if (drawn.contours.empty()) return prepared;
+    ContourSet set = drawn;
+    const double diagonal = bounding_box(set).diagonal();
+    apply_fill_rule(set, options.fill_rule);
+    note_tidied(tidy(set, {1e-5 * diagonal, 1e-4 * diagonal}), prepared.notes);
+    prepared.coplanar = is_coplanar(set);
+
+    ContourSet fitted = set;
+    const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
+    for (Contour& contour : fitted.contours) contour = refine(reduce(contour, {options.quality}), least_segments);
+    if (prepared.coplanar && options.copy_shift_mm > 0) {
+        const Contour& first = fitted.contours.front();
+        fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
+    }
+    append_boundary(fitted, set.contours.size(), prepared);
+    if (options.gaps) find_gaps(fitted, 0.1 * diagonal, 1e-3 * diagonal, prepared.points);
+    append_limits(set, options, prepared);
     return prepared;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kontur/field/caps.h"
 #include "kontur/field/constraints.h"
+#include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 
@@ -13,6 +15,9 @@ struct PrepareOptions {
     int least_segments = 48;   ///< contours of fewer segments, times quality, are subdivided (refine); 0: the paper's rule
     bool caps = true;          ///< limit the extrapolation beyond the last contours, and watch for leaks
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
+    FillRule fill_rule = FillRule::even_odd;  ///< what contours inside others mean
+    bool gaps = true;                         ///< keep normal constraints clear of the opposite wall (find_gaps)
+    double click_margin_mm = 1.0;             ///< how far f must be from 0 at interior and exterior points
 };
 
 /// The contours as the fit sees them.
@@ -20,13 +25,16 @@ struct PreparedContours {
     std::vector<BoundaryPoint> points;
     std::vector<Vec3> crossings;          ///< mm, where contours cross themselves
     std::vector<Vec3> between_crossings;  ///< mm, on edges of lobes that hold no point of a contour
-    std::vector<Cap> caps;
+    std::vector<Cap> caps;                ///< beyond the last contours, and the interior and exterior points
     std::vector<Cap> leak_probes;
-    bool coplanar = false;  ///< all contours lie in one plane, so they alone do not determine a surface
+    std::vector<std::string> notes;  ///< choices made for the user and doubts, one sentence each
+    bool coplanar = false;           ///< all that was drawn lies in one plane, so it alone does not determine a surface
 };
 
-/// Reduces, refines and orients every contour. Contours in one plane leave f free across it and the system singular:
-/// either the caps or the shifted copy must close the surface.
+/// Finds the holes (apply_fill_rule; the points' indices are those after it), cleans (tidy), reduces, refines and orients
+/// every contour, finds the sides of open contours and what the ends of the object add. Contours in one plane leave f free
+/// across it and the system singular: either the caps or the shifted copy must close the surface. Throws
+/// Error(invalid_input) for a contour that encloses nothing.
 PreparedContours prepare(const ContourSet& set, const PrepareOptions& options = {});
 
 }  // namespace kontur

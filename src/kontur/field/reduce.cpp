@@ -2,6 +2,7 @@
 #include "kontur/field/reduce.h"
 
 #include <algorithm>
+#include <limits>
 #include <queue>
 #include <string>
 
@@ -18,11 +19,11 @@ double point_weight(const Vec3& before, const Vec3& at, const Vec3& after) {
     return angle_weight * la * lb / (la + lb);
 }
 
-/// The contour as a doubly linked ring from which points are taken.
+/// The contour as a doubly linked ring from which points are taken; the two ends of an open contour stay.
 class Ring {
 public:
-    explicit Ring(const std::vector<Vec3>& points) : points_(points), links_(points.size()) {
-        const std::size_t n = points.size();
+    explicit Ring(const Contour& contour) : points_(contour.points), closed_(contour.closed), links_(points_.size()) {
+        const std::size_t n = points_.size();
         for (std::size_t i = 0; i < n; ++i) links_[i] = {(i + n - 1) % n, (i + 1) % n, true, 0};
         for (std::size_t i = 0; i < n; ++i) update(i);
     }
@@ -49,10 +50,13 @@ private:
     };
 
     void update(std::size_t i) {
-        links_[i].weight = point_weight(points_[links_[i].before], points_[i], points_[links_[i].after]);
+        const bool is_end = !closed_ && (i == 0 || i == points_.size() - 1);
+        links_[i].weight = is_end ? std::numeric_limits<double>::infinity()
+                                  : point_weight(points_[links_[i].before], points_[i], points_[links_[i].after]);
     }
 
     const std::vector<Vec3>& points_;
+    bool closed_;
     std::vector<Link> links_;
 };
 
@@ -68,7 +72,7 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
     const std::size_t keep = std::max(wanted, options.min_points);
     if (keep >= n) return contour;
 
-    Ring ring(contour.points);
+    Ring ring(contour);
     using Candidate = std::pair<double, std::size_t>;  // weight when queued, point: ties go to the earlier point
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
     for (std::size_t i = 0; i < n; ++i) queue.emplace(ring.weight(i), i);
@@ -89,20 +93,21 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
 }
 
 Contour refine(const Contour& contour, int least_segments) {
-    const std::size_t n = contour.points.size();
+    const std::size_t n = contour.points.size(), segments = contour.closed ? n : n - 1;
     double total = 0;
-    for (std::size_t i = 0; i < n; ++i) total += distance(contour.points[i], contour.points[(i + 1) % n]);
-    const double average = total / static_cast<double>(n);
+    for (std::size_t i = 0; i < segments; ++i) total += distance(contour.points[i], contour.points[(i + 1) % n]);
+    const double average = total / static_cast<double>(segments);
     const double wanted = least_segments > 0 ? std::min(average, total / least_segments) : average;
 
     Contour refined = contour;
     refined.points.clear();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < segments; ++i) {
         const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
         const double length = distance(from, to);
         const auto pieces = length > 2 * wanted ? static_cast<int>(std::round(length / wanted)) : 1;
         for (int piece = 0; piece < pieces; ++piece) refined.points.push_back(from + (to - from) * (double(piece) / pieces));
     }
+    if (!contour.closed) refined.points.push_back(contour.points.back());
     return refined;
 }
 

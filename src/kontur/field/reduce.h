@@ -12,7 +12,8 @@ struct ReduceOptions {
 
 /// Removes the points that matter least for a contour's shape (paper section 4.3, after Latecki & Lakaemper 1999): weight
 /// = (1 - cos of the turning angle) / 2 * |a||b| / (|a| + |b|) for the adjacent edges a and b; the point of lowest weight
-/// goes, its neighbours' weights are updated, until ceil(q * original) points are left. O(m log m) for m points.
+/// goes, its neighbours' weights are updated, until ceil(q * original) points are left. The ends of an open contour stay.
+/// O(m log m) for m points.
 /// Throws Error(invalid_input) for a quality outside (0, 1].
 Contour reduce(const Contour& contour, const ReduceOptions& options = {});
 

@@ -63,13 +63,17 @@ enum class Position { outside, inside, crossing };
 
 Position position_of(const Polygon& polygon, const Polygon& other, double tolerance) {
     if (!boxes_meet(polygon, other)) return Position::outside;
+    constexpr std::size_t kMostTested = 2000;
+    const std::size_t stride = 1 + polygon.points.size() / kMostTested;
     std::size_t inside = 0, outside = 0;
-    for (const Point2& p : polygon.points) ++(is_inside(p, other) ? inside : outside);
+    for (std::size_t i = 0; i < polygon.points.size(); i += stride)
+        ++(is_inside(polygon.points[i], other) ? inside : outside);
     if (inside == 0) return Position::outside;
     if (outside == 0) return Position::inside;
     inside = outside = 0;
-    for (const Point2& p : polygon.points)
-        if (distance_to_boundary(p, other) > tolerance) ++(is_inside(p, other) ? inside : outside);
+    for (std::size_t i = 0; i < polygon.points.size(); i += stride)
+        if (distance_to_boundary(polygon.points[i], other) > tolerance)
+            ++(is_inside(polygon.points[i], other) ? inside : outside);
     return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
 }
 
@@ -85,6 +89,32 @@ std::vector<std::size_t> first_in_plane(const std::vector<Contour>& contours, do
 }
 
 }  // namespace
+
+std::string_view name(FillRule rule) noexcept { return rule == FillRule::even_odd ? "even-odd" : "declared"; }
+
+FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
+    std::vector<Contour>& contours = set.contours;
+    const Nesting nesting = find_nesting(contours, 1e-4 * bounding_box(set).diagonal());
+    FillChanges changes;
+    changes.crossings = nesting.crossings;
+    if (rule == FillRule::even_odd) {
+        for (std::size_t i = 0; i < contours.size(); ++i)
+            if (nesting.depth[i] % 2 == 1 && !contours[i].hole) {
+                contours[i].hole = true;
+                ++changes.holes;
+            }
+        return changes;
+    }
+    std::vector<Contour> kept;
+    for (std::size_t i = 0; i < contours.size(); ++i) {
+        int layers = 0;
+        for (const std::size_t around : nesting.enclosing[i]) layers += contours[around].hole ? -1 : 1;
+        if (layers <= 0 || contours[i].hole) kept.push_back(contours[i]);
+    }
+    changes.removed = contours.size() - kept.size();
+    contours = std::move(kept);
+    return changes;
+}
 
 bool coincide(const Plane& a, const Plane& b, double tolerance_mm) {
     return std::abs(dot(a.normal, b.normal)) > 1 - 1e-9 && std::abs(a.distance_to(b.origin)) < tolerance_mm;

@@ -38,6 +38,7 @@ std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {
     std::vector<Section> sections;
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         const Contour& contour = set.contours[c];
+        if (!contour.closed) continue;
         auto found = std::find_if(sections.begin(), sections.end(),
                                   [&](const Section& s) { return coincide(s.plane, contour.plane, tolerance_mm); });
         if (found == sections.end()) found = sections.insert(found, {contour.plane, {}, {}});

@@ -29,8 +29,8 @@ struct Section {
     double clearance(const Point2& p) const { return nearest(p).distance; }
 };
 
-/// The set's contours by plane, in the order of the first contour of each. Planes with the same normal up to sign that are
-/// less than `tolerance_mm` apart are one.
+/// The set's closed contours by plane, in the order of the first contour of each. Planes with the same normal up to sign
+/// that are less than `tolerance_mm` apart are one.
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);
 
 }  // namespace kontur

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/clicks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kontur/shape/section.h"
+
+namespace kontur {
+namespace {
+
+/// The contours that a point contradicts most.
+struct Conflict {
+    double clearance_mm;  ///< in the plane, to the nearest contour
+    std::size_t contour;
+};
+
+std::optional<Conflict> conflict(const Vec3& point, bool interior, const std::vector<Section>& sections) {
+    std::optional<Conflict> worst;
+    for (const Section& section : sections) {
+        const Point2 at = section.plane.to_uv(point);
+        if (section.contains(at) == interior) continue;
+        const auto [clearance, position, outline] = section.nearest(at);
+        if (clearance < 2 * std::abs(section.plane.distance_to(point))) continue;
+        if (!worst || clearance > worst->clearance_mm) worst = Conflict{clearance, section.contours[outline]};
+    }
+    return worst;
+}
+
+}  // namespace
+
+std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    std::vector<Cap> bounds;
+    for (const Vec3& p : set.interior)
+        bounds.push_back({.position = p,
+                          .most_mm = kNone,
+                          .value_mm = margin_mm,
+                          .least_mm = margin_mm,
+                          .kind = ConstraintKind::interior});
+    for (const Vec3& p : set.exterior)
+        bounds.push_back({.position = p, .most_mm = -margin_mm, .value_mm = -margin_mm, .kind = ConstraintKind::exterior});
+    return bounds;
+}
+
+std::vector<std::string> contradictory_clicks(const ContourSet& set, double margin_mm) {
+    const std::vector<Section> sections = sections_of(set, 1e-3 * bounding_box(set).diagonal());
+    std::vector<std::string> sentences;
+    const auto check = [&](const std::vector<Vec3>& points, bool interior) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (const auto found = conflict(points[i], interior, sections))
+                sentences.push_back(fmt::format("{} point {} contradicts contour {}: it lies {:.3g} mm on its {}",
+                                                interior ? "interior" : "exterior", i + 1, found->contour + 1,
+                                                found->clearance_mm, interior ? "outside" : "inside"));
+    };
+    check(set.interior, true);
+    check(set.exterior, false);
+    for (std::size_t i = 0; i < set.interior.size(); ++i)
+        for (std::size_t e = 0; e < set.exterior.size(); ++e)
+            if (const double apart = distance(set.interior[i], set.exterior[e]); apart < margin_mm)
+                sentences.push_back(
+                    fmt::format("interior point {} and exterior point {} contradict each other: they are "
+                                "{:.3g} mm apart",
+                                i + 1, e + 1, apart));
+    return sentences;
+}
+
+std::vector<std::string> missed_clicks(const ContourSet& set, const ImplicitFunction& function) {
+    std::vector<std::string> sentences;
+    for (std::size_t i = 0; i < set.interior.size(); ++i)
+        if (!(function.value(set.interior[i]) > 0))
+            sentences.push_back(fmt::format("interior point {} could not be brought inside", i + 1));
+    for (std::size_t i = 0; i < set.exterior.size(); ++i)
+        if (!(function.value(set.exterior[i]) < 0))
+            sentences.push_back(fmt::format("exterior point {} could not be brought outside", i + 1));
+    return sentences;
+}
+
+}  // namespace kontur

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/field/ends.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kontur/field/section_probes.h"
+
+namespace kontur {
+namespace {
+
+/// The part of a section that one of its contours encloses, without the holes in it and the islands in those.
+Section region_of(const ContourSet& set, const Section& section, std::size_t contour) {
+    const auto own = std::find(section.contours.begin(), section.contours.end(), contour) - section.contours.begin();
+    const Section outer{section.plane, {section.outlines[static_cast<std::size_t>(own)]}, {contour}};
+    Section region = outer;
+    for (std::size_t o = 0; o < section.outlines.size(); ++o)
+        if (set.contours[section.contours[o]].hole && outer.contains(section.outlines[o].front())) {
+            region.outlines.push_back(section.outlines[o]);
+            region.contours.push_back(section.contours[o]);
+        }
+    return region;
+}
+
+/// How the rest of the drawing continues a region on one side of its plane.
+struct Continuation {
+    bool carried_on = false;
+    std::optional<double> spacing;  ///< mm to the next parallel plane
+};
+
+Continuation continuation(const std::vector<Section>& sections, const Section& region, const std::vector<Probe>& inside,
+                          double sign, double tolerance) {
+    constexpr double kParallel = 0.995;
+    Continuation result;
+    const Section* next = nullptr;
+    for (const Section& other : sections) {
+        const double ahead = sign * region.plane.distance_to(other.plane.origin);
+        if (std::abs(dot(region.plane.normal, other.plane.normal)) >= kParallel) {
+            if (ahead <= tolerance || (next && ahead >= *result.spacing)) continue;
+            next = &other;
+            result.spacing = ahead;
+            continue;
+        }
+        for (const Polygon2& outline : other.outlines)
+            for (const Point2& p : outline) {
+                const Vec3 at = other.plane.from_uv(p[0], p[1]);
+                if (sign * region.plane.distance_to(at) > tolerance && region.contains(region.plane.to_uv(at)))
+                    result.carried_on = true;
+            }
+    }
+    if (next)
+        for (const Probe& probe : inside) {
+            const Vec3 there = region.plane.from_uv(probe.at[0], probe.at[1]) + sign * *result.spacing * region.plane.normal;
+            result.carried_on = result.carried_on || next->contains(next->plane.to_uv(there));
+        }
+    return result;
+}
+
+double deepest(const std::vector<Probe>& inside) {
+    double depth = 0;
+    for (const Probe& probe : inside) depth = std::max(depth, probe.depth);
+    return depth;
+}
+
+void append_flat(const Section& region, const std::vector<Probe>& inside, double sign, Ends& ends) {
+    const auto contour = static_cast<std::int32_t>(region.contours.front());
+    for (const Probe& probe : inside)
+        ends.lids.push_back({.position = region.plane.from_uv(probe.at[0], probe.at[1]),
+                             .inplane_normal = sign * region.plane.normal,
+                             .contour = contour});
+}
+
+void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {
+    const auto contour = static_cast<std::int32_t>(region.contours.front());
+    const double widest = deepest(inside);
+    for (const Probe& probe : inside) {
+        const double rim = 1 - probe.depth / widest;
+        const Vec3 base = region.plane.from_uv(probe.at[0], probe.at[1]), up = sign * height * region.plane.normal;
+        ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour});
+        ends.guards.push_back({base + 1.5 * up, -height / 4, -height / 2});
+    }
+}
+
+std::string complaint(std::size_t contour, bool both_carried_on) {
+    return fmt::format("contour {} ends the object, but {}; its end was ignored", contour + 1,
+                       both_carried_on ? "contours on both sides carry it on" : "nothing says on which side it goes on");
+}
+
+}  // namespace
+
+Ends find_ends(const ContourSet& set) {
+    Ends ends;
+    const double tolerance = 1e-3 * bounding_box(set).diagonal();
+    const std::vector<Section> sections = sections_of(set, tolerance);
+    for (const Section& section : sections)
+        for (const std::size_t c : section.contours) {
+            if (set.contours[c].end == ContourEnd::automatic) continue;
+            const Section region = region_of(set, section, c);
+            const std::vector<Probe> inside = probes(region);
+            const Continuation above = continuation(sections, region, inside, 1, tolerance);
+            const Continuation below = continuation(sections, region, inside, -1, tolerance);
+            if (above.carried_on == below.carried_on) {
+                ends.notes.push_back(complaint(c, above.carried_on));
+                continue;
+            }
+            const double sign = above.carried_on ? -1 : 1;
+            if (set.contours[c].end == ContourEnd::flat) {
+                append_flat(region, inside, sign, ends);
+                continue;
+            }
+            const std::optional<double> spacing = (above.carried_on ? above : below).spacing;
+            const double widest = deepest(inside);
+            append_dome(region, inside, sign, std::min(spacing.value_or(widest) / 2, widest), ends);
+        }
+    return ends;
+}
+
+}  // namespace kontur

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kontur/field/caps.h"
+#include "kontur/field/constraints.h"
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+/// What the contours that end the object (ContourEnd) add to the fit.
+struct Ends {
+    std::vector<BoundaryPoint> lids;  ///< points of the surface
+    std::vector<Cap> guards;          ///< beyond them
+    std::vector<std::string> notes;   ///< ends that could not be followed, a sentence each, contours counted from 1
+};
+
+/// A flat end closes the object in the plane of its contour by a lattice of points whose normal is the plane's; a round one
+/// by a dome, as high as half the distance to the parallel plane before it and no higher than half the width of the contour
+/// (half its inscribed radius where there is no such plane). It ends on the side where neither the next parallel plane
+/// nor contours of other directions carry the contour's region on. Holes inside of the contour stay open.
+Ends find_ends(const ContourSet& set);
+
+}  // namespace kontur

@@ -491,7 +491,6 @@ def find_leak_probes(contours: ContourSet) -> list[Cap]: ...
 
 def fit(
     prepared: PreparedContours,
-    contours: ContourSet,
     *,
     progress: _Progress | None = None,
     stop: _Stop | None = None,

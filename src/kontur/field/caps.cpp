@@ -22,6 +22,16 @@ public:
             if (&other != &section_) consider(other);
     }
 
+    /// What else was drawn on this side: open contours lead on, single points say how far the object reaches at least.
+    void consider_rest(const ContourSet& set) {
+        const auto ahead = [&](const Vec3& p) { return sign_ * section_.plane.distance_to(p); };
+        for (const Contour& contour : set.contours)
+            if (!contour.closed)
+                for (const Vec3& p : contour.points) leads_on_ = leads_on_ || ahead(p) > tolerance_;
+        for (const SurfacePoint& p : set.surface) reach_ = std::max(reach_, ahead(p.position));
+        for (const Vec3& p : set.interior) reach_ = std::max(reach_, ahead(p));
+    }
+
     bool leads_on() const { return leads_on_; }
 
     void append_caps(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
@@ -70,7 +80,8 @@ private:
         double deepest = 0;
         for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
         if (deepest == 0) return;
-        const double height = std::min(previous_distance_.value_or(deepest), 1.5 * deepest);
+        // A dome is lower off its middle than in it: leave room for the point wherever it is.
+        const double height = std::max(std::min(previous_distance_.value_or(deepest), 1.5 * deepest), 1.25 * reach_);
         for (const Probe& probe : inside) {
             const double rim = 1 - probe.depth / deepest;
             caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});
@@ -89,6 +100,7 @@ private:
     const Section* next_ = nullptr;
     double next_distance_ = 0;
     std::optional<double> previous_distance_;
+    double reach_ = 0;
 };
 
 /// Whether contours of other planes cross this one farther than `tolerance` outside of its own contours.
@@ -134,8 +146,11 @@ std::vector<Cap> find_caps(const ContourSet& set) {
     const std::vector<Section> sections = sections_of(set, tolerance);
     for (const Section& section : sections) {
         const std::vector<Probe> inside = probes(section);
-        for (const double sign : {-1.0, 1.0})
-            if (const Side side(sections, section, sign, tolerance); !side.leads_on()) side.append_caps(inside, caps);
+        for (const double sign : {-1.0, 1.0}) {
+            Side side(sections, section, sign, tolerance);
+            side.consider_rest(set);
+            if (!side.leads_on()) side.append_caps(inside, caps);
+        }
     }
     return caps;
 }

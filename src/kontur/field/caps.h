@@ -27,7 +27,8 @@ struct Cap {
 /// - where contours of other directions lead on beyond the plane, there is no limit: they tell where the object ends;
 /// - towards the next parallel plane, what lies well inside here and outside of that plane's contours ends before it;
 /// - beyond the last parallel plane the object ends within a rounded cap, as high as the distance to the plane before it,
-///   but not higher than 1.5 radii of the largest inscribed circle; on a single plane that radius is the height.
+///   but not higher than 1.5 radii of the largest inscribed circle; on a single plane that radius is the height. Where single
+///   surface or interior points lie farther out, it is a quarter higher than they are.
 ///
 /// At most a few hundred points per plane; spacings follow the contours' size, so the caps move and scale with them.
 std::vector<Cap> find_caps(const ContourSet& set);

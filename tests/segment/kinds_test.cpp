@@ -149,8 +149,8 @@ TEST(Kinds, AClickPullsTheSurfaceWhereItIsAndNowhereElse) {
     for (const Contour& contour : drawn.contours)
         for (const Vec3& p : contour.points) farthest_move_mm = std::max(farthest_move_mm, std::abs(with.function.value(p)));
     EXPECT_LT(farthest_move_mm, 0.1) << "drawn contours hold";
-    for (const Vec3& pole : {Vec3{0, 0, 16}, Vec3{28, 0, 5}, Vec3{-28, 0, -5}})
-        EXPECT_NEAR(with.function.value(pole), without.function.value(pole), 0.3);
+    for (const Vec3& side : {Vec3{26, 0, 5}, Vec3{-26, 0, -5}, Vec3{26, 0, -5}, Vec3{-26, 0, 5}})
+        EXPECT_NEAR(with.function.value(side), without.function.value(side), 0.3);
 }
 
 TEST(Kinds, ContradictoryClicksAreReported) {
@@ -164,22 +164,24 @@ TEST(Kinds, ContradictoryClicksAreReported) {
 
 TEST(Kinds, EndsHereIsFlatOrRoundInsteadOfGoingOn) {
     const Body body = test::cylinder(15, -20, 20);
-    ContourSet drawn = draw_sections(body, test::axial_planes({-12, -4, 4, 12}), 400);
+    ContourSet drawn = draw_sections(body, test::axial_planes({-12.4, -4, 4, 12.4}), 400);
     const Grid grid = grid_around(body.bounds(), {1, 1, 1}, 6);
     const double open = segment(drawn, grid).report.mask_volume_ml;
     drawn.contours.front().end = drawn.contours.back().end = ContourEnd::flat;
     const Segmentation flat = segment(drawn, grid);
-    EXPECT_GT(dice(flat, test::cylinder(15, -12, 12)), 0.97);
+    // Between the last two planes the wall bulges by 0.8 mm, because a smooth function has no edge.
+    EXPECT_GT(dice(flat, test::cylinder(15, -12.4, 12.4)), 0.93);
     drawn.contours.front().end = drawn.contours.back().end = ContourEnd::round;
     const Segmentation round = segment(drawn, grid);
     EXPECT_GT(round.report.mask_volume_ml, 1.05 * flat.report.mask_volume_ml);
     EXPECT_LT(round.report.mask_volume_ml, open);
     for (std::int64_t k = 0; k < grid.size.k; ++k)
         for (std::int64_t j = 0; j < grid.size.j; ++j)
-            for (std::int64_t i = 0; i < grid.size.i; ++i)
-                if (flat.mask.values[grid.offset(i, j, k)]) ASSERT_LE(std::abs(grid.center_mm(i, j, k).z), 13.0) << "flat";
-                else if (round.mask.values[grid.offset(i, j, k)])
-                    ASSERT_LE(std::abs(grid.center_mm(i, j, k).z), 17.0) << "round: half a plane spacing";
+            for (std::int64_t i = 0; i < grid.size.i; ++i) {
+                const double height = std::abs(grid.center_mm(i, j, k).z);
+                EXPECT_FALSE(flat.mask.values[grid.offset(i, j, k)] && height > 12.6);
+                EXPECT_FALSE(round.mask.values[grid.offset(i, j, k)] && height > 16.8) << "half a plane spacing";
+            }
 }
 
 TEST(Kinds, ThinPlatesStayWhole) {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <cmath>
+#include <limits>
 
 #include "kontur/field/section_probes.h"
 #include "kontur/shape/contour_nesting.h"
@@ -50,7 +51,7 @@ private:
                 next_distance_ = ahead;
             }
         } else if (ahead < -tolerance_) {
-            previous_distance_ = std::min(previous_distance_.value_or(-ahead), -ahead);
+            previous_distance_ = std::min(previous_distance_, -ahead);
         }
     }
 
@@ -81,7 +82,8 @@ private:
         for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
         if (deepest == 0) return;
         // A dome is lower off its middle than in it: leave room for the point wherever it is.
-        const double height = std::max(std::min(previous_distance_.value_or(deepest), 1.5 * deepest), 1.25 * reach_);
+        const double widest = std::isinf(previous_distance_) ? deepest : 1.5 * deepest;
+        const double height = std::max(std::min(previous_distance_, widest), 1.25 * reach_);
         for (const Probe& probe : inside) {
             const double rim = 1 - probe.depth / deepest;
             caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});
@@ -99,7 +101,7 @@ private:
     bool leads_on_ = false;
     const Section* next_ = nullptr;
     double next_distance_ = 0;
-    std::optional<double> previous_distance_;
+    double previous_distance_ = std::numeric_limits<double>::infinity();
     double reach_ = 0;
 };
 

@@ -183,6 +183,21 @@ void add_slicer(CLI::App& app, Invocation& invocation) {
     add_segment_method(*bind.sub, c.options);
 }
 
+void add_batch(CLI::App& app, Invocation& invocation) {
+    Binder<BatchCommand> bind(app, invocation, "batch", "Segment a cohort: one case for each row of a table",
+                              "kontur batch cases.csv --jobs 4 --summary summary.json");
+    BatchCommand& c = *bind.command;
+    bind.word("TABLE", c.table, "CSV with the columns contours, image, output and any option of segment");
+    bind.defaulted("--jobs", c.jobs, "N", "Cases at a time")->check(CLI::Range(1, 4096));
+    bind.option("--row", c.row, "N", "Only this row, from 1: for job arrays of a cluster")->check(CLI::PositiveNumber);
+    bind.flag("--collect", c.collect, "Make nothing, only sum up what was done before");
+    bind.flag("--count", c.count, "Make nothing, only print the number of rows");
+    bind.defaulted("--threads", c.threads, "N", "Threads of a case that names none; 0: the machine's, shared by the jobs");
+    bind.option("--journal", c.journal, "DIR", "Where to note what was done [TABLE without .csv, and .journal]");
+    bind.option("--summary", c.summary, "FILE", "Summary to write: .json");
+    bind.quiet();
+}
+
 void add_trace(CLI::App& app, Invocation& invocation) {
     Binder<TraceCommand> bind(app, invocation, "trace", "Cut a mask by planes into contours",
                               "kontur trace liver.nii.gz --planes planes.json --output contours.json");
@@ -286,6 +301,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     app.get_formatter()->column_width(36);
     add_segment(app, invocation);
     add_slicer(app, invocation);
+    add_batch(app, invocation);
     add_trace(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);

@@ -10,6 +10,8 @@ namespace kontur::app {
 
 /// Wrong usage of the command line is no kontur::Error; sysexits' EX_USAGE.
 constexpr int kUsageExitCode = 64;
+/// Some cases of a batch failed; the others were done.
+constexpr int kCasesFailedExitCode = 1;
 /// An exception that should not have come this far; EX_SOFTWARE.
 constexpr int kInternalExitCode = 70;
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,25 @@ struct SlicerCommand {
     SegmentOptions options;
 };
 void run(const SlicerCommand& command, Console& console);
+
+/// A cohort: one call of segment for each row of a table, each in a process of its own.
+struct BatchCommand {
+    std::filesystem::path table;
+    int jobs = 1;                   ///< at a time
+    int row = 0;                    ///< only this one, from 1; 0: all
+    bool collect = false;           ///< only sum up what was done before
+    bool count = false;             ///< only say how many rows there are
+    int threads = 0;                ///< of each case that names none; 0: the machine's, shared by the jobs
+    std::filesystem::path journal;  ///< folder; empty: beside the table
+    std::filesystem::path summary;  ///< empty: not asked for
+};
+void run(const BatchCommand& command, Console& console);
+
+/// Ends a command that has left results behind, unlike an Error: some cases failed, or it was interrupted.
+struct EndedEarly : std::runtime_error {
+    EndedEarly(const std::string& sentence, int its_exit_code) : std::runtime_error(sentence), exit_code(its_exit_code) {}
+    int exit_code;
+};
 
 /// Cuts a mask by planes into contours.
 struct TraceCommand {

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "command_line.h"
+#include "commands.h"
 #include "interrupt.h"
 #include "kontur/base/error.h"
 
@@ -36,6 +37,8 @@ int run(const Invocation& invocation) {
     } catch (const Error& error) {
         const bool cancelled = error.kind() == ErrorKind::cancelled;
         return fail(cancelled ? "interrupted; nothing was written" : error.what(), exit_code(error.kind()));
+    } catch (const EndedEarly& ended) {
+        return fail(ended.what(), ended.exit_code);
     } catch (const std::bad_alloc&) {
         return fail("not enough memory for this input", exit_code(ErrorKind::too_large));
     } catch (const std::exception& error) {

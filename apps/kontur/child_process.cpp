@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <utility>
+
+#include "kontur/base/error.h"
+
+namespace kontur::app {
+namespace {
+
+int to_exit_code(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                           const std::filesystem::path& log) {
+    std::vector<std::string> all{"kontur"};
+    all.insert(all.end(), words.begin(), words.end());
+    std::vector<char*> argv;
+    for (std::string& word : all) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    const int failure = posix_spawn(&id_, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failure != 0) {
+        id_ = 0;
+        throw Error(ErrorKind::io, fmt::format("cannot start a process: {}", std::strerror(failure)));
+    }
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+ChildProcess::~ChildProcess() {
+    if (id_ == 0) return;
+    kill(id_, SIGTERM);
+    waitpid(id_, nullptr, 0);
+}
+
+std::optional<int> ChildProcess::exit_code() {
+    int status = 0;
+    if (waitpid(id_, &status, WNOHANG) != id_) return std::nullopt;
+    id_ = 0;
+    return to_exit_code(status);
+}
+
+}  // namespace kontur::app

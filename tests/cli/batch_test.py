@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur batch: a cohort that goes on whatever happens to one of its cases."""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import time
+
+import numpy
+import pytest
+from support import KONTUR, ball_array, ball_planes, kontur, names, read_nifti, write_nifti, write_planes
+
+ARRAY_SCRIPT = pathlib.Path(__file__).parent.parent.parent / "examples" / "slurm" / "kontur-array.sh"
+
+
+def write_table(folder, rows, columns="case,contours,image,output"):
+    (folder / "cases.csv").write_text("\n".join([columns, *rows]) + "\n")
+    return folder / "cases.csv"
+
+
+@pytest.fixture
+def cohort(tmp_path):
+    """Two good cases and between them one without its contours. Paths are relative to the table."""
+    write_planes(tmp_path / "ball, drawn.json", ball_planes())
+    write_nifti(tmp_path / "image.nii.gz", ball_array())
+    (tmp_path / "out").mkdir()
+    good = '"ball, drawn.json",image.nii.gz'
+    write_table(tmp_path, [f"a,{good},out/a.nii.gz", "b,absent.json,image.nii.gz,out/b.nii.gz", f"c,{good},out/c.nii.gz"])
+    return tmp_path
+
+
+def batch(folder, *words):
+    return kontur("batch", folder / "cases.csv", "--summary", folder / "summary.json", *words)
+
+
+def summary(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+def times(folder):
+    return {path.name: path.stat().st_mtime_ns for path in (folder / "out").iterdir()}
+
+
+def test_one_failed_case_stops_no_other(cohort):
+    result = batch(cohort, "--jobs", 2)
+    assert result.returncode == 1
+    assert result.stderr == "kontur: error: 1 of 3 cases failed\n"
+    assert names(cohort / "out") == ["a.nii.gz", "c.nii.gz"]
+    found = summary(cohort)
+    assert (found["done"], found["failed"], found["open"]) == (2, 1, 0)
+    assert [(c["case"], c["state"]) for c in found["cases"]] == [("a", "done"), ("b", "failed"), ("c", "done")]
+    a, b, c = found["cases"]
+    assert a["mask"]["voxels"] == numpy.count_nonzero(read_nifti(cohort / "out" / "a.nii.gz"))
+    assert a["residual_mm"]["max"] < 0.1
+    assert b["exit_code"] == 74 and "absent.json" in b["error"]
+    assert "2 done, 1 failed, 0 open" in result.stdout
+    assert re.search(r"^b +failed .*absent.json", result.stdout, re.MULTILINE)
+
+
+def test_a_second_run_makes_only_what_is_missing(cohort):
+    batch(cohort)
+    before = times(cohort)
+    write_planes(cohort / "absent.json", ball_planes())
+    result = batch(cohort)
+    assert result.returncode == 0, result
+    assert result.stdout.startswith("b: ")
+    assert {name: time for name, time in times(cohort).items() if name != "b.nii.gz"} == before
+    (cohort / "out" / "c.nii.gz").unlink()
+    assert batch(cohort).stdout.startswith("c: ")
+    assert summary(cohort)["done"] == 3
+
+
+def test_a_case_whose_input_or_options_changed_is_made_again(cohort):
+    batch(cohort)
+    before = times(cohort)
+    write_planes(cohort / "ball, drawn.json", ball_planes()[:5])
+    batch(cohort)
+    assert all(after > before[name] for name, after in times(cohort).items())
+    before = times(cohort)
+    table = cohort / "cases.csv"
+    table.write_text(table.read_text().replace("out/a.nii.gz", "out/a2.nii.gz"))
+    batch(cohort)
+    assert {name for name, time in times(cohort).items() if before.get(name) != time} == {"a2.nii.gz"}
+
+
+def test_an_interrupted_batch_goes_on_where_it_was(cohort):
+    """Outputs are whole or absent, and nothing that was done is done again."""
+    good = '"ball, drawn.json",image.nii.gz'
+    slow = '"ball, drawn.json",,out/slow.nii.gz,0.1,exhaustive'  # minutes
+    columns = "case,contours,image,output,spacing-mm,voxelizer"
+    rows = [f"{n},{good},out/{n}.nii.gz,," for n in "abc"]
+    write_table(cohort, [*rows, f"slow,{slow}"], columns)
+    words = [KONTUR, "batch", cohort / "cases.csv"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    for _ in "abc":
+        process.stdout.readline()
+    time.sleep(0.5)  # the slow one has started
+    process.send_signal(signal.SIGTERM)
+    stdout, stderr = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert stderr == "kontur: error: interrupted; 3 of 4 cases are done, and the same command goes on from there\n"
+    assert names(cohort / "out") == ["a.nii.gz", "b.nii.gz", "c.nii.gz"]
+    before = times(cohort)
+    write_table(cohort, [*rows, "slow,\"ball, drawn.json\",,out/slow.nii.gz,2,"], columns)
+    result = batch(cohort)
+    assert result.returncode == 0, result
+    assert result.stdout.startswith("slow: ")
+    assert {name: time for name, time in times(cohort).items() if name != "slow.nii.gz"} == before
+
+
+def test_every_column_is_an_option_of_segment(cohort):
+    write_table(
+        cohort,
+        ['"ball, drawn.json;more.json",image.nii.gz,out/m.nii.gz,7,biharmonic,out/m.stl,out/m.json'],
+        "contours,image,output,label_value,kernel,mesh,report",
+    )
+    write_planes(cohort / "more.json", ball_planes()[:2])
+    assert batch(cohort).returncode == 0
+    assert set(numpy.unique(read_nifti(cohort / "out" / "m.nii.gz"))) == {0, 7}
+    report = json.loads((cohort / "out" / "m.json").read_text())
+    assert (report["kernel"], report["contours"]) == ("biharmonic", 11)
+    assert (cohort / "out" / "m.stl").exists()
+    assert summary(cohort)["cases"][0]["case"] == "1"
+
+
+@pytest.mark.parametrize(
+    "columns, rows, sentence",
+    [
+        ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii"], "line 3: 2 cells stand below 3 columns"),
+        ("contours,image,output,colour", ["a.json,i.nii,o.nii,red"], "line 2: The following argument was not expected: --colour"),
+        ("contours,image,output", ["a.json,i.nii,o.nii", "b.json,i.nii,./o.nii"], "line 3: ./o.nii is already an output of line 2"),
+        ("contours,image,output", ['"a.json,i.nii,o.nii'], "line 2: a quote is not closed"),
+        ("contours,image,image", ["a,b,c"], "two columns are named 'image'"),
+        ("contours,image,output", [], "has no rows"),
+    ],
+)
+def test_a_table_that_makes_no_sense_is_refused_before_any_work(tmp_path, columns, rows, sentence):
+    table = write_table(tmp_path, rows, columns)
+    result = kontur("batch", table)
+    assert result.returncode in (64, 65, 66)
+    assert sentence in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_slurm_array_makes_the_cases_one_by_one(cohort):
+    """The script of the documentation, run as Slurm runs it; a summary afterwards finds what every task left."""
+    count = int(kontur("batch", cohort / "cases.csv", "--count").stdout)
+    assert count == 3
+    environment = {**os.environ, "KONTUR": KONTUR, "SLURM_CPUS_PER_TASK": "1"}
+    tasks = [
+        subprocess.Popen(
+            ["bash", ARRAY_SCRIPT, cohort / "cases.csv"],
+            env={**environment, "SLURM_ARRAY_TASK_ID": str(task)},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        for task in range(1, count + 1)
+    ]
+    assert [task.wait(60) for task in tasks] == [0, 1, 0]
+    result = batch(cohort, "--collect")
+    assert result.returncode == 1
+    assert [c["state"] for c in summary(cohort)["cases"]] == ["done", "failed", "done"]
+    assert kontur("batch", cohort / "cases.csv", "--row", 4).returncode == 65

@@ -129,9 +129,9 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
                         {"cholesky", Solver::cholesky},
                         {"dense", Solver::dense}},
                        "Linear solver; dense is LAPACK's dsysv");
-    sub.add_option("--tolerance-mm", o.tolerance_mm, "Largest error of the iterative solver at its constraints")
-        ->type_name("MM")
-        ->capture_default_str();
+    sub.add_option("--tolerance-mm", o.tolerance_mm,
+                   "Largest error of the iterative solver at its constraints [from the contours' extent]")
+        ->type_name("MM");
     add_choice<Voxelizer>(
         sub, "--voxelizer", o.voxelizer,
         {{"adaptive", Voxelizer::adaptive}, {"tracked", Voxelizer::tracked}, {"exhaustive", Voxelizer::exhaustive}},

@@ -708,7 +708,7 @@ def segment(
     smoothing: float | None = None,
     quality: float = 1.0,
     solver: _Solver = "automatic",
-    tolerance_mm: float = 0.001,
+    tolerance_mm: float | None = None,
     voxelizer: _Voxelizer = "adaptive",
     mesh: bool = False,
     threads: int = 0,

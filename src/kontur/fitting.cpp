@@ -14,6 +14,7 @@ namespace {
 // structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
 constexpr double kOffsetFraction = 3e-3;
 constexpr double kMergeFraction = 4e-4;
+constexpr double kToleranceFraction = 3e-6;  // 0.001 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
 
 FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
@@ -27,7 +28,7 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
     fit.solve.kernel = options.kernel;
     fit.solve.solver = options.solver;
     fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
-    fit.solve.tolerance_mm = options.tolerance_mm;
+    fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diagonal_mm);
     fit.solve.threads = options.threads;
     return fit;
 }

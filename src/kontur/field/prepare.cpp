@@ -19,7 +19,7 @@ namespace {
 
 bool is_coplanar(const ContourSet& set) {
     const Plane& plane = set.contours.front().plane;
-    const double tolerance = std::max(1e-6 * bounding_box(set).diagonal(), 1e-3);
+    const double tolerance = 1e-3 * bounding_box(set).diagonal();  // as planes are told apart for caps
     const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > tolerance; };
     for (const Contour& contour : set.contours)
         if (std::any_of(contour.points.begin(), contour.points.end(), off_plane)) return false;

@@ -70,10 +70,9 @@ private:
                                              [&](const Vec3& a, const Vec3& b) { return off_plane(a) < off_plane(b); });
         const double off = off_plane(worst), width = width_mm(points_);
         if (problems.front().find("off its plane") != std::string::npos)
-            add(FindingKind::off_plane, Severity::error,
-                fmt::format("has a point {:.3g} mm off its plane; the limit is {:g} mm", off, limits_.plane_tolerance_mm),
-                worst, off);
-        else if (contour_.closed && width <= limits_.line_tolerance_mm)
+            add(FindingKind::off_plane, Severity::error, fmt::format("has a point {:.3g} mm off its plane", off), worst,
+                off);
+        else if (problems.front().find("no area") != std::string::npos)
             add(FindingKind::no_area, Severity::error, fmt::format("has no area: it is {:.2g} mm wide", width),
                 points_.front(), width);
         else add_other(problems.front());

@@ -70,8 +70,10 @@ void check_contour(const Contour& contour, const ContourCheckOptions& options, c
                            contour.points.size() == 1 ? "" : "s", least));
     check_all_finite(contour.points, owner);
     check_plane(contour.plane, owner);
-    check_on_plane(contour, options.plane_tolerance_mm, owner);
-    if (contour.closed) check_area(contour, options.line_tolerance_mm, owner);
+    // Files round to absolute lengths; beside a contour of a micrometre they are no small ones.
+    const double size_mm = bounding_box(contour.points).diagonal();
+    check_on_plane(contour, std::min(options.plane_tolerance_mm, 0.1 * size_mm), owner);
+    if (contour.closed) check_area(contour, std::min(options.line_tolerance_mm, 1e-3 * size_mm), owner);
     check_meaning(contour, owner);
 }
 

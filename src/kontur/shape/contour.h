@@ -67,6 +67,7 @@ double width_mm(const std::vector<Vec3>& points);
 /// itself.
 std::size_t drop_duplicate_points(ContourSet& set);
 
+/// Beside tiny contours these lengths are less: a tenth of the contour's box diagonal, and a thousandth of it.
 struct ContourCheckOptions {
     double plane_tolerance_mm = 0.01;  ///< largest distance of a point from its contour's plane
     double line_tolerance_mm = 0.002;  ///< a contour no wider than this is a line (files round to 0.001 mm)

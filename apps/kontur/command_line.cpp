@@ -203,10 +203,10 @@ void add_trace(CLI::App& app, Invocation& invocation) {
                               "kontur trace liver.nii.gz --planes planes.json --output contours.json");
     TraceCommand& c = *bind.command;
     bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
-    CLI::Option* planes =
-        bind.option("--planes", c.planes, "FILE", "Contour file whose planes cut, whatever contours it holds");
-    bind.option("--image", c.image.path, "FILE", "Instead of --planes: the slices of this image or DICOM folder cut")
-        ->excludes(planes);
+    CLI::App* where = bind.sub->add_option_group("Where to cut (one of these)");
+    where->add_option("--planes", c.planes, "Contour file whose planes cut, whatever contours it holds")->type_name("FILE");
+    where->add_option("--image", c.image.path, "Image or DICOM folder whose slices cut")->type_name("FILE");
+    where->require_option(1);
     bind.option("--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();

@@ -5,7 +5,6 @@
 
 #include "commands.h"
 #include "dicom_output.h"
-#include "kontur/base/error.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"
 
@@ -31,8 +30,6 @@ void check(const TraceCommand& command) {
     check_output(command.output, std::array{command.mask, command.planes, command.image.path});
     check_output_kind(command.output, FileKind::contours);
     check_dicom_images(command.output, command.image.path);
-    if (command.planes.empty() && command.image.path.empty())
-        throw Error(ErrorKind::invalid_input, "there are no planes to cut the mask by; give --planes or --image");
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ struct SegmentOptions {
     Kernel kernel = Kernel::triharmonic;
     Normals normals = Normals::surface;
     std::optional<double>
-        normal_offset_mm;             ///< length of the normal constraints; unset: 0.3 % of the contours' box diagonal
-    std::optional<double> smoothing;  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
+        normal_offset_mm{};             ///< length of the normal constraints; unset: 0.3 % of the contours' box diagonal
+    std::optional<double> smoothing{};  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
     Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
     FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
     double quality = 1.0;                        ///< fraction of each contour's points that the fit uses, in (0, 1]

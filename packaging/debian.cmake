@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# `cpack` in the build folder makes one Debian package of each part; what each needs is found out by dpkg-shlibdeps.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME kontur)
+set(CPACK_PACKAGE_CONTACT "the kontur developers <kontur@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL command_line library development)
+if(TARGET kontur_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+
+set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_NAME kontur)
+set(CPACK_DEBIAN_COMMAND_LINE_PACKAGE_RECOMMENDS fonts-dejavu-core)
+set(CPACK_COMPONENT_COMMAND_LINE_DESCRIPTION "${PROJECT_DESCRIPTION}\nThe command line. Research software, not a medical device.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libkontur${KONTUR_SOVERSION})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "${PROJECT_DESCRIPTION}\nThe shared library.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkontur-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libkontur${KONTUR_SOVERSION} (= ${PROJECT_VERSION})")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}\nHeaders and files to build against the library.")
+
+math(EXPR Python_NEXT_MINOR "0${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kontur)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# A module is made for one version of Python.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${Python_NEXT_MINOR}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS fonts-dejavu-core)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}\nThe Python package.")
+include(CPack)

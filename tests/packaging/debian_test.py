@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Debian packages hold what they should, name what they need, and run from where they are unpacked."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+import pytest
+
+BUILD = pathlib.Path(os.environ["KONTUR_BUILD"])
+pytestmark = pytest.mark.skipif(not shutil.which("dpkg-shlibdeps"), reason="dpkg-shlibdeps is not installed")
+
+
+def run(*words, **options):
+    result = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300, **options)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+@pytest.fixture(scope="module")
+def packages(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("packages")
+    run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder, cwd=folder)
+    return {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
+
+
+@pytest.fixture(scope="module")
+def tree(packages, tmp_path_factory):
+    tree = tmp_path_factory.mktemp("tree")
+    for package in packages.values():
+        run("dpkg-deb", "--extract", package, tree)
+    return tree
+
+
+def field(package, name):
+    return run("dpkg-deb", "--field", package, name)
+
+
+def contents(package):
+    return re.findall(r" \./(\S+)", run("dpkg-deb", "--contents", package))
+
+
+def test_each_part_is_a_package(packages):
+    assert {"kontur", "libkontur0.1", "libkontur-dev"} <= set(packages)
+    assert "usr/bin/kontur" in contents(packages["kontur"])
+    assert "usr/share/man/man1/kontur-segment.1" in contents(packages["kontur"])
+    assert any(name.endswith("libkontur.so.0.1") for name in contents(packages["libkontur0.1"]))
+    assert "usr/include/kontur/kontur.h" in contents(packages["libkontur-dev"])
+
+
+def test_they_name_what_they_need(packages):
+    for name in ("kontur", "libkontur0.1"):
+        depends = field(packages[name], "Depends")
+        for library in ("libc6", "libcairo2", "libdcmtk17", "libopenblas0", "libpng16-16"):
+            assert library in depends, (name, depends)
+    assert "libkontur0.1 (= " in field(packages["libkontur-dev"], "Depends")
+    if "python3-kontur" in packages:
+        assert "python3-numpy" in field(packages["python3-kontur"], "Depends")
+
+
+def test_nothing_points_at_where_it_was_built(tree):
+    binaries = [tree / "usr/bin/kontur", *tree.rglob("*.so*")]
+    for binary in binaries:
+        assert str(BUILD) not in run("readelf", "-d", binary)
+
+
+def test_the_program_runs_from_where_it_is_unpacked(tree, tmp_path):
+    assert run(tree / "usr/bin/kontur", "--version").startswith("kontur ")
+    assert "no such file" in subprocess.run([tree / "usr/bin/kontur", "inspect", tmp_path / "none.nii"],
+                                            capture_output=True, text=True).stderr.lower()
+
+
+def test_the_python_package_runs_from_where_it_is_unpacked(packages, tree):
+    if "python3-kontur" not in packages:
+        pytest.skip("this build has no Python package")
+    program = "import kontur; print(kontur.__file__, len(kontur.phantom_case_names()))"
+    environment = {**os.environ, "PYTHONPATH": str(tree / "usr/lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"}
+    assert run("/usr/bin/python3", "-c", program, env=environment).startswith(str(tree))

@@ -8,6 +8,7 @@
 
 namespace kontur::python {
 
+void bind_planes(py::module_& m);
 void bind_contours(py::module_& m);
 void bind_grids(py::module_& m);
 void bind_volumes(py::module_& m);
@@ -16,6 +17,8 @@ void bind_functions(py::module_& m);
 void bind_fitting(py::module_& m);
 void bind_extraction(py::module_& m);
 void bind_segment(py::module_& m);
+void bind_crossings(py::module_& m);
+void bind_editor(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_pictures(py::module_& m);
 void bind_files(py::module_& m);

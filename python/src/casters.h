@@ -12,7 +12,15 @@
 #include <string>
 #include <vector>
 
-#include "kontur/kontur.h"
+#include "kontur/base/error.h"
+#include "kontur/extract/track.h"
+#include "kontur/extract/voxelize.h"
+#include "kontur/field/constraints.h"
+#include "kontur/field/fit.h"
+#include "kontur/io/read_image_options.h"
+#include "kontur/io/rtstruct.h"
+#include "kontur/shape/contour.h"
+#include "kontur/shape/grid.h"
 
 namespace kontur::python {
 
@@ -70,6 +78,24 @@ struct Words<Solver> {
 template <>
 struct Words<Voxelizer> {
     static constexpr std::array values{Voxelizer::adaptive, Voxelizer::tracked, Voxelizer::exhaustive};
+};
+
+template <>
+struct Words<ContourEnd> {
+    static constexpr std::array values{ContourEnd::automatic, ContourEnd::flat, ContourEnd::round};
+};
+template <>
+struct Words<Hand> {
+    static constexpr std::array values{Hand::left, Hand::right};
+};
+
+inline std::string_view name(HoleEncoding holes) {
+    constexpr std::array<std::string_view, 3> kNames{"keyhole", "xor", "nested"};
+    return kNames[static_cast<std::size_t>(holes)];
+}
+template <>
+struct Words<HoleEncoding> {
+    static constexpr std::array values{HoleEncoding::keyhole, HoleEncoding::exclusive, HoleEncoding::nested};
 };
 
 inline std::string_view name(NiftiTransform transform) { return transform == NiftiTransform::qform ? "qform" : "sform"; }
@@ -136,6 +162,12 @@ template <>
 struct type_caster<kontur::Voxelizer> : word_caster<kontur::Voxelizer> {};
 template <>
 struct type_caster<kontur::NiftiTransform> : word_caster<kontur::NiftiTransform> {};
+template <>
+struct type_caster<kontur::ContourEnd> : word_caster<kontur::ContourEnd> {};
+template <>
+struct type_caster<kontur::Hand> : word_caster<kontur::Hand> {};
+template <>
+struct type_caster<kontur::HoleEncoding> : word_caster<kontur::HoleEncoding> {};
 template <>
 struct type_caster<kontur::ConstraintKind> : word_caster<kontur::ConstraintKind> {};
 

@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/shape/contour.h"
 
 namespace kontur::python {
 namespace {
 
-bool is_orthonormal(const Plane& plane) {
-    constexpr double kTolerance = 1e-6;
-    const auto differ = [](double a, double b) { return !(std::abs(a - b) <= kTolerance); };
-    return !(differ(norm(plane.u), 1) || differ(norm(plane.v), 1) || differ(norm(plane.normal), 1) ||
-             differ(dot(plane.u, plane.v), 0) || differ(dot(plane.u, plane.normal), 0) ||
-             differ(dot(plane.v, plane.normal), 0));
-}
-
-Plane plane_from(const Vec3& origin, const Vec3& normal, const std::optional<Vec3>& u, const std::optional<Vec3>& v) {
-    if (!(is_finite(origin) && is_finite(normal) && norm(normal) > 0))
-        throw Error(ErrorKind::invalid_input, "a plane needs a finite origin and a normal that is not 0");
-    if (u.has_value() != v.has_value()) throw py::value_error("u and v are given together or not at all");
-    if (!u) return make_plane(origin, normal);
-    const Plane plane{origin, normal, *u, *v};
-    if (!is_orthonormal(plane)) throw Error(ErrorKind::invalid_input, "a plane's normal, u and v are not orthonormal");
-    return plane;
-}
-
-Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane, bool closed, bool hole) {
+Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane, bool closed, bool hole, ContourEnd end,
+                     std::optional<Hand> inside) {
     const std::optional<Plane> its_plane = plane ? plane : fit_plane(points);
     if (!its_plane)
         throw Error(ErrorKind::invalid_input,
@@ -33,15 +17,18 @@ Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane
     contour.points = std::move(points);
     contour.closed = closed;
     contour.hole = hole;
+    contour.end = end;
+    contour.inside = inside;
     return contour;
 }
 
 bool equal(const Contour& a, const Contour& b) {
-    return a.plane == b.plane && a.points == b.points && a.closed == b.closed && a.hole == b.hole;
+    return a.plane == b.plane && a.points == b.points && a.closed == b.closed && a.hole == b.hole && a.end == b.end &&
+           a.inside == b.inside;
 }
 
 bool equal(const ContourSet& a, const ContourSet& b) {
-    return a.name == b.name && a.interior == b.interior && a.exterior == b.exterior &&
+    return a.name == b.name && a.interior == b.interior && a.exterior == b.exterior && a.surface == b.surface &&
            std::equal(a.contours.begin(), a.contours.end(), b.contours.begin(), b.contours.end(),
                       [](const Contour& x, const Contour& y) { return equal(x, y); });
 }
@@ -65,59 +52,9 @@ Keywords<ContourCheckOptions> check_keywords() {
         .field("line_tolerance_mm", &ContourCheckOptions::line_tolerance_mm, "A contour no wider than this is a line.");
 }
 
-void bind_plane(py::module_& m) {
-    py::class_<Plane> plane(m, "Plane", R"(A plane with an orthonormal frame, in mm (LPS). Immutable.
-
-Parameters
-----------
-origin : array_like, shape (3,)
-    A point of the plane, mm.
-normal : array_like, shape (3,)
-    Of any length > 0; a unit vector when `u` and `v` are given.
-u, v : array_like, shape (3,), optional
-    Orthonormal axes in the plane; chosen for you when left out.
-
-Examples
---------
->>> kontur.Plane([0, 0, 5], [0, 0, 2]).distance_to([[1, 2, 8]])
-array([3.])
-)");
-    constructor(plane, &plane_from, py::arg("origin"), py::arg("normal"), py::arg("u") = py::none(),
-                py::arg("v") = py::none());
-    plane.def_readonly("origin", &Plane::origin, "ndarray, shape (3,), float64: mm.");
-    plane.def_readonly("normal", &Plane::normal, "ndarray, shape (3,), float64: unit.");
-    plane.def_readonly("u", &Plane::u, "ndarray, shape (3,), float64: unit.");
-    plane.def_readonly("v", &Plane::v, "ndarray, shape (3,), float64: unit.");
-    method(
-        plane, "distance_to",
-        "Signed distances in mm of points, shape (n, 3): ndarray, shape (n,), > 0 on the normal's side.",
-        [](const Plane& self, const ArrayOf<double>& points) {
-            std::vector<double> distances;
-            for (const Vec3& p : points_of(points)) distances.push_back(self.distance_to(p));
-            const auto count = static_cast<py::ssize_t>(distances.size());
-            return owning_array(std::move(distances), {count});
-        },
-        py::arg("points"));
-    method(
-        plane, "to_uv", "In-plane coordinates in mm of the projections of points, shape (n, 3): ndarray, shape (n, 2).",
-        [](const Plane& self, const ArrayOf<double>& points) {
-            std::vector<std::array<double, 2>> all;
-            for (const Vec3& p : points_of(points)) all.push_back(self.to_uv(p));
-            const auto count = static_cast<py::ssize_t>(all.size());
-            return owning_array<std::array<double, 2>, double>(std::move(all), {count, 2});
-        },
-        py::arg("points"));
-    plane.def(
-        "__eq__", [](const Plane& a, const Plane& b) { return a == b; }, py::is_operator());
-    plane.def("__repr__", [](const Plane& p) {
-        return py::str("Plane(origin={}, normal={})")
-            .format(py::cast(p.origin).attr("tolist")(), py::cast(p.normal).attr("tolist")());
-    });
-    picklable(plane, [](const Plane& p) { return py::make_tuple(p.origin, p.normal, p.u, p.v); });
-}
-
 void bind_contour(py::module_& m) {
-    py::class_<Contour> contour(m, "Contour", R"(One polygon drawn in a plane. Immutable.
+    py::class_<Contour> contour(
+        m, "Contour", R"(One line drawn in a plane: a closed polygon, or an open stretch of the boundary. Immutable.
 
 Parameters
 ----------
@@ -127,7 +64,12 @@ plane : Plane, optional
     Where it was drawn; fitted to the points when left out.
 closed : bool
 hole : bool
-    True: the object lies outside of this contour (a cavity's wall).
+    True: the object lies outside of this contour (a cavity's wall); closed contours only.
+end : {'automatic', 'flat', 'round'}
+    How the object ends here, on the side where no other contour carries it on; closed contours only.
+inside : {'left', 'right'}, optional
+    Open contours only: where the object lies for someone who walks along the contour, upright on the side to which the plane's
+    normal points; to be found out when left out.
 
 Examples
 --------
@@ -136,13 +78,15 @@ Examples
 ((4, 3), [0.0, 0.0, 1.0])
 )");
     constructor(contour, &contour_from, py::arg("points"), py::arg("plane") = py::none(), py::arg("closed") = true,
-                py::arg("hole") = false);
+                py::arg("hole") = false, py::arg("end") = ContourEnd{}, py::arg("inside") = py::none());
     contour.def_readonly("plane", &Contour::plane, "Plane: where it was drawn.");
     contour.def_property_readonly(
         "points", [](const py::object& self) { return points_view(self, self.cast<const Contour&>().points); },
         "ndarray, shape (n, 3), float64: mm (LPS); a read-only view.");
     contour.def_readonly("closed", &Contour::closed, "bool");
     contour.def_readonly("hole", &Contour::hole, "bool: the object lies outside of this contour.");
+    contour.def_readonly("end", &Contour::end, "str: 'automatic', 'flat' or 'round'.");
+    contour.def_readonly("inside", &Contour::inside, "str or None: 'left', 'right' or to be found out.");
     contour.def("__len__", [](const Contour& c) { return c.points.size(); });
     contour.def(
         "__eq__", [](const Contour& a, const Contour& b) { return equal(a, b); }, py::is_operator());
@@ -150,7 +94,31 @@ Examples
         return py::str("<Contour of {} points{}{}>")
             .format(c.points.size(), c.closed ? "" : ", open", c.hole ? ", hole" : "");
     });
-    picklable(contour, [](const Contour& c) { return py::make_tuple(c.points, c.plane, c.closed, c.hole); });
+    picklable(contour,
+              [](const Contour& c) { return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside); });
+}
+
+void bind_surface_point(py::module_& m) {
+    py::class_<SurfacePoint> point(m, "SurfacePoint", R"(A single point on the object's surface. Immutable.
+
+Parameters
+----------
+position : array_like, shape (3,)
+    mm (LPS).
+outward : array_like, shape (3,), optional
+    Unit, out of the object; only the position is known when left out.
+)");
+    constructor(
+        point,
+        [](const Vec3& position, const std::optional<Vec3>& outward) {
+            return SurfacePoint{position, outward};
+        },
+        py::arg("position"), py::arg("outward") = py::none());
+    point.def_readonly("position", &SurfacePoint::position, "ndarray, shape (3,), float64: mm.");
+    point.def_readonly("outward", &SurfacePoint::outward, "ndarray, shape (3,), float64, or None.");
+    point.def(
+        "__eq__", [](const SurfacePoint& a, const SurfacePoint& b) { return a == b; }, py::is_operator());
+    picklable(point, [](const SurfacePoint& p) { return py::make_tuple(p.position, p.outward); });
 }
 
 void bind_contour_set(py::module_& m) {
@@ -163,6 +131,7 @@ name : str
     The structure's name.
 interior, exterior : array_like, shape (n, 3), optional
     Points in mm that must lie inside, or outside, of the object.
+surface : sequence of SurfacePoint
 
 Examples
 --------
@@ -173,15 +142,17 @@ Examples
     constructor(
         set,
         [](std::vector<Contour> contours, std::string name, const std::optional<std::vector<Vec3>>& interior,
-           const std::optional<std::vector<Vec3>>& exterior) {
+           const std::optional<std::vector<Vec3>>& exterior, std::vector<SurfacePoint> surface) {
             return ContourSet{std::move(name), std::move(contours), interior.value_or(std::vector<Vec3>{}),
-                              exterior.value_or(std::vector<Vec3>{})};
+                              exterior.value_or(std::vector<Vec3>{}), std::move(surface)};
         },
-        py::arg("contours"), py::arg("name") = "", py::arg("interior") = py::none(), py::arg("exterior") = py::none());
+        py::arg("contours"), py::arg("name") = "", py::arg("interior") = py::none(), py::arg("exterior") = py::none(),
+        py::arg("surface") = py::tuple());
     set.def_property_readonly("contours", &contours_of, "tuple of Contour");
     set.def_readonly("name", &ContourSet::name, "str: may be empty.");
     set.def_readonly("interior", &ContourSet::interior, "ndarray, shape (n, 3), float64: mm.");
     set.def_readonly("exterior", &ContourSet::exterior, "ndarray, shape (n, 3), float64: mm.");
+    set.def_readonly("surface", &ContourSet::surface, "list of SurfacePoint");
     set.def_property_readonly("point_count", &point_count, "int: over all contours.");
     set.def_property_readonly(
         "bounding_box", [](const ContourSet& s) { return bounding_box(s); },
@@ -192,19 +163,17 @@ Examples
     set.def("__repr__", [](const ContourSet& s) {
         return py::str("<ContourSet {!r}: {} contours, {} points>").format(s.name, s.contours.size(), point_count(s));
     });
-    picklable(set, [](const ContourSet& s) { return py::make_tuple(s.contours, s.name, s.interior, s.exterior); });
+    picklable(set,
+              [](const ContourSet& s) { return py::make_tuple(s.contours, s.name, s.interior, s.exterior, s.surface); });
 }
 
 }  // namespace
 
 void bind_contours(py::module_& m) {
-    bind_plane(m);
+    bind_surface_point(m);
     bind_contour(m);
     bind_contour_set(m);
 
-    define(
-        m, "fit_plane", R"(The least-squares plane through points, shape (n, 3), mm; None when they span none.)",
-        [](const ArrayOf<double>& points) { return fit_plane(points_of(points)); }, py::arg("points"));
     define(
         m, "without_duplicate_points", R"(The contours without points that repeat the one before them exactly.)",
         [](ContourSet contours) {

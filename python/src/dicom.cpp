@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/io/dicom_series.h"
+#include "kontur/io/rtstruct.h"
+#include "notes.h"
 
 namespace kontur::python {
 namespace {
@@ -38,8 +41,37 @@ void bind_series(py::module_& m) {
     grid.def_readonly("notes", &DicomGrid::notes, "list of str");
 }
 
+Roi roi_from(ContourSet contours, std::string name, const std::optional<std::array<std::uint8_t, 3>>& color,
+             std::string interpreted_type, std::string generation_algorithm, std::int64_t number) {
+    Roi roi;
+    roi.number = number;
+    roi.name = std::move(name);
+    roi.interpreted_type = std::move(interpreted_type);
+    roi.generation_algorithm = std::move(generation_algorithm);
+    roi.color = color;
+    roi.contours = std::move(contours);
+    return roi;
+}
+
 void bind_structures(py::module_& m) {
-    py::class_<Roi> roi(m, "Roi", "One region of interest of an RT structure set.");
+    py::class_<Roi> roi(m, "Roi", R"(One region of interest of an RT structure set.
+
+Parameters
+----------
+contours : ContourSet
+name : str
+    Empty: the contour set's name.
+color : (int, int, int), optional
+    Red, green, blue, 0 to 255.
+interpreted_type : str
+    'ORGAN', 'GTV', ...; may be empty.
+generation_algorithm : {'', 'AUTOMATIC', 'SEMIAUTOMATIC', 'MANUAL'}
+number : int
+    0: the next free one.
+)");
+    constructor(roi, &roi_from, py::arg("contours"), py::arg("name") = "", py::arg("color") = py::none(),
+                py::arg("interpreted_type") = "", py::arg("generation_algorithm") = "", py::arg("number") = 0);
+    roi.def_readonly("generation_algorithm", &Roi::generation_algorithm, "str: may be empty.");
     roi.def_readonly("number", &Roi::number, "int");
     roi.def_readonly("name", &Roi::name, "str");
     roi.def_readonly("interpreted_type", &Roi::interpreted_type, "str: 'GTV', 'ORGAN', ...; may be empty.");
@@ -49,7 +81,19 @@ void bind_structures(py::module_& m) {
     roi.def_readonly("notes", &Roi::notes, "list of str: how the stored contours were interpreted.");
     roi.def("__repr__", [](const Roi& r) { return py::str("<Roi {}: {!r}>").format(r.number, r.name); });
 
-    py::class_<StructureSet> set(m, "StructureSet", "An RT structure set.");
+    py::class_<StructureSet> set(m, "StructureSet", R"(An RT structure set.
+
+Parameters
+----------
+rois : sequence of Roi
+label : str
+)");
+    constructor(
+        set,
+        [](std::vector<Roi> rois, std::string label) {
+            return StructureSet{std::move(label), std::move(rois)};
+        },
+        py::arg("rois"), py::arg("label") = "");
     set.def_readonly("label", &StructureSet::label, "str");
     set.def_readonly("rois", &StructureSet::rois, "list of Roi: in the file's order.");
 
@@ -66,11 +110,37 @@ void bind_structures(py::module_& m) {
         py::arg("structures"), py::arg("name_or_number") = py::none());
 }
 
+void bind_writing(py::module_& m) {
+    const auto keywords = Keywords<WriteRtstructOptions>()
+                              .field("holes", &WriteRtstructOptions::holes, "How the holes of a slice are stored.")
+                              .field("series_description", &WriteRtstructOptions::series_description, "");
+    define(
+        m, "write_rtstruct", R"(Writes a DICOM RT structure set that refers to the images it was made on.
+
+Parameters
+----------
+path : path
+structures : StructureSet
+images : DicomSeries
+    Such as one of `list_dicom_series`.
+on_note : callable, optional
+    Called with each sentence on what you should know; when left out they are warnings of the logger 'kontur'.
+@options
+)",
+        [keywords](const fs::path& path, const StructureSet& structures, const DicomSeries& images,
+                   const py::object& on_note, const py::kwargs& given) {
+            const WriteRtstructOptions options = keywords.parse("write_rtstruct", given);
+            give_notes(unlocked([&] { return write_rtstruct(path, structures, images, options); }), on_note);
+        },
+        py::arg("path"), py::arg("structures"), py::arg("images"), py::kw_only(), kOnNote, KeywordText(keywords));
+}
+
 }  // namespace
 
 void bind_dicom(py::module_& m) {
     bind_series(m);
     bind_structures(m);
+    bind_writing(m);
     define(m, "looks_like_dicom", "Whether a file starts as a DICOM file does, or a folder holds such a file.",
            &looks_like_dicom, py::arg("path"));
     define(

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/extract/adaptive.h"
+#include "kontur/extract/polygonize.h"
+#include "kontur/extract/preview.h"
+#include "kontur/extract/rasterize.h"
+#include "kontur/extract/slice_contours.h"
+#include "kontur/extract/trace.h"
+#include "kontur/extract/track.h"
+#include "kontur/extract/voxelize.h"
 
 namespace kontur::python {
 namespace {
@@ -113,6 +121,29 @@ TriangleMesh
         },
         py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, py::arg("threads") = 0,
         py::kw_only(), kProgress, kStop);
+    define(
+        m, "slice_contours", R"(The surface where it passes through the slices (constant k) of its mask's grid.
+
+Parameters
+----------
+mask : Mask
+function : ImplicitFunction
+    The mask's, as `segment` gives both.
+threads : int
+    0: the machine's.
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+ContourSet
+    They enclose exactly the mask's voxel centres; holes are marked.
+)",
+        [](const Mask& mask, const ImplicitFunction& function, int threads, const py::object& progress,
+           const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return slice_contours(mask, function, threads, p); });
+        },
+        py::arg("mask"), py::arg("function"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
     define(
         m, "sample_everywhere", R"(Evaluates every voxel centre: slow, and finds what no start leads to.
 

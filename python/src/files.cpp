@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/io/contour_json.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/markups.h"
+#include "kontur/io/mesh.h"
 #include "notes.h"
 
 namespace kontur::python {

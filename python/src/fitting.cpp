@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/field/caps.h"
+#include "kontur/field/fit.h"
+#include "kontur/field/orient.h"
+#include "kontur/field/prepare.h"
+#include "kontur/field/reduce.h"
+#include "kontur/field/solve.h"
 
 namespace kontur::python {
 namespace {
@@ -53,6 +59,8 @@ Keywords<FitOptions> fit_keywords() {
         .field("least_slope", &FitOptions::least_slope, "Lower bound of the cosine of the tilt.")
         .field("early_tolerance_factor", &FitOptions::early_tolerance_factor,
                "On tolerance_mm, in the rounds before the last.")
+        .field("tilt_points", &FitOptions::tilt_points, "About how many of the points take part in these rounds.")
+        .field("most_points", &FitOptions::most_points, "The last fit uses about as many points; 0: all.")
         .field("cap_rounds", &FitOptions::cap_rounds, "Most further fits while caps or leak probes are exceeded.")
         .field(
             "normal_offset_mm", [](FitOptions& o) -> double& { return o.place.normal_offset_mm; },

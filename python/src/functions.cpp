@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/field/implicit_function.h"
+#include "kontur/field/residual.h"
 
 namespace kontur::python {
 namespace {

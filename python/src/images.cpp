@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/io/image.h"
 #include "notes.h"
 
 namespace kontur::python {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/measure/compare.h"
+#include "kontur/measure/components.h"
 
 namespace kontur::python {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/shape/mesh.h"
+#include "kontur/view/outline.h"
 
 namespace kontur::python {
 namespace {

@@ -37,13 +37,16 @@ PYBIND11_MODULE(_core, m) {
     m.attr("__version__") = KONTUR_VERSION;
     m.def("_error_kinds", &kontur::python::error_kinds);
     bind_grids(m);
+    bind_planes(m);
     bind_contours(m);
+    bind_crossings(m);
     bind_volumes(m);
     bind_meshes(m);
     bind_functions(m);
     bind_fitting(m);
     bind_extraction(m);
     bind_segment(m);
+    bind_editor(m);
     bind_measures(m);
     bind_pictures(m);
     bind_files(m);

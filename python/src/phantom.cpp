@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kontur/phantom/phantom.h"
 #include "bindings.h"
+#include "kontur/phantom/bodies.h"
+#include "kontur/phantom/cases.h"
 
 namespace kontur::python {
 namespace {

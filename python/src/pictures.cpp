@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/io/png.h"
+#include "kontur/view/picture.h"
+#include "kontur/view/reslice.h"
+#include "kontur/view/window.h"
 
 namespace kontur::python {
 namespace {

@@ -65,6 +65,8 @@ void bind_report(py::module_& m) {
         .field("solves", &Report::solves, "int")
         .field("iterations", &Report::iterations, "int: over all solves; 0 for direct solvers.")
         .field("residual", &Report::residual, "Residual: at all drawn points.")
+        .field("crossings", &Report::crossings,
+               "list of Crossing: contours of different planes, those that disagree most first.")
         .field("evaluations", &Report::evaluations, "int: function values computed to voxelize.")
         .field("surface_voxels", &Report::surface_voxels, "int: lattice cells that the surface passes through.")
         .field("mask_voxels", &Report::mask_voxels, "int")

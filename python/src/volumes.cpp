@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "bindings.h"
+#include "kontur/shape/volume.h"
 
 namespace kontur::python {
 namespace {

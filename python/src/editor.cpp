@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/editor.h"
+
+#include "bindings.h"
+
+namespace kontur::python {
+
+void bind_editor(py::module_& m) {
+    py::class_<EditedSurface> surface(m, "EditedSurface", "The surface through a set of contours.");
+    surface.def_readonly("refined", &EditedSurface::refined, "bool: False for a preview.");
+    surface.def_readonly("function", &EditedSurface::function, "ImplicitFunction");
+    surface.def_readonly("mesh", &EditedSurface::mesh, "TriangleMesh: empty without contours.");
+    surface.def_readonly("spacing_mm", &EditedSurface::spacing_mm, "float: of the lattice that the mesh was made on.");
+    surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; refined surfaces only.");
+    surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
+
+    const auto segment = [](auto member) {
+        return [member](EditorOptions & options) -> auto& { return options.segment.*member; };
+    };
+    const auto keywords = Keywords<EditorOptions>()
+                              .field("preview_spacing_mm", &EditorOptions::preview_spacing_mm,
+                                     "Of the preview's lattice; 0: 1/150 of the contours' box diagonal.")
+                              .field("refined_spacing_mm", &EditorOptions::refined_spacing_mm,
+                                     "Of the refined surface's; 0: half the preview's.")
+                              .field("preview_points", &EditorOptions::preview_points,
+                                     "About how many of the drawn points a preview is fitted to.")
+                              .field("kernel", segment(&SegmentOptions::kernel), "As for `segment`, like those that follow.")
+                              .field("normals", segment(&SegmentOptions::normals), "")
+                              .field("normal_offset_mm", segment(&SegmentOptions::normal_offset_mm), "")
+                              .field("smoothing", segment(&SegmentOptions::smoothing), "")
+                              .field("quality", segment(&SegmentOptions::quality), "")
+                              .field("solver", segment(&SegmentOptions::solver), "")
+                              .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "")
+                              .field("threads", segment(&SegmentOptions::threads), "");
+    const std::string help = with_options(R"(Follows contours while they are edited.
+
+After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give. Not for use from several
+threads at once.
+
+Parameters
+----------
+@options
+
+Examples
+--------
+>>> contours = kontur.phantom_case("kidney_radial6").contours
+>>> editor = kontur.Editor(preview_spacing_mm=2)
+>>> fewer = kontur.ContourSet(contours.contours[:5])
+>>> editor.preview(fewer).refined, editor.preview(contours).refined, editor.refine(contours).refined
+(False, False, True)
+)",
+                                          keywords.documentation());
+    py::class_<Editor> editor(m, "Editor", help.c_str());
+    const std::string init_doc = docstring("__init__", "self, *", "", KeywordText(keywords));
+    editor.def(py::init([keywords](const py::kwargs& given) { return Editor(keywords.parse("Editor", given)); }),
+               init_doc.c_str());
+    method(
+        editor, "preview", "The EditedSurface through a ContourSet, fitted to a part of its points.",
+        [](Editor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return self.preview(contours, p); });
+        },
+        py::arg("contours"), py::kw_only(), kProgress, kStop);
+    method(
+        editor, "refine", "The final EditedSurface through a ContourSet: the same function as `segment`'s.",
+        [](const Editor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return self.refine(contours, p); });
+        },
+        py::arg("contours"), py::kw_only(), kProgress, kStop);
+}
+
+}  // namespace kontur::python

@@ -163,6 +163,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_rtstruct_options(*bind.sub, c.write_rtstruct);
+    bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
     add_segment_method(*bind.sub, c.options);
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);

@@ -36,6 +36,7 @@ struct SegmentCommand {
     WriteMaskOptions mask;
     std::string name;  ///< of the structure; empty: the contour file's
     WriteRtstructOptions write_rtstruct;
+    bool date = false;  ///< say in the outputs when they were made
     SegmentOptions options;
 };
 void run(const SegmentCommand& command, Console& console);

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <future>
 #include <utility>
 
 #include "commands.h"
 #include "dicom_output.h"
+#include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
@@ -145,6 +147,10 @@ void run(const SegmentCommand& command, Console& console) {
     const Progress progress = console.progress();
     Laps laps;
     const Inputs inputs = read_inputs(command, progress);
+    // Beside the work: a large image takes as long to digest as a small case to segment.
+    std::future<Provenance> digests = std::async(std::launch::async, [&command, stop = progress.stop] {
+        return input_digests(command, Progress{{}, stop});
+    });
     const double read_seconds = laps.lap();
 
     SegmentOptions options = command.options;
@@ -157,6 +163,10 @@ void run(const SegmentCommand& command, Console& console) {
 
     WriteMaskOptions mask = command.mask;
     if (!inputs.contours.name.empty()) mask.segment_name = inputs.contours.name;
+    mask.provenance = provenance(inputs.contours, inputs.grid, report);
+    for (auto& digest : digests.get()) mask.provenance.push_back(std::move(digest));
+    if (command.date) mask.provenance.emplace_back("date", utc_date());
+
     Outputs outputs;
     const auto write = [&](const fs::path& target, const auto& writer) {
         if (!target.empty()) outputs.write(target, writer);
@@ -164,10 +174,11 @@ void run(const SegmentCommand& command, Console& console) {
     };
     write(command.output, [&](const fs::path& path) { write_mask(path, result, command.image, mask, progress); });
     write(command.rtstruct, [&](const fs::path& path) { write_structure_set(path, command, inputs, result, progress); });
-    write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh); });
+    write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
     write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result)); });
     report.seconds.emplace_back("write", laps.lap());
-    write(command.report, [&](const fs::path& path) { write_file_atomically(path, report_json(report).dump(2) + "\n"); });
+    write(command.report,
+          [&](const fs::path& path) { write_file_atomically(path, report_json(report, mask.provenance).dump(2) + "\n"); });
     outputs.commit();
 
     for (const std::string& warning : report.warnings) console.warn(warning);

@@ -37,11 +37,20 @@ Facts crossings_json(const std::vector<Crossing>& crossings) {
             {"worst", worst}};
 }
 
+/// What the options' own keys do not say.
+Facts provenance_json(const Provenance& made) {
+    Facts facts = Facts::object();
+    for (const auto& [key, value] : made)
+        if (key != "version" && key != "options") facts[key] = value;
+    return facts;
+}
+
 }  // namespace
 
-Facts report_json(const SegmentReport& report) {
+Facts report_json(const SegmentReport& report, const Provenance& made) {
     return {
         {"version", KONTUR_VERSION},
+        {"provenance", provenance_json(made)},
         {"contours", report.contours},
         {"points", report.points},
         {"constraints", report.constraints},

@@ -8,7 +8,7 @@ namespace kontur::app {
 
 /// The report file of `kontur segment`: keys and order are stable, further keys may follow. `seconds` holds the wall time of
 /// each stage, reading and writing included, and their `total`.
-Facts report_json(const SegmentReport& report);
+Facts report_json(const SegmentReport& report, const Provenance& made);
 
 /// Over all stages in the report.
 double total_seconds(const SegmentReport& report);

@@ -2,9 +2,11 @@
 #include "bindings.h"
 #include "kontur/io/contour_json.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/file_digest.h"
 #include "kontur/io/markups.h"
 #include "kontur/io/mesh.h"
 #include "notes.h"
+#include "provenance.h"
 
 namespace kontur::python {
 namespace {
@@ -68,8 +70,41 @@ ContourSet
     define(
         m, "read_mesh", "The TriangleMesh of an STL, PLY or OBJ file, turned to LPS where it declares RAS.",
         [](const fs::path& path) { return unlocked([&] { return read_mesh(path); }); }, py::arg("path"));
-    define(m, "write_mesh", "Writes a mesh as .stl, .ply or .obj, in mm and LPS, whole or not at all.", writer(&write_mesh),
-           py::arg("path"), py::arg("mesh"));
+    define(
+        m, "write_mesh", R"(Writes a mesh as .stl, .ply or .obj, in mm and LPS, whole or not at all.
+
+Parameters
+----------
+path : path
+mesh : TriangleMesh
+provenance : dict of str to str, optional
+    How it was made, for the format's comments; such as what `provenance` gives.
+)",
+        [](const fs::path& path, const TriangleMesh& mesh, const py::object& provenance) {
+            const Provenance made = provenance_from(provenance);
+            const py::gil_scoped_release release;
+            write_mesh(path, mesh, made);
+        },
+        py::arg("path"), py::arg("mesh"), py::arg("provenance") = py::none());
+    define(
+        m, "files_sha256", R"(SHA-256 of files, as 64 hexadecimal digits.
+
+Of a folder: of the sorted digests of its files, one per line. Of several paths: of their digests in this order, one per line.
+
+Parameters
+----------
+paths : sequence of paths
+progress, stop : optional
+    As for `segment`.
+
+Returns
+-------
+str
+)",
+        [](const std::vector<fs::path>& paths, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return files_sha256(paths, p); });
+        },
+        py::arg("paths"), py::kw_only(), kProgress, kStop);
 }
 
 }  // namespace kontur::python

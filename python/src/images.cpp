@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "kontur/io/image.h"
 #include "notes.h"
+#include "provenance.h"
 
 namespace kontur::python {
 namespace {
@@ -103,14 +104,17 @@ Parameters
 path : path
     .nii, .nii.gz, .nrrd, .seg.nrrd or .mha; the name decides on the format.
 mask : Mask
+provenance : dict of str to str, optional
+    How it was made, for the format's text fields; such as what `provenance` gives.
 @options
 )",
-        [writing](const fs::path& path, const Mask& mask, const py::kwargs& given) {
-            const WriteMaskOptions options = writing.parse("write_mask", given);
+        [writing](const fs::path& path, const Mask& mask, const py::object& provenance, const py::kwargs& given) {
+            WriteMaskOptions options = writing.parse("write_mask", given);
+            options.provenance = provenance_from(provenance);
             const py::gil_scoped_release release;
             write_mask(path, mask, options);
         },
-        py::arg("path"), py::arg("mask"), py::kw_only(), KeywordText(writing));
+        py::arg("path"), py::arg("mask"), py::kw_only(), py::arg("provenance") = py::none(), KeywordText(writing));
     define(
         m, "write_image", "Writes an image with its sample type as .nii, .nii.gz, .nrrd, .seg.nrrd or .mha.",
         [](const fs::path& path, const Image& image) {

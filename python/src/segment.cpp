@@ -150,6 +150,34 @@ True
             return run({progress, stop}, [&](const Progress& p) { return segment(contours, grid, options, p); });
         },
         py::arg("contours"), py::arg("grid"), py::kw_only(), kProgress, kStop, KeywordText(keywords));
+    define(
+        m, "provenance", R"(What determines a result, for `write_mask` and `write_mesh`.
+
+Parameters
+----------
+contours : ContourSet
+grid : Grid
+report : SegmentReport
+    What `segment` reported for them.
+
+Returns
+-------
+dict of str to str
+    Digests of contours and grid, version, options as used. Neither time nor file names; add what else you want to keep.
+
+Examples
+--------
+>>> case = kontur.phantom_case("kidney_radial6")
+>>> made = kontur.provenance(case.contours, case.grid, kontur.segment(case.contours, case.grid).report)
+>>> list(made), len(made["contours_sha256"])
+(['contours_sha256', 'grid_sha256', 'version', 'options'], 64)
+)",
+        [](const ContourSet& contours, const Grid& grid, const SegmentReport& report) {
+            py::dict made;
+            for (const auto& [name, value] : provenance(contours, grid, report)) made[py::str(name)] = value;
+            return made;
+        },
+        py::arg("contours"), py::arg("grid"), py::arg("report"));
 }
 
 }  // namespace kontur::python

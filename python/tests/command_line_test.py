@@ -26,11 +26,15 @@ def test_the_same_bytes_as_the_command_line(tmp_path, name, options, words):
     kontur.write_image(tmp_path / "image.nrrd", kontur.make_phantom_image(case.grid))
     contours, grid = kontur.read_contours(tmp_path / "contours.json"), kontur.read_grid(tmp_path / "image.nrrd")
     result = kontur.segment(contours, grid, mesh=True, **options)
+    made = kontur.provenance(contours, grid, result.report) | {
+        "contour_files_sha256": kontur.files_sha256([tmp_path / "contours.json"]),
+        "image_sha256": kontur.files_sha256([tmp_path / "image.nrrd"]),
+    }
     for mask, mesh in (("m.nii.gz", "m.stl"), ("m.nrrd", "m.ply"), ("m.mha", "m.obj")):
         command_line("segment", tmp_path / "contours.json", "--image", tmp_path / "image.nrrd",
                      "--output", tmp_path / mask, "--mesh", tmp_path / mesh, *words)
-        kontur.write_mask(tmp_path / f"python_{mask}", result.mask)
-        kontur.write_mesh(tmp_path / f"python_{mesh}", result.mesh)
+        kontur.write_mask(tmp_path / f"python_{mask}", result.mask, provenance=made)
+        kontur.write_mesh(tmp_path / f"python_{mesh}", result.mesh, provenance=made)
         for made in (mask, mesh):
             assert (tmp_path / f"python_{made}").read_bytes() == (tmp_path / made).read_bytes(), made
 

@@ -8,6 +8,7 @@
 #include "kontur/base/geometry.h"
 #include "kontur/base/parallel.h"
 #include "kontur/base/progress.h"
+#include "kontur/base/sha256.h"
 
 // What goes in and comes out.
 #include "kontur/shape/contour.h"
@@ -16,6 +17,7 @@
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/predicates.h"
+#include "kontur/shape/provenance.h"
 #include "kontur/shape/rgb_image.h"
 #include "kontur/shape/section.h"
 #include "kontur/shape/self_contacts.h"
@@ -27,6 +29,7 @@
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
+#include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
 #include "kontur/io/markups.h"
 #include "kontur/io/rtstruct.h"

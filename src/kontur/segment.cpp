@@ -164,4 +164,15 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     return result;
 }
 
+Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report) {
+    return {
+        {"contours_sha256", contours_sha256(contours)},
+        {"grid_sha256", grid_sha256(grid)},
+        {"version", KONTUR_VERSION},
+        {"options", fmt::format("kernel={} normals={} normal_offset_mm={} smoothing={} quality={} solver={} voxelizer={}",
+                                name(report.kernel), name(report.normals), report.normal_offset_mm, report.smoothing,
+                                report.quality, name(report.solver), name(report.voxelizer))},
+    };
+}
+
 }  // namespace kontur

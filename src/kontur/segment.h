@@ -15,6 +15,7 @@
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/mesh.h"
+#include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -76,5 +77,9 @@ struct Segmentation {
 /// The same bytes for any number of threads.
 Segmentation segment(const ContourSet& contours, const Grid& grid, const SegmentOptions& options = {},
                      const Progress& progress = {});
+
+/// What determines the result, for write_mask and write_mesh: version, digests of contours and grid, options as used. The
+/// number of threads is left out, which changes nothing.
+Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report);
 
 }  // namespace kontur

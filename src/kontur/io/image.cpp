@@ -218,9 +218,13 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
     const std::int64_t value = options.label_value;
     check_label_value(value);
     const auto segment = [&] { return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0}}; };
-    if (value == 1) write(path, mask, segment);
-    else if (value <= 255) write(path, Image{mask.grid, with_value_inside<std::uint8_t>(mask, value)}, segment);
-    else write(path, Image{mask.grid, with_value_inside<std::uint16_t>(mask, value)}, segment);
+    const auto write_view = [&](ImageView view) {
+        view.provenance = options.provenance;
+        write(path, view, segment);
+    };
+    if (value == 1) write_view(mask);
+    else if (value <= 255) write_view(Image{mask.grid, with_value_inside<std::uint8_t>(mask, value)});
+    else write_view(Image{mask.grid, with_value_inside<std::uint16_t>(mask, value)});
 }
 
 void write_image(const fs::path& path, const Image& image) {

@@ -9,6 +9,7 @@
 
 #include "kontur/base/progress.h"
 #include "kontur/io/read_image_options.h"
+#include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -32,6 +33,9 @@ struct WriteMaskOptions {
     std::int64_t label_value = 1;            ///< value inside, 1 to 65535; 8-bit samples up to 255, else 16-bit ones
     std::string segment_name = "Segment_1";  ///< for .seg.nrrd
     std::array<double, 3> segment_color{0.9, 0.7, 0.3};  ///< for .seg.nrrd; red, green, blue from 0 to 1
+    /// Goes into the text fields: NRRD's key/value pairs; a comment extension of NIfTI and, shortened, its description;
+    /// MetaImage's comment, shortened.
+    Provenance provenance{};
 };
 
 /// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha), whole or not at all.

@@ -7,6 +7,7 @@
 #include <span>
 #include <variant>
 
+#include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -17,6 +18,7 @@ struct ImageView {
                                  std::span<const std::uint16_t>, std::span<const std::int32_t>, std::span<const float>>;
     const Grid& grid;
     Samples samples;
+    Provenance provenance{};  ///< for the format's text fields
 
     ImageView(const Grid& its_grid, Samples its_samples) : grid(its_grid), samples(its_samples) {}
     ImageView(const Mask& mask) : grid(mask.grid), samples(std::span(mask.values)) {}

@@ -17,7 +17,7 @@ namespace {
 
 struct Format {
     std::string_view extension;
-    void (*write)(AtomicFile&, const TriangleMesh&);
+    void (*write)(AtomicFile&, const TriangleMesh&, const Provenance&);
     TriangleMesh (*parse)(std::string_view);
 };
 
@@ -100,10 +100,10 @@ double number_of(std::string_view word) {
 
 std::int64_t integer_of(std::string_view word) { return parsed<std::int64_t>(word, "an integer"); }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const Provenance& provenance) {
     const Format& format = format_of(path);
     check_mesh(mesh);
-    write_file_atomically(path, [&](AtomicFile& file) { format.write(file, mesh); });
+    write_file_atomically(path, [&](AtomicFile& file) { format.write(file, mesh, provenance); });
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {

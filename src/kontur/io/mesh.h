@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kontur/shape/mesh.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 
@@ -15,7 +16,8 @@ namespace kontur {
 /// Throws Error(unsupported) for another extension; Error(invalid_input) for a coordinate that is NaN, infinite or beyond
 /// the format's range, an index without a point or a wrong number of normals; Error(too_large) for more than 2^32 - 1
 /// triangles in an STL file; Error(io) naming file and reason.
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// `provenance` goes into comments of PLY and OBJ and, shortened to the digits of the contours' digest, into STL's header.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const Provenance& provenance = {});
 
 /// Reads binary STL, PLY (text and binary of both byte orders) or OBJ, recognised by the path's extension. A file that
 /// declares `SPACE=RAS` is turned to LPS; one that declares nothing is taken as LPS mm. STL points with identical

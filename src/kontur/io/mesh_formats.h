@@ -6,14 +6,15 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/patient_frame.h"
 #include "kontur/shape/mesh.h"
+#include "kontur/shape/provenance.h"
 
 // One writer and one parser per mesh format; internal to `read_mesh` and `write_mesh`, which check the mesh and add the
 // file's name to errors. Parsers take the whole file.
 namespace kontur {
 
-void write_stl(AtomicFile& file, const TriangleMesh& mesh);
-void write_ply(AtomicFile& file, const TriangleMesh& mesh);
-void write_obj(AtomicFile& file, const TriangleMesh& mesh);
+void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
+void write_obj(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 
 TriangleMesh parse_stl(std::string_view bytes);
 TriangleMesh parse_ply(std::string_view bytes);

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::size_t kMaxLineBytes = std::size_t{1} << 16;
 constexpr std::size_t kMaxLines = 10000;
+constexpr std::size_t kMaxCommentBytes = 200;  ///< MetaIO's own reader has room for 255
 
 /// MetaIO has several names for some fields.
 std::string canonical_key(std::string_view key) {
@@ -201,7 +202,10 @@ std::string header_text(const ImageView& image, std::size_t compressed_bytes) {
         const Vec3 direction = affine.column(axis) / spacing[axis];
         matrix += fmt::format("{}{} {} {}", axis ? " " : "", direction.x, direction.y, direction.z);
     }
-    std::string text = "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n";
+    std::string text = "ObjectType = Image\nNDims = 3\n";
+    if (!image.provenance.empty())
+        text += fmt::format("Comment = kontur {}\n", short_text(image.provenance, kMaxCommentBytes));
+    text += "BinaryData = True\nBinaryDataByteOrderMSB = False\n";
     text += fmt::format("CompressedData = True\nCompressedDataSize = {}\n", compressed_bytes);
     text += fmt::format("TransformMatrix = {}\n", matrix);
     text += fmt::format("Offset = {} {} {}\n", affine.translation.x, affine.translation.y, affine.translation.z);

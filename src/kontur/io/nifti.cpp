@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kAgreementMm = 0.1;  ///< how far apart qform and sform may be and still mean the same
 constexpr double kQformErrorMm = 0.01;
+constexpr std::size_t kMaxDescriptionBytes = 72;  ///< of 79, after "kontur "
 
 [[noreturn]] void fail_corrupt(const fs::path& path, const std::string& reason) {
     throw Error(ErrorKind::corrupt_file, path.string() + ": " + reason);
@@ -220,6 +221,20 @@ NiftiHeader header_for(const Grid& grid) {
     return header;
 }
 
+/// A header extension with one "name: value" line for each, empty without any. Its size is a multiple of 16.
+std::string comment_extension(const Provenance& provenance) {
+    if (provenance.empty()) return {};
+    constexpr std::uint32_t kCommentCode = 6;
+    std::string text = "kontur\n";
+    for (const auto& [name, value] : provenance) text += name + ": " + value + "\n";
+    const auto size = static_cast<std::uint32_t>((8 + text.size() + 15) / 16 * 16);
+    text.resize(size - 8, '\0');
+    std::string extension;
+    for (const std::uint32_t number : {size, kCommentCode})
+        for (int shift = 0; shift < 32; shift += 8) extension += static_cast<char>(number >> shift & 255);
+    return extension + text;
+}
+
 }  // namespace
 
 Image read_nifti(const fs::path& path, const ReadImageOptions& options) {
@@ -237,7 +252,14 @@ void write_nifti(const fs::path& path, const ImageView& image) {
             header.bits_per_voxel = 8 * sizeof(Value);
         },
         image.samples);
-    const auto bytes = format_nifti_header(header);
+    const std::string extension = comment_extension(image.provenance);
+    if (!extension.empty()) {
+        header.vox_offset += static_cast<double>(extension.size());
+        header.description = "kontur " + short_text(image.provenance, kMaxDescriptionBytes);
+    }
+    auto bytes = format_nifti_header(header);
+    if (!extension.empty()) bytes[nifti_header_bytes(header.version)] = 1;
+    bytes.insert(bytes.end(), extension.begin(), extension.end());
     write_file_atomically(path, [&](AtomicFile& file) {
         if (path.extension() == ".gz") {
             Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });

@@ -88,6 +88,7 @@ std::string header_text(const ImageView& image) {
                         vector_text(affine.column(2)));
     text += "kinds: domain domain domain\nendian: little\nencoding: gzip\n";
     text += fmt::format("space origin: {}\n", vector_text(affine.translation));
+    for (const auto& [name, value] : image.provenance) text += fmt::format("kontur_{}:={}\n", name, value);
     return text;
 }
 

@@ -95,8 +95,9 @@ private:
 
 }  // namespace
 
-void write_obj(AtomicFile& file, const TriangleMesh& mesh) {
+void write_obj(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance) {
     file.write(fmt::format("# kontur {}\n# SPACE=LPS\n# UNIT=mm\n", KONTUR_VERSION));
+    for (const auto& [name, value] : provenance) file.write(fmt::format("# kontur {}: {}\n", name, value));
     for (const Vec3& p : mesh.points) file.write(fmt::format("v {:.6f} {:.6f} {:.6f}\n", p.x, p.y, p.z));
     for (const Vec3& n : mesh.normals) file.write(fmt::format("vn {:.6f} {:.6f} {:.6f}\n", n.x, n.y, n.z));
     for (const auto& [a, b, c] : mesh.triangles) {

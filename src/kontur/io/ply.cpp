@@ -263,12 +263,14 @@ void append(std::string& bytes, Number value) {
 
 }  // namespace
 
-void write_ply(AtomicFile& file, const TriangleMesh& mesh) {
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance) {
+    std::string comments;
+    for (const auto& [name, value] : provenance) comments += fmt::format("comment kontur {}: {}\n", name, value);
     file.write(fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment kontur {}\ncomment SPACE=LPS\ncomment UNIT=mm\n"
+        "ply\nformat binary_little_endian 1.0\ncomment kontur {}\ncomment SPACE=LPS\ncomment UNIT=mm\n{}"
         "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
         "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-        KONTUR_VERSION, mesh.points.size(),
+        KONTUR_VERSION, comments, mesh.points.size(),
         mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", mesh.triangles.size()));
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         std::string row;

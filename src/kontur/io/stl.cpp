@@ -75,13 +75,14 @@ std::uint32_t checked_facet_count(std::string_view bytes) {
 
 }  // namespace
 
-void write_stl(AtomicFile& file, const TriangleMesh& mesh) {
+void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance) {
     constexpr std::size_t kMostTriangles = std::numeric_limits<std::uint32_t>::max();
     if (mesh.triangles.size() > kMostTriangles)
         throw Error(ErrorKind::too_large,
                     fmt::format("{} triangles; an STL file holds at most {}", mesh.triangles.size(), kMostTriangles));
     std::array<char, kTitleSize> title{};
-    fmt::format_to_n(title.data(), title.size(), "kontur {} SPACE=LPS UNIT=mm", KONTUR_VERSION);
+    const std::string made = provenance.empty() ? "" : " " + short_text(provenance, title.size());
+    fmt::format_to_n(title.data(), title.size(), "kontur {} SPACE=LPS UNIT=mm{}", KONTUR_VERSION, made);
     file.write(title.data(), title.size());
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     file.write(&count, sizeof count);

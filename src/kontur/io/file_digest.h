@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kontur/base/progress.h"
+
+namespace kontur {
+
+/// SHA-256 of a file's bytes, as 64 hexadecimal digits, as sha256sum prints it. Of a folder: the SHA-256 of the sorted
+/// digests of the files directly in it, one per line, which does not depend on their names. Throws Error(io).
+std::string file_sha256(const std::filesystem::path& path, const Progress& progress = {});
+
+/// Of one file its digest; of several the SHA-256 of their digests in this order, one per line.
+std::string files_sha256(const std::vector<std::filesystem::path>& paths, const Progress& progress = {});
+
+}  // namespace kontur

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/shape/provenance.h"
+
+#include <bit>
+#include <span>
+
+#include "kontur/base/sha256.h"
+
+namespace kontur {
+namespace {
+
+/// Numbers as 8 bytes each, the same on every machine; lists with their length in front, so that no two inputs run together.
+class Digest {
+public:
+    void add(std::uint64_t number) {
+        std::array<std::byte, 8> bytes;
+        for (std::size_t n = 0; n < 8; ++n) bytes[n] = static_cast<std::byte>(number >> (8 * n));
+        hash_.update(bytes);
+    }
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+    void add(const Vec3& v) {
+        for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+    }
+    void add(const std::vector<Vec3>& points) {
+        add(std::uint64_t{points.size()});
+        for (const Vec3& p : points) add(p);
+    }
+    void add(const Plane& plane) {
+        for (const Vec3& v : {plane.origin, plane.normal, plane.u, plane.v}) add(v);
+    }
+    std::string hex() const { return hash_.hex(); }
+
+private:
+    Sha256 hash_;
+};
+
+}  // namespace
+
+std::string contours_sha256(const ContourSet& set) {
+    Digest digest;
+    digest.add(std::uint64_t{set.contours.size()});
+    for (const Contour& contour : set.contours) {
+        digest.add(contour.plane);
+        digest.add(contour.points);
+        for (const bool mark : {contour.closed, contour.hole}) digest.add(std::uint64_t{mark});
+        digest.add(static_cast<std::uint64_t>(contour.end));
+        digest.add(contour.inside ? 1 + static_cast<std::uint64_t>(*contour.inside) : std::uint64_t{0});
+    }
+    digest.add(set.interior);
+    digest.add(set.exterior);
+    digest.add(std::uint64_t{set.surface.size()});
+    for (const SurfacePoint& point : set.surface) {
+        digest.add(point.position);
+        digest.add(std::uint64_t{point.outward.has_value()});
+        digest.add(point.outward.value_or(Vec3{}));
+    }
+    return digest.hex();
+}
+
+std::string grid_sha256(const Grid& grid) {
+    Digest digest;
+    for (int axis = 0; axis < 3; ++axis) digest.add(static_cast<std::uint64_t>(grid.size[axis]));
+    for (int axis = 0; axis < 3; ++axis) digest.add(grid.index_to_mm.column(axis));
+    digest.add(grid.index_to_mm.translation);
+    return digest.hex();
+}
+
+std::string short_text(const Provenance& provenance, std::size_t most_bytes) {
+    constexpr std::size_t kDigits = 12;
+    std::string text;
+    for (const auto& [name, value] : provenance)
+        text += (text.empty() ? "" : " ") + name + "=" + (name.ends_with("_sha256") ? value.substr(0, kDigits) : value);
+    return text.substr(0, most_bytes);
+}
+
+}  // namespace kontur

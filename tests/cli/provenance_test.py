@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What kontur segment writes says how it was made, and says the same each time."""
+import hashlib
+import json
+import re
+
+import nibabel
+import numpy
+import pytest
+from support import ball_array, ball_planes, kontur, read_nifti, write_nifti, write_planes
+
+
+@pytest.fixture
+def folder(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    write_nifti(tmp_path / "image.nii.gz", (ball_array() * 150 - 100).astype(numpy.int16))
+    return tmp_path
+
+
+def segment(folder, *words, **options):
+    result = kontur("segment", "ball.json", "--image", "image.nii.gz", *words, cwd=folder, **options)
+    assert result.returncode == 0, result
+
+
+def sha256(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def comment(path):
+    """The lines of a NIfTI file's comment extension as names and values."""
+    [extension] = nibabel.load(path).header.extensions
+    assert extension.get_code() == 6
+    lines = extension.get_content().rstrip(b"\0").decode().splitlines()
+    return dict(line.split(": ", 1) for line in lines[1:])
+
+
+def test_the_digests_are_those_of_the_files(folder):
+    segment(folder, "--output", "out.nii.gz", "--report", "out.json")
+    made = json.loads((folder / "out.json").read_text())["provenance"]
+    assert made["contour_files_sha256"] == sha256(folder / "ball.json")
+    assert made["image_sha256"] == sha256(folder / "image.nii.gz")
+    assert re.fullmatch("[0-9a-f]{64}", made["contours_sha256"])
+    assert "date" not in made
+    assert {key: value for key, value in comment(folder / "out.nii.gz").items() if key in made} == made
+
+
+def test_a_nifti_mask_is_read_by_others_as_before(folder):
+    segment(folder, "--output", "out.nii.gz")
+    segment(folder, "--output", "out.nii")
+    assert numpy.array_equal(read_nifti(folder / "out.nii.gz"), read_nifti(folder / "out.nii"))
+    assert set(numpy.unique(read_nifti(folder / "out.nii"))) == {0, 1}
+    description = nibabel.load(folder / "out.nii").header["descrip"].item().decode()
+    assert description.startswith("kontur contours_sha256=" + comment(folder / "out.nii")["contours_sha256"][:12])
+    result = json.loads(kontur("compare", folder / "out.nii", folder / "out.nii.gz", "--json").stdout)
+    assert result["dice"] == 1
+
+
+@pytest.mark.parametrize("mask, pattern", [("out.nrrd", "kontur_{}:={}\n"), ("out.seg.nrrd", "kontur_{}:={}\n")])
+def test_other_masks_and_meshes_say_the_same(folder, mask, pattern):
+    segment(folder, "--output", mask, "--mesh", "out.ply", "--report", "out.json")
+    segment(folder, "--output", "out.mha", "--mesh", "out.obj")
+    segment(folder, "--output", "out.nii", "--mesh", "out.stl")
+    made = comment(folder / "out.nii")
+    for file, form in [(mask, pattern), ("out.ply", "comment kontur {}: {}\n"), ("out.obj", "# kontur {}: {}\n")]:
+        header = (folder / file).read_bytes()[:4000].decode(errors="replace")
+        for name, value in made.items():
+            assert form.format(name, value) in header, file
+    digest = made["contours_sha256"][:12].encode()
+    assert digest in (folder / "out.stl").read_bytes()[:80] and digest in (folder / "out.mha").read_bytes()[:400]
+    for file in (mask, "out.mha"):
+        assert json.loads(kontur("compare", folder / file, folder / "out.nii", "--json").stdout)["dice"] == 1
+    for file in ("out.ply", "out.obj", "out.stl"):
+        assert json.loads(kontur("inspect", folder / file, "--json").stdout)[0]["kind"] == "mesh"
+
+
+def test_equal_contours_have_one_digest_and_others_another(folder):
+    segment(folder, "--output", "a.nii")
+    kontur("convert", "ball.json", "same.json", cwd=folder)
+    kontur("segment", "same.json", "--image", "image.nii.gz", "--output", "b.nii", cwd=folder)
+    kontur("segment", write_planes(folder / "fewer.json", ball_planes()[:-1]), "--image", "image.nii.gz", "--output", "c.nii", cwd=folder)
+    a, b, c = (comment(folder / f"{name}.nii") for name in "abc")
+    assert a["contours_sha256"] == b["contours_sha256"] != c["contours_sha256"]
+    assert a["contour_files_sha256"] != b["contour_files_sha256"]
+    assert a["grid_sha256"] == c["grid_sha256"]
+    segment(folder, "--output", "d.nii", "--quality", "0.5")
+    assert "quality=0.5 " in comment(folder / "d.nii")["options"]
+
+
+def test_a_date_only_when_asked_and_from_the_environment(folder):
+    segment(folder, "--output", "a.nii", "--date", env={"SOURCE_DATE_EPOCH": "86400"})
+    segment(folder, "--output", "b.nii", "--date")
+    assert comment(folder / "a.nii")["date"] == "1970-01-02T00:00:00Z"
+    assert re.fullmatch(r"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ", comment(folder / "b.nii")["date"])
+
+
+def test_no_file_name_and_no_time_go_into_the_files(folder):
+    segment(folder, "--output", "a.nii", "--mesh", "a.ply")
+    (folder / "DOE_JANE.json").write_bytes((folder / "ball.json").read_bytes())
+    kontur("segment", "DOE_JANE.json", "--image", "image.nii.gz", "--output", "b.nii", "--mesh", "b.ply", cwd=folder)
+    assert (folder / "a.nii").read_bytes() == (folder / "b.nii").read_bytes()
+    assert (folder / "a.ply").read_bytes() == (folder / "b.ply").read_bytes()

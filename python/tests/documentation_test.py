@@ -72,3 +72,11 @@ def test_the_programs_in_the_documentation_run(tmp_path, monkeypatch):
         assert len(programs) >= blocks
         exec(compile("\n".join(programs), page, "exec"), {})
     assert (tmp_path / "liver.nii.gz").exists() and (tmp_path / "liver.stl").exists()
+
+
+def test_the_example_makes_its_figure(tmp_path):
+    pytest.importorskip("matplotlib")
+    example = pathlib.Path(__file__).parents[1] / "examples" / "kidney_figure.py"
+    result = subprocess.run([sys.executable, example, tmp_path / "kidney.png"], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert (tmp_path / "kidney.png").read_bytes().startswith(b"\x89PNG") and "Dice 0.9" in result.stdout

@@ -13,6 +13,8 @@ _Progress = Callable[[str, float], object]
 _Kernel = Literal["triharmonic", "biharmonic"]
 _Normals = Literal["surface", "in-plane"]
 _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
+_Conflicts = Literal["reconcile", "newest-wins", "exact"]
+_FillRule = Literal["even-odd", "declared"]
 _Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
 _ConstraintKind = Literal["boundary", "normal", "interior", "exterior", "cap"]
 
@@ -227,9 +229,11 @@ class Editor:
         normals: _Normals = "surface",
         normal_offset_mm: float | None = None,
         smoothing: float | None = None,
+        conflicts: _Conflicts = "reconcile",
+        fill_rule: _FillRule = "even-odd",
         quality: float = 1.0,
         solver: _Solver = "automatic",
-        tolerance_mm: float = 0.001,
+        tolerance_mm: float | None = None,
         threads: int = 0,
     ) -> None: ...
     def preview(
@@ -407,6 +411,8 @@ class PreparedContours:
     @property
     def leak_probes(self) -> list[Cap]: ...
     @property
+    def notes(self) -> list[str]: ...
+    @property
     def coplanar(self) -> bool: ...
 
 class Residual:
@@ -465,6 +471,10 @@ class SegmentReport:
     def normal_offset_mm(self) -> float: ...
     @property
     def smoothing(self) -> float: ...
+    @property
+    def conflicts(self) -> str: ...
+    @property
+    def fill_rule(self) -> str: ...
     @property
     def quality(self) -> float: ...
     @property
@@ -705,6 +715,9 @@ def prepare(
     *,
     quality: float = 1.0,
     least_segments: int = 48,
+    fill_rule: _FillRule = "even-odd",
+    gaps: bool = True,
+    click_margin_mm: float = 1.0,
     caps: bool = True,
     copy_shift_mm: float = 0.0,
 ) -> PreparedContours: ...
@@ -798,6 +811,16 @@ def read_planes_json(path: _Path) -> list[Plane]: ...
 
 def read_rtstruct(path: _Path) -> StructureSet: ...
 
+def reconcile(
+    prepared: PreparedContours,
+    crossings: Sequence[Crossing],
+    *,
+    conflicts: _Conflicts = "reconcile",
+    offset_mm: float = 1.0,
+    strength: float = 100.0,
+    reach: float = 3.0,
+) -> PreparedContours: ...
+
 def reduce(contour: Contour, quality: float = 1.0, min_points: int = 6) -> Contour: ...
 
 def refine(contour: Contour, least_segments: int = 0) -> Contour: ...
@@ -832,6 +855,8 @@ def segment(
     normals: _Normals = "surface",
     normal_offset_mm: float | None = None,
     smoothing: float | None = None,
+    conflicts: _Conflicts = "reconcile",
+    fill_rule: _FillRule = "even-odd",
     quality: float = 1.0,
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,
@@ -865,7 +890,7 @@ def solve(
     kernel: _Kernel = "triharmonic",
     solver: _Solver = "automatic",
     smoothing: float = 0.0,
-    tolerance_mm: float = 0.001,
+    tolerance_mm: float | None = None,
     max_iterations: int = 500,
     max_memory_mb: float = 16384.0,
     threads: int = 0,

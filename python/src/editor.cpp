@@ -2,6 +2,7 @@
 #include "kontur/editor.h"
 
 #include "bindings.h"
+#include "segment_words.h"
 
 namespace kontur::python {
 
@@ -28,6 +29,8 @@ void bind_editor(py::module_& m) {
                               .field("normals", segment(&SegmentOptions::normals), "")
                               .field("normal_offset_mm", segment(&SegmentOptions::normal_offset_mm), "")
                               .field("smoothing", segment(&SegmentOptions::smoothing), "")
+                              .field("conflicts", segment(&SegmentOptions::conflicts), "")
+                              .field("fill_rule", segment(&SegmentOptions::fill_rule), "")
                               .field("quality", segment(&SegmentOptions::quality), "")
                               .field("solver", segment(&SegmentOptions::solver), "")
                               .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "")

@@ -6,6 +6,7 @@
 #include "kontur/field/prepare.h"
 #include "kontur/field/reduce.h"
 #include "kontur/field/solve.h"
+#include "segment_words.h"
 
 namespace kontur::python {
 namespace {
@@ -23,6 +24,10 @@ Keywords<PrepareOptions> prepare_keywords() {
         .field("quality", &PrepareOptions::quality, "Fraction of each contour's points to keep, in (0, 1].")
         .field("least_segments", &PrepareOptions::least_segments,
                "Contours of fewer segments, times quality, are subdivided; 0: the paper's rule.")
+        .field("fill_rule", &PrepareOptions::fill_rule, "What contours inside others mean.")
+        .field("gaps", &PrepareOptions::gaps, "Keep normal constraints clear of the opposite wall.")
+        .field("click_margin_mm", &PrepareOptions::click_margin_mm,
+               "How far f must be from 0 at interior and exterior points.")
         .field("caps", &PrepareOptions::caps, "Limit the extrapolation beyond the last contours, and watch for leaks.")
         .field("copy_shift_mm", &PrepareOptions::copy_shift_mm,
                "> 0: coplanar contours get a copy of the first one, shifted by this.");
@@ -73,7 +78,9 @@ Keywords<FitOptions> fit_keywords() {
 
 ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> values,
                                std::optional<std::vector<ConstraintKind>> kinds) {
-    ConstraintSet set{std::move(centers), std::move(values), {}};
+    ConstraintSet set;
+    set.centers = std::move(centers);
+    set.values = std::move(values);
     set.kinds = kinds ? std::move(*kinds) : std::vector<ConstraintKind>(set.size(), ConstraintKind::boundary);
     if (set.values.size() != set.size() || set.kinds.size() != set.size())
         throw Error(ErrorKind::invalid_input, std::to_string(set.size()) + " constraints have " +
@@ -112,6 +119,7 @@ void bind_types(py::module_& m) {
                           "ndarray, shape (m, 3): mm, where contours cross themselves.");
     prepared.def_readonly("caps", &PreparedContours::caps, "list of Cap: limits beyond the last contours.");
     prepared.def_readonly("leak_probes", &PreparedContours::leak_probes, "list of Cap: limits where a leak would show.");
+    prepared.def_readonly("notes", &PreparedContours::notes, "list of str: choices made for you and doubts.");
     prepared.def_readonly("coplanar", &PreparedContours::coplanar, "bool: all contours lie in one plane.");
 
     py::class_<Cap> cap(m, "Cap", "A point that the object should not reach.");
@@ -214,6 +222,35 @@ PreparedContours
             return unlocked([&] { return prepare(contours, options); });
         },
         py::arg("contours"), py::kw_only(), KeywordText(preparing));
+    const auto reconciling =
+        Keywords<ReconcileOptions>()
+            .field("conflicts", &ReconcileOptions::conflicts,
+                   "Which of two contours yields: both, the earlier one, or none.")
+            .field("offset_mm", &ReconcileOptions::offset_mm,
+                   "Length of the normal constraints: disagreements far below it do not matter.")
+            .field("strength", &ReconcileOptions::strength,
+                   "A point in the middle of a disagreement as large as the offset gets 1 / (1 + strength) trust.")
+            .field("reach", &ReconcileOptions::reach,
+                   "How far around a crossing, in multiples of the disagreement, contours yield.");
+    define(
+        m, "reconcile", R"(Lowers the trust in points about every crossing at which contours disagree.
+
+Parameters
+----------
+prepared : PreparedContours
+crossings : sequence of Crossing
+    From `find_crossings` on the set that was prepared.
+@options
+
+Returns
+-------
+PreparedContours
+)",
+        [reconciling](PreparedContours prepared, const std::vector<Crossing>& crossings, const py::kwargs& given) {
+            reconcile(prepared.points, crossings, reconciling.parse("reconcile", given));
+            return prepared;
+        },
+        py::arg("prepared"), py::arg("crossings"), py::kw_only(), KeywordText(reconciling));
     const auto fitting = fit_keywords();
     define(
         m, "fit", R"(Fits the implicit function to prepared contours.

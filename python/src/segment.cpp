@@ -2,6 +2,7 @@
 #include "kontur/segment.h"
 
 #include "bindings.h"
+#include "segment_words.h"
 
 namespace kontur::python {
 namespace {
@@ -15,6 +16,9 @@ Keywords<SegmentOptions> segment_keywords() {
                "Length of the normal constraints; None: 0.3 % of the contours' box diagonal.")
         .field("smoothing", &SegmentOptions::smoothing,
                "On unit-box coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
+        .field("conflicts", &SegmentOptions::conflicts,
+               "Where contours of different planes contradict each other: both yield, the earlier one, or none.")
+        .field("fill_rule", &SegmentOptions::fill_rule, "What contours inside others of their plane mean.")
         .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
         .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
         .field("tolerance_mm", &SegmentOptions::tolerance_mm,
@@ -59,6 +63,8 @@ void bind_report(py::module_& m) {
         .field("normals", &Report::normals, "str")
         .field("normal_offset_mm", &Report::normal_offset_mm, "float: as used.")
         .field("smoothing", &Report::smoothing, "float: as used.")
+        .field("conflicts", &Report::conflicts, "str")
+        .field("fill_rule", &Report::fill_rule, "str")
         .field("quality", &Report::quality, "float")
         .field("solver", &Report::solver, "str: the one that ran.")
         .field("voxelizer", &Report::voxelizer, "str")

@@ -35,8 +35,8 @@ def test_the_same_bytes_as_the_command_line(tmp_path, name, options, words):
                      "--output", tmp_path / mask, "--mesh", tmp_path / mesh, *words)
         kontur.write_mask(tmp_path / f"python_{mask}", result.mask, provenance=made)
         kontur.write_mesh(tmp_path / f"python_{mesh}", result.mesh, provenance=made)
-        for made in (mask, mesh):
-            assert (tmp_path / f"python_{made}").read_bytes() == (tmp_path / made).read_bytes(), made
+        for file in (mask, mesh):
+            assert (tmp_path / f"python_{file}").read_bytes() == (tmp_path / file).read_bytes(), file
 
 
 def test_tracing_gives_the_same_bytes(tmp_path, case, kidney):

@@ -153,6 +153,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.points = point_count(contours);
     report.quality = options.quality;
     report.voxelizer = options.voxelizer;
+    report.fill_rule = options.fill_rule;
     report.conflicts = fitting.reconcile.conflicts;
     append(report.warnings, prepared.notes);
     append(report.warnings, missed_clicks(contours, result.function));
@@ -169,9 +170,11 @@ Provenance provenance(const ContourSet& contours, const Grid& grid, const Segmen
         {"contours_sha256", contours_sha256(contours)},
         {"grid_sha256", grid_sha256(grid)},
         {"version", KONTUR_VERSION},
-        {"options", fmt::format("kernel={} normals={} normal_offset_mm={} smoothing={} quality={} solver={} voxelizer={}",
-                                name(report.kernel), name(report.normals), report.normal_offset_mm, report.smoothing,
-                                report.quality, name(report.solver), name(report.voxelizer))},
+        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} normal_offset_mm={} smoothing={} quality={} "
+                                "solver={} voxelizer={}",
+                                name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
+                                report.normal_offset_mm, report.smoothing, report.quality, name(report.solver),
+                                name(report.voxelizer))},
     };
 }
 

@@ -49,6 +49,7 @@ struct SegmentReport {
     Normals normals = Normals::surface;
     double normal_offset_mm = 0;
     double smoothing = 0;
+    FillRule fill_rule = FillRule::even_odd;
     Conflicts conflicts = Conflicts::reconcile;
     double quality = 1;
     Solver solver = Solver::automatic;

@@ -81,8 +81,8 @@ void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& pro
         throw Error(ErrorKind::too_large,
                     fmt::format("{} triangles; an STL file holds at most {}", mesh.triangles.size(), kMostTriangles));
     std::array<char, kTitleSize> title{};
-    const std::string made = provenance.empty() ? "" : " " + short_text(provenance, title.size());
-    fmt::format_to_n(title.data(), title.size(), "kontur {} SPACE=LPS UNIT=mm{}", KONTUR_VERSION, made);
+    fmt::format_to_n(title.data(), title.size(), "kontur {} SPACE=LPS UNIT=mm{}{}", KONTUR_VERSION,
+                     provenance.empty() ? "" : " ", short_text(provenance, title.size()));
     file.write(title.data(), title.size());
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     file.write(&count, sizeof count);

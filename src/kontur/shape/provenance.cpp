@@ -68,8 +68,12 @@ std::string grid_sha256(const Grid& grid) {
 std::string short_text(const Provenance& provenance, std::size_t most_bytes) {
     constexpr std::size_t kDigits = 12;
     std::string text;
-    for (const auto& [name, value] : provenance)
-        text += (text.empty() ? "" : " ") + name + "=" + (name.ends_with("_sha256") ? value.substr(0, kDigits) : value);
+    for (const auto& [name, value] : provenance) {
+        if (!text.empty()) text += ' ';
+        text += name;
+        text += '=';
+        text += name.ends_with("_sha256") ? value.substr(0, kDigits) : value;
+    }
     return text.substr(0, most_bytes);
 }
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "casters.h"
+#include "kontur/field/reconcile.h"
+#include "kontur/shape/contour_nesting.h"
+
+namespace kontur::python {
+
+template <>
+struct Words<Conflicts> {
+    static constexpr std::array values{Conflicts::reconcile, Conflicts::newest_wins, Conflicts::exact};
+};
+
+template <>
+struct Words<FillRule> {
+    static constexpr std::array values{FillRule::even_odd, FillRule::declared};
+};
+
+}  // namespace kontur::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<kontur::Conflicts> : word_caster<kontur::Conflicts> {};
+
+template <>
+struct type_caster<kontur::FillRule> : word_caster<kontur::FillRule> {};
+
+}  // namespace pybind11::detail

@@ -11,13 +11,13 @@
 namespace kontur {
 namespace {
 
-// Sums run in lanes of a vector type, because compilers do not reorder sums.
-constexpr int kLanes = 8;
+// Sums run in lanes of a vector type, because compilers do not reorder sums; AVX2 would break a wider one into numbers.
+constexpr int kLanes = 4;
 using Pack = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
-static_assert(kRowsPerStep == 2 * kLanes);
+static_assert(kRowsPerStep % (2 * kLanes) == 0);
 
 [[gnu::always_inline]] inline double sum_of(const Pack& p) {
-    return ((p[0] + p[4]) + (p[1] + p[5])) + ((p[2] + p[6]) + (p[3] + p[7]));
+    return (p[0] + p[2]) + (p[1] + p[3]);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET double squared_norm(const double* a, std::int32_t lead) {

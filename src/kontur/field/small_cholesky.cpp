@@ -12,7 +12,7 @@ namespace kontur {
 namespace {
 
 // Tiles of two packs by kPanel columns stay in registers, which compilers do not achieve from plain loops.
-constexpr int kLanes = 8;
+constexpr int kLanes = 4;  // wider types than AVX2's are broken into single numbers there, twenty times slower
 using Pack = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 constexpr int kPanel = 16;  // columns that are factorised before they update the others

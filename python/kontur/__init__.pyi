@@ -890,7 +890,7 @@ def solve(
     kernel: _Kernel = "triharmonic",
     solver: _Solver = "automatic",
     smoothing: float = 0.0,
-    tolerance_mm: float | None = None,
+    tolerance_mm: float = 0.001,
     max_iterations: int = 500,
     max_memory_mb: float = 16384.0,
     threads: int = 0,

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "kontur/field/orient.h"
+#include "kontur/field/reduce.h"
 #include "kontur/field/section_probes.h"
 
 namespace kontur {
@@ -65,7 +67,28 @@ double deepest(const std::vector<Probe>& inside) {
     return depth;
 }
 
-void append_flat(const Section& region, const std::vector<Probe>& inside, double sign, Ends& ends) {
+/// Two copies of the contour: one below the rim, which says that the wall stands upright there, and one inside of it on the
+/// lid. Without them a smooth function, which has no edge, bulges on both sides of the rim.
+void append_rim(const Contour& contour, std::int32_t index, const Section& region, const Vec3& up, double distance,
+                Ends& ends) {
+    constexpr int kLeastSegments = 48;
+    const Contour rim = refine(contour, kLeastSegments);
+    const ContourOrientation orientation = orient(rim);
+    for (std::size_t i = 0; i < rim.points.size(); ++i) {
+        const Vec3 &at = rim.points[i], &outward = orientation.normals[i];
+        ends.lids.push_back({at - distance * up, outward, rim.plane.normal, index});
+        const Vec3 inside = at - distance * outward;
+        const Point2 on_lid = region.plane.to_uv(inside);
+        if (region.contains(on_lid) && region.clearance(on_lid) > 0.9 * distance)
+            ends.lids.push_back({.position = inside, .inplane_normal = up, .contour = index});
+    }
+}
+
+void append_flat(const ContourSet& set, const Section& region, const std::vector<Probe>& inside, double sign, Ends& ends) {
+    constexpr double kEdge = 0.1;  // of the inscribed radius
+    for (const std::size_t c : region.contours)
+        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, sign * region.plane.normal,
+                   kEdge * deepest(inside), ends);
     const auto contour = static_cast<std::int32_t>(region.contours.front());
     for (const Probe& probe : inside)
         ends.lids.push_back({.position = region.plane.from_uv(probe.at[0], probe.at[1]),
@@ -108,7 +131,7 @@ Ends find_ends(const ContourSet& set) {
             }
             const double sign = above.carried_on ? -1 : 1;
             if (set.contours[c].end == ContourEnd::flat) {
-                append_flat(region, inside, sign, ends);
+                append_flat(set, region, inside, sign, ends);
                 continue;
             }
             const std::optional<double> spacing = (above.carried_on ? above : below).spacing;

@@ -58,13 +58,20 @@ void write_mask_file(const fs::path& path, const ContourSet& set, const Structur
     WriteMaskOptions options;
     options.segment_name = structure.name;
     options.segment_color = rgb(structure.color);
-    write_mask(path, segment(set, grid).mask, options);
+    const Segmentation made = segment(set, grid);
+    options.provenance = provenance(set, grid, made.report);
+    write_mask(path, made.mask, options);
 }
 
 Segmentation segmented(const ContourSet& set, const Grid& grid) {
     SegmentOptions options;
     options.mesh = true;
     return segment(set, grid, options);
+}
+
+void write_mesh_file(const fs::path& path, const ContourSet& set, const Grid& grid) {
+    const Segmentation made = segmented(set, grid);
+    write_mesh(path, *made.mesh, provenance(set, grid, made.report));
 }
 
 void write_picture(const fs::path& path, const ContourSet& set, const Image& image) {
@@ -147,7 +154,7 @@ Download Session::exported(const std::string& name, std::optional<Id> structure)
         const Structure& chosen = structure_of(now, *structure);
         const ContourSet set = contour_set(now, *structure);
         if (is_one_of(name, kMasks)) write_mask_file(path, set, chosen, image_->grid);
-        else if (is_one_of(name, kMeshes)) write_mesh(path, *segmented(set, image_->grid).mesh);
+        else if (is_one_of(name, kMeshes)) write_mesh_file(path, set, image_->grid);
         else if (is_one_of(name, kContours)) write_contours(path, set);
         else if (name == "picture.png") write_picture(path, set, *image_);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { gunzipSync } from "node:zlib";
 import { after, before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { BALL_RADIUS_MM, circle, launch, run, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
@@ -98,7 +99,13 @@ describe("the page", () => {
     writeFileSync(paths[0], mask.bytes);
     writeFileSync(paths[1], contours.bytes);
     run("segment", paths[1], "--image", image, "--output", paths[2]);
-    assert.deepEqual(readFileSync(paths[0]), readFileSync(paths[2]));
+    // Behind the header and its notes on how the file was made: only the command line has read a contour file.
+    const voxels = (path: string): Buffer => {
+      const bytes = gunzipSync(readFileSync(path));
+      return bytes.subarray(bytes.readFloatLE(108));
+    };
+    assert.deepEqual(voxels(paths[0]), voxels(paths[2]));
+    assert.ok(voxels(paths[0]).includes(1));
     const volume = Number.parseFloat((await viewer.page.locator(".figure strong").first().textContent())!);
     const truth = (4 / 3) * Math.PI * (BALL_RADIUS_MM / 10) ** 3;
     assert.ok(Math.abs(volume / truth - 1) < 0.08, `${volume} ml; the ball has ${truth.toFixed(0)} ml`);

@@ -107,26 +107,51 @@ template <int kLanes, bool kMutual>
     else add_all_sums<kLanes, Kernel::biharmonic, kMutual>(nodes, left, right, out);
 }
 
-}  // namespace
+using AddSums = void(Kernel, const NodeView&, NodeRun, std::span<const NodeRun>, double*);
+
+template <bool kMutual>
+void add_sums_by_2(Kernel kernel, const NodeView& nodes, NodeRun left, std::span<const NodeRun> right, double* out) {
+    add_sums_of<2, kMutual>(kernel, nodes, left, right, out);
+}
 
 #if KONTUR_CHOOSES_INSTRUCTION_SET
-#define KONTUR_WITH_LANES(body)                                                                         \
-    __attribute__((target("arch=x86-64-v4"))) body(8) __attribute__((target("arch=x86-64-v3"))) body(4) \
-        __attribute__((target("default"))) body(2)
+template <bool kMutual>
+__attribute__((target("arch=x86-64-v3"))) void add_sums_by_4(Kernel kernel, const NodeView& nodes, NodeRun left,
+                                                             std::span<const NodeRun> right, double* out) {
+    add_sums_of<4, kMutual>(kernel, nodes, left, right, out);
+}
+
+template <bool kMutual>
+__attribute__((target("arch=x86-64-v4"))) void add_sums_by_8(Kernel kernel, const NodeView& nodes, NodeRun left,
+                                                             std::span<const NodeRun> right, double* out) {
+    add_sums_of<8, kMutual>(kernel, nodes, left, right, out);
+}
+
+template <bool kMutual>
+AddSums* widest() {
+    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512cd");
+    return v4 ? add_sums_by_8<kMutual> : v3 ? add_sums_by_4<kMutual> : add_sums_by_2<kMutual>;
+}
 #else
-#define KONTUR_WITH_LANES(body) body(2)
+template <bool kMutual>
+AddSums* widest() {
+    return add_sums_by_2<kMutual>;
+}
 #endif
 
-#define KONTUR_MUTUAL_SUMS(lanes)                                                                                           \
-    void add_mutual_sums(Kernel kernel, const NodeView& nodes, NodeRun left, std::span<const NodeRun> right, double* out) { \
-        add_sums_of<lanes, true>(kernel, nodes, left, right, out);                                                          \
-    }
-KONTUR_WITH_LANES(KONTUR_MUTUAL_SUMS)
+}  // namespace
 
-#define KONTUR_OWN_SUMS(lanes)                                                          \
-    void add_own_sums(Kernel kernel, const NodeView& nodes, NodeRun run, double* out) { \
-        add_sums_of<lanes, false>(kernel, nodes, run, {&run, 1}, out);                  \
-    }
-KONTUR_WITH_LANES(KONTUR_OWN_SUMS)
+void add_mutual_sums(Kernel kernel, const NodeView& nodes, NodeRun left, std::span<const NodeRun> right, double* out) {
+    static AddSums* const add = widest<true>();
+    add(kernel, nodes, left, right, out);
+}
+
+void add_own_sums(Kernel kernel, const NodeView& nodes, NodeRun run, double* out) {
+    static AddSums* const add = widest<false>();
+    add(kernel, nodes, run, {&run, 1}, out);
+}
 
 }  // namespace kontur

@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test asan tsan bench format install clean
+.PHONY: help setup build demo test asan tsan bench docs format install clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +39,10 @@ tsan: setup ## run every test under ThreadSanitizer
 bench: build ## time the paper's cases and show the tables (some minutes)
 	@build/release/bin/kontur_bench --json build/bench.json
 	@bench/tables.py build/bench.json
+
+docs: setup ## write the C++ reference to build/release/reference/html
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --target kontur_reference
 
 format: ## format the C++ sources (needs clang-format)
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

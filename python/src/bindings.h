@@ -14,16 +14,22 @@ void bind_grids(py::module_& m);
 void bind_volumes(py::module_& m);
 void bind_meshes(py::module_& m);
 void bind_functions(py::module_& m);
+void bind_fast_functions(py::module_& m);
 void bind_fitting(py::module_& m);
+void bind_constraints(py::module_& m);
 void bind_extraction(py::module_& m);
 void bind_segment(py::module_& m);
 void bind_crossings(py::module_& m);
+void bind_curves(py::module_& m);
 void bind_editor(py::module_& m);
 void bind_measures(py::module_& m);
+void bind_findings(py::module_& m);
 void bind_pictures(py::module_& m);
+void bind_livewire(py::module_& m);
 void bind_files(py::module_& m);
 void bind_images(py::module_& m);
 void bind_dicom(py::module_& m);
+void bind_segmentations(py::module_& m);
 void bind_phantom(py::module_& m);
 
 /// Shape (z, y, x) of an array over the grid.

@@ -2,6 +2,7 @@
 #include "casters.h"
 
 #include "define.h"
+#include "points.h"
 
 namespace kontur::python {
 
@@ -13,6 +14,13 @@ std::span<const Vec3> points_of(const ArrayOf<double>& array) {
         throw Error(ErrorKind::invalid_input,
                     "an array of points has the shape " + shape_text(array) + "; (n, 3) is needed");
     return {reinterpret_cast<const Vec3*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+std::vector<py::ssize_t> leading_shape(const py::array& points) {
+    if (points.ndim() < 1 || points.shape(points.ndim() - 1) != 3)
+        throw Error(ErrorKind::invalid_input,
+                    "an array of points has the shape " + shape_text(points) + "; (..., 3) is needed");
+    return {points.shape(), points.shape() + points.ndim() - 1};
 }
 
 std::string with_options(std::string help, const std::string& options) {

@@ -2,11 +2,36 @@
 #include "kontur/editor.h"
 
 #include "bindings.h"
+#include "live_editor.h"
 #include "segment_words.h"
 
 namespace kontur::python {
+namespace {
 
-void bind_editor(py::module_& m) {
+Keywords<EditorOptions> editor_keywords() {
+    const auto segment = [](auto member) {
+        return [member](EditorOptions & options) -> auto& { return options.segment.*member; };
+    };
+    return Keywords<EditorOptions>()
+        .field("preview_spacing_mm", &EditorOptions::preview_spacing_mm,
+               "Of the preview's lattice; 0: 1/150 of the contours' box diagonal.")
+        .field("refined_spacing_mm", &EditorOptions::refined_spacing_mm,
+               "Of the refined surface's; 0: half the preview's.")
+        .field("preview_points", &EditorOptions::preview_points,
+               "About how many of the drawn points a preview is fitted to.")
+        .field("kernel", segment(&SegmentOptions::kernel), "As for `segment`, like those that follow.")
+        .field("normals", segment(&SegmentOptions::normals), "")
+        .field("normal_offset_mm", segment(&SegmentOptions::normal_offset_mm), "")
+        .field("smoothing", segment(&SegmentOptions::smoothing), "")
+        .field("conflicts", segment(&SegmentOptions::conflicts), "")
+        .field("fill_rule", segment(&SegmentOptions::fill_rule), "")
+        .field("quality", segment(&SegmentOptions::quality), "")
+        .field("solver", segment(&SegmentOptions::solver), "")
+        .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "")
+        .field("threads", segment(&SegmentOptions::threads), "");
+}
+
+void bind_editor_itself(py::module_& m) {
     py::class_<EditedSurface> surface(m, "EditedSurface", "The surface through a set of contours.");
     surface.def_readonly("refined", &EditedSurface::refined, "bool: False for a preview.");
     surface.def_readonly("function", &EditedSurface::function, "ImplicitFunction");
@@ -15,26 +40,7 @@ void bind_editor(py::module_& m) {
     surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; refined surfaces only.");
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
 
-    const auto segment = [](auto member) {
-        return [member](EditorOptions & options) -> auto& { return options.segment.*member; };
-    };
-    const auto keywords = Keywords<EditorOptions>()
-                              .field("preview_spacing_mm", &EditorOptions::preview_spacing_mm,
-                                     "Of the preview's lattice; 0: 1/150 of the contours' box diagonal.")
-                              .field("refined_spacing_mm", &EditorOptions::refined_spacing_mm,
-                                     "Of the refined surface's; 0: half the preview's.")
-                              .field("preview_points", &EditorOptions::preview_points,
-                                     "About how many of the drawn points a preview is fitted to.")
-                              .field("kernel", segment(&SegmentOptions::kernel), "As for `segment`, like those that follow.")
-                              .field("normals", segment(&SegmentOptions::normals), "")
-                              .field("normal_offset_mm", segment(&SegmentOptions::normal_offset_mm), "")
-                              .field("smoothing", segment(&SegmentOptions::smoothing), "")
-                              .field("conflicts", segment(&SegmentOptions::conflicts), "")
-                              .field("fill_rule", segment(&SegmentOptions::fill_rule), "")
-                              .field("quality", segment(&SegmentOptions::quality), "")
-                              .field("solver", segment(&SegmentOptions::solver), "")
-                              .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "")
-                              .field("threads", segment(&SegmentOptions::threads), "");
+    const Keywords<EditorOptions> keywords = editor_keywords();
     const std::string help = with_options(R"(Follows contours while they are edited.
 
 After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give. Not for use from several
@@ -69,6 +75,13 @@ Examples
             return run({progress, stop}, [&](const Progress& p) { return self.refine(contours, p); });
         },
         py::arg("contours"), py::kw_only(), kProgress, kStop);
+}
+
+}  // namespace
+
+void bind_editor(py::module_& m) {
+    bind_editor_itself(m);
+    bind_live_editor(m, editor_keywords());
 }
 
 }  // namespace kontur::python

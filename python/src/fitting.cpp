@@ -76,19 +76,6 @@ Keywords<FitOptions> fit_keywords() {
     return solve_fields(keywords, [](FitOptions& o) -> SolveOptions& { return o.solve; });
 }
 
-ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> values,
-                               std::optional<std::vector<ConstraintKind>> kinds) {
-    ConstraintSet set;
-    set.centers = std::move(centers);
-    set.values = std::move(values);
-    set.kinds = kinds ? std::move(*kinds) : std::vector<ConstraintKind>(set.size(), ConstraintKind::boundary);
-    if (set.values.size() != set.size() || set.kinds.size() != set.size())
-        throw Error(ErrorKind::invalid_input, std::to_string(set.size()) + " constraints have " +
-                                                  std::to_string(set.values.size()) + " values and " +
-                                                  std::to_string(set.kinds.size()) + " kinds");
-    return set;
-}
-
 void bind_types(py::module_& m) {
     py::class_<ContourOrientation> orientation(m, "ContourOrientation", "A contour's outward side.");
     orientation.def_readonly("normals", &ContourOrientation::normals,
@@ -126,26 +113,6 @@ void bind_types(py::module_& m) {
     cap.def_readonly("position", &Cap::position, "ndarray, shape (3,): mm.");
     cap.def_readonly("most_mm", &Cap::most_mm, "float: f must not exceed it there.");
     cap.def_readonly("value_mm", &Cap::value_mm, "float: prescribed if it does.");
-
-    py::class_<ConstraintSet> set(m, "ConstraintSet", R"(Where the implicit function is prescribed, and its value there.
-
-Parameters
-----------
-centers : array_like, shape (n, 3)
-    mm (LPS).
-values : array_like, shape (n,)
-    mm: 0 on the surface, negative outside.
-kinds : sequence of {'boundary', 'normal', 'interior', 'exterior', 'cap'}, optional
-    'boundary' when left out.
-)");
-    constructor(set, &constraints_from, py::arg("centers"), py::arg("values"), py::arg("kinds") = py::none());
-    set.def_readonly("centers", &ConstraintSet::centers, "ndarray, shape (n, 3): mm.");
-    set.def_property_readonly(
-        "values",
-        [](const ConstraintSet& s) { return py::array_t<double>(static_cast<py::ssize_t>(s.size()), s.values.data()); },
-        "ndarray, shape (n,): mm.");
-    set.def_readonly("kinds", &ConstraintSet::kinds, "list of str");
-    set.def("__len__", &ConstraintSet::size);
 
     py::class_<SolveReport> report(m, "SolveReport", "What the solver did.");
     report.def_readonly("solver", &SolveReport::solver, "str: the one that ran.");

@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "kontur/field/implicit_function.h"
 #include "kontur/field/residual.h"
+#include "points.h"
 
 namespace kontur::python {
 namespace {
@@ -22,18 +23,6 @@ ImplicitFunction function_from(Kernel kernel, const Vec3& frame_center_mm, doubl
         throw Error(ErrorKind::invalid_input,
                     std::to_string(centers.size()) + " centres have " + std::to_string(weights.size()) + " weights");
     return ImplicitFunction(kernel, UnitFrame{frame_center_mm, frame_scale_mm}, point_arrays(centers), weights, polynomial);
-}
-
-/// Shape (..., 3) to (...).
-std::vector<py::ssize_t> leading_shape(const py::array& points) {
-    if (points.ndim() < 1 || points.shape(points.ndim() - 1) != 3)
-        throw Error(ErrorKind::invalid_input,
-                    "an array of points has the shape " + shape_text(points) + "; (..., 3) is needed");
-    return {points.shape(), points.shape() + points.ndim() - 1};
-}
-
-std::span<const Vec3> span_of(const ArrayOf<double>& points) {
-    return {reinterpret_cast<const Vec3*>(points.data()), static_cast<std::size_t>(points.size() / 3)};
 }
 
 py::array_t<double> values_at(const ImplicitFunction& function, const ArrayOf<double>& points, int threads) {

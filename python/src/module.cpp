@@ -40,17 +40,23 @@ PYBIND11_MODULE(_core, m) {
     bind_planes(m);
     bind_contours(m);
     bind_crossings(m);
+    bind_curves(m);
     bind_volumes(m);
     bind_meshes(m);
     bind_functions(m);
+    bind_fast_functions(m);
+    bind_constraints(m);
     bind_fitting(m);
     bind_extraction(m);
     bind_segment(m);
     bind_editor(m);
     bind_measures(m);
+    bind_findings(m);
     bind_pictures(m);
+    bind_livewire(m);
     bind_files(m);
     bind_images(m);
     bind_dicom(m);
+    bind_segmentations(m);
     bind_phantom(m);
 }

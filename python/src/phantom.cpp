@@ -56,6 +56,24 @@ void bind_phantom(py::module_& m) {
     define(
         m, "phantom_case", "The PhantomCase of that name, always the same.",
         [](const std::string& name) { return unlocked([&] { return phantom_case(name); }); }, py::arg("name"));
+    const auto liver = Keywords<DenseLiver>()
+                           .field("points", &DenseLiver::points, "Of all contours together, at least 100.")
+                           .field("orthogonal", &DenseLiver::orthogonal, "In planes across all three axes, else in axial ones.")
+                           .field("by_hand", &DenseLiver::by_hand, "Drawn by an unsteady hand.");
+    const std::string liver_doc = docstring("dense_liver_case", "*", R"(The PhantomCase of a liver with many contours, to measure how time and memory grow.
+
+Parameters
+----------
+@options
+)",
+                                            KeywordText(liver));
+    m.def(
+        "dense_liver_case",
+        [liver](const py::kwargs& given) {
+            const DenseLiver options = liver.parse("dense_liver_case", given);
+            return unlocked([&] { return dense_liver_case(options); });
+        },
+        liver_doc.c_str());
     define(m, "phantom_volumes", "The scans that `kontur phantom` writes: list of PhantomVolume.", &phantom_volumes);
 
     const auto keywords =

@@ -66,6 +66,17 @@ array([3.])
             return owning_array<std::array<double, 2>, double>(std::move(all), {count, 2});
         },
         py::arg("points"));
+    method(
+        plane, "from_uv", "Points of the plane, ndarray of shape (n, 3) in mm, from in-plane coordinates, shape (n, 2).",
+        [](const Plane& self, const ArrayOf<double>& uv) {
+            if (uv.size() != 0 && (uv.ndim() != 2 || uv.shape(1) != 2))
+                throw Error(ErrorKind::invalid_input,
+                            "in-plane coordinates have the shape " + shape_text(uv) + "; (n, 2) is needed");
+            std::vector<Vec3> points;
+            for (py::ssize_t n = 0; n < uv.size() / 2; ++n) points.push_back(self.from_uv(uv.at(n, 0), uv.at(n, 1)));
+            return points;
+        },
+        py::arg("uv"));
     plane.def(
         "__eq__", [](const Plane& a, const Plane& b) { return a == b; }, py::is_operator());
     plane.def("__repr__", [](const Plane& p) {

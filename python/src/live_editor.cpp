@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_editor.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "bindings.h"
+#include "kontur/live_editor.h"
+
+namespace kontur::python {
+namespace {
+
+/// A LiveEditor whose listener is Python's. Its thread takes the interpreter's lock for each update, so whoever waits for
+/// that thread must not hold it.
+class ListenedEditor {
+public:
+    ListenedEditor(const EditorOptions& options, py::object listener) : listener_(std::move(listener)) {
+        editor_ = std::make_unique<LiveEditor>(options, [this](const EditorUpdate& update) { take(update); });
+        all().insert(this);
+    }
+    ~ListenedEditor() { end(); }
+    ListenedEditor(const ListenedEditor&) = delete;
+    ListenedEditor& operator=(const ListenedEditor&) = delete;
+
+    std::uint64_t edit(const ContourSet& contours) {
+        if (!editor_) throw Error(ErrorKind::invalid_input, "the editor is closed");
+        const py::gil_scoped_release release;
+        const std::scoped_lock lock(mutex_);  // so that no answer comes before its edit is known
+        return newest_ = editor_->edit(contours);
+    }
+
+    /// Looks at signals every 20 ms; the editor works on when Ctrl-C ends the wait.
+    void wait() {
+        refuse_listener("wait");
+        constexpr std::chrono::milliseconds kPollInterval{20};
+        for (bool answered = false; !answered;) {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            const py::gil_scoped_release release;
+            std::unique_lock lock(mutex_);
+            answered = woken_.wait_for(lock, kPollInterval, [&] { return answered_ >= newest_; });
+        }
+    }
+
+    void close() {
+        refuse_listener("close");
+        end();
+    }
+
+    /// Before the interpreter ends, when its lock can no longer be taken.
+    static void close_all() {
+        while (!all().empty()) (*all().begin())->end();
+    }
+
+private:
+    static std::set<ListenedEditor*>& all() {
+        static std::set<ListenedEditor*> editors;
+        return editors;
+    }
+
+    void end() {
+        all().erase(this);
+        std::unique_ptr<LiveEditor> ending = std::move(editor_);
+        const py::gil_scoped_release release;
+        ending.reset();
+    }
+
+    void refuse_listener(const char* method) const {
+        if (std::this_thread::get_id() == thread_)
+            throw Error(ErrorKind::invalid_input, std::string("the listener of a LiveEditor must not call ") + method);
+    }
+
+    void take(const EditorUpdate& update) {
+        thread_ = std::this_thread::get_id();
+        {
+            const py::gil_scoped_acquire acquire;
+            try {
+                listener_(update);
+            } catch (py::error_already_set& error) {
+                error.discard_as_unraisable("the listener of kontur.LiveEditor");
+            }
+        }
+        if (update.kind != EditorUpdate::Kind::refined && update.kind != EditorUpdate::Kind::problem) return;
+        {
+            const std::scoped_lock lock(mutex_);
+            answered_ = std::max(answered_, update.edit);
+        }
+        woken_.notify_all();
+    }
+
+    py::object listener_;
+    std::atomic<std::thread::id> thread_;  ///< the editor's, once it has spoken
+    std::mutex mutex_;
+    std::condition_variable woken_;
+    std::uint64_t newest_ = 0, answered_ = 0;
+    std::unique_ptr<LiveEditor> editor_;
+};
+
+std::string word(EditorUpdate::Kind kind) {
+    constexpr std::array<const char*, 4> kWords{"preview", "refined", "problem", "progress"};
+    return kWords[static_cast<std::size_t>(kind)];
+}
+
+bool has_surface(const EditorUpdate& update) {
+    return update.kind == EditorUpdate::Kind::preview || update.kind == EditorUpdate::Kind::refined;
+}
+
+void bind_update(py::module_& m) {
+    py::class_<EditorUpdate> update(m, "EditorUpdate", "What a LiveEditor has to say about an edit.");
+    update.def_property_readonly(
+        "kind", [](const EditorUpdate& u) { return word(u.kind); },
+        "str: 'preview', 'refined' (final for this edit), 'problem' (the contours cannot be fitted) or 'progress'.");
+    update.def_readonly("edit", &EditorUpdate::edit, "int: which edit this answers, from 1.");
+    update.def_property_readonly(
+        "surface",
+        [](const EditorUpdate& u) -> std::optional<EditedSurface> {
+            return has_surface(u) ? std::optional(u.surface) : std::nullopt;
+        },
+        "EditedSurface of a preview or refined update, else None.");
+    update.def_readonly("problem", &EditorUpdate::problem, "str: why the contours cannot be fitted.");
+    update.def_property_readonly(
+        "stage", [](const EditorUpdate& u) { return std::string(u.stage); }, "str: of a progress update.");
+    update.def_readonly("done", &EditorUpdate::done, "float: fraction of the stage.");
+}
+
+}  // namespace
+
+void bind_live_editor(py::module_& m, const Keywords<EditorOptions>& keywords) {
+    bind_update(m);
+    const std::string help = with_options(R"(An Editor on a thread of its own: previews the newest contours, then refines.
+
+An edit cancels a running refinement at once; a running preview is finished first. Close it, or use it in a `with` statement.
+
+Parameters
+----------
+listener : callable
+    Called with each EditorUpdate, from the editor's thread, one at a time; it must not call `wait` or `close`.
+@options
+
+Examples
+--------
+>>> contours = kontur.phantom_case("kidney_radial6").contours
+>>> kinds = []
+>>> with kontur.LiveEditor(lambda update: kinds.append(update.kind)) as editor:
+...     number = editor.edit(contours)
+...     editor.wait()
+>>> number, kinds[-1], "preview" in kinds
+(1, 'refined', True)
+)",
+                                          keywords.documentation());
+    py::class_<ListenedEditor> editor(m, "LiveEditor", help.c_str());
+    const std::string init_doc = docstring("__init__", "self, listener, *", "", KeywordText(keywords));
+    editor.def(py::init([keywords](py::object listener, const py::kwargs& given) {
+                   const EditorOptions options = keywords.parse("LiveEditor", given);
+                   return std::make_unique<ListenedEditor>(options, std::move(listener));
+               }),
+               py::arg("listener"), init_doc.c_str());
+    method(editor, "edit", "The contours are now this ContourSet; returns the number of the edit, from 1. Does not wait.",
+           &ListenedEditor::edit, py::arg("contours"));
+    method(editor, "wait",
+           "Waits until the newest edit is refined or has turned out to be a problem. Ctrl-C ends the wait, not the work.",
+           &ListenedEditor::wait);
+    method(editor, "close", "Cancels what runs and ends the thread. Closing again does nothing.", &ListenedEditor::close);
+    editor.def("__enter__", [](const py::object& self) { return self; });
+    editor.def("__exit__", [](ListenedEditor& self, const py::args&) { self.close(); });
+    py::module_::import("atexit").attr("register")(py::cpp_function(&ListenedEditor::close_all));
+}
+
+}  // namespace kontur::python

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files that pages take for granted: small ones of the phantom's liver, under the names that the pages use."""
+import pathlib
+import shutil
+import subprocess
+
+import kontur
+
+CASE = kontur.phantom_case("liver_orthogonal14")
+GRID = kontur.grid_around(CASE.contours.bounding_box, [4, 4, 4], 16)
+
+
+def write_dicom(folder, image):
+    """As a CT series in axial slices."""
+    import pydicom
+
+    folder.mkdir(parents=True)
+    grid = image.grid
+    series = pydicom.uid.generate_uid(entropy_srcs=["kontur's documentation"])
+    for k, samples in enumerate(image.samples):
+        meta = pydicom.dataset.FileMetaDataset()
+        meta.MediaStorageSOPClassUID = pydicom.uid.CTImageStorage
+        meta.MediaStorageSOPInstanceUID = f"{series[:50]}.{k + 1}"
+        meta.TransferSyntaxUID = pydicom.uid.ExplicitVRLittleEndian
+        one = pydicom.dataset.FileDataset("", {}, file_meta=meta, preamble=bytes(128))
+        one.is_little_endian, one.is_implicit_VR = True, False
+        one.SOPClassUID, one.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
+        one.SeriesInstanceUID, one.StudyInstanceUID, one.FrameOfReferenceUID = series, "1.2", "1.2.4"
+        one.Modality, one.PatientName, one.PatientID = "CT", "Phantom^One", "P1"
+        one.Rows, one.Columns = samples.shape
+        one.PixelSpacing = [float(grid.spacing_mm[1]), float(grid.spacing_mm[0])]
+        one.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
+        one.ImagePositionPatient = [f"{x:.6f}" for x in (grid.index_to_mm @ [0, 0, k, 1])[:3]]
+        one.SamplesPerPixel, one.PhotometricInterpretation = 1, "MONOCHROME2"
+        one.BitsAllocated = one.BitsStored = 16
+        one.HighBit, one.PixelRepresentation, one.RescaleSlope, one.RescaleIntercept = 15, 1, 1, 0
+        one.PixelData = samples.astype("<i2").tobytes()
+        one.save_as(folder / f"{k:03}.dcm", write_like_original=False)
+
+
+def write_material(folder):
+    image = kontur.make_phantom_image(GRID)
+    truth = kontur.make_truth_mask(CASE.body, GRID)
+    for name in ("demo", "out", "P001", "P002"):
+        (folder / name).mkdir()
+    for name in ("ct.nii.gz", "demo/liver_ct.nii.gz", "P001/ct.nii.gz"):
+        kontur.write_image(folder / name, image)
+    for name in ("truth.nii.gz", "demo/liver_truth_liver.nii.gz"):
+        kontur.write_mask(folder / name, truth)
+    for name in ("contours.json", "planes.json", "demo/liver_orthogonal14.json", "P001/liver.json"):
+        kontur.write_contours(folder / name, CASE.contours)
+    kontur.write_contours(folder / "curves.mrk.json", CASE.contours)
+    axial = [c for c in CASE.contours.contours if abs(c.plane.normal[2]) > 0.9]
+    others = [c for c in CASE.contours.contours if abs(c.plane.normal[2]) <= 0.9]
+    for name, some in (("axial", axial), ("sagittal", others)):
+        kontur.write_contours(folder / "P002" / f"{name}.json", kontur.ContourSet(some, name="liver"))
+    write_dicom(folder / "dicom_folder", image)
+    shutil.copytree(folder / "dicom_folder", folder / "P002" / "dicom")
+    liver = kontur.segment(CASE.contours, GRID, mesh=True)
+    kontur.write_mask(folder / "liver.nii.gz", liver.mask)
+    kontur.write_mesh(folder / "liver.stl", liver.mesh)
+    wrapper = pathlib.Path(__file__).parent / "kontur"
+    subprocess.run([wrapper, "open", folder / "ct.nii.gz", "--project", folder / "work.kontur"], check=True, capture_output=True)

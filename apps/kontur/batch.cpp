@@ -66,9 +66,7 @@ public:
                std::all_of(one.outputs.begin(), one.outputs.end(), exists);
     }
 
-    void write(const Case& one, const Facts& facts) const {
-        write_file_atomically(file(one, ".json"), facts.dump(2) + "\n");
-    }
+    void write(const Case& one, const Facts& facts) const { write_file_atomically(file(one, ".json"), to_json_text(facts)); }
 
 private:
     fs::path base_, folder_;
@@ -256,7 +254,7 @@ void run(const BatchCommand& command, Console& console) {
     Batch batch(command, console);
     batch.work();
     const Facts summary = batch.summary();
-    if (!command.summary.empty()) write_file_atomically(command.summary, summary.dump(2) + "\n");
+    if (!command.summary.empty()) write_file_atomically(command.summary, to_json_text(summary));
     console.print(fmt::format("\n{}", table_of(summary)));
     const int failed = summary["failed"].get<int>(), open = summary["open"].get<int>();
     if (failed + open == 0) return;

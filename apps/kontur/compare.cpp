@@ -31,7 +31,7 @@ void run(const CompareCommand& command, Console& console) {
     const Mask a = read_mask(command.a, command.label, read, progress);
     const Mask b = read_mask(command.b, command.label, read, progress);
     const Facts facts = describe(compare(a, b, command.options, progress));
-    console.print(command.json ? facts.dump(2) + "\n" : to_text(facts));
+    console.print(command.json ? to_json_text(facts) : to_text(facts));
 }
 
 }  // namespace kontur::app

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 
 namespace kontur::app {
 namespace {
@@ -77,9 +78,16 @@ private:
 };
 
 std::string content_of(const std::filesystem::path& path) {
+    constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28;
+    std::error_code failure;
+    if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure))
+        throw Error(ErrorKind::io, "cannot read: it is no regular file");
+    if (const auto size = std::filesystem::file_size(path, failure); !failure && size > kMostBytes)
+        throw Error(ErrorKind::too_large, fmt::format("the table has {} bytes; at most {} are read", size, kMostBytes));
     std::ifstream file(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) throw Error(ErrorKind::io, fmt::format("cannot read: {}", std::strerror(errno)));
+    if (!is_utf8(text)) throw Error(ErrorKind::corrupt_file, "it is not in UTF-8");
     return text;
 }
 

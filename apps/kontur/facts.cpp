@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/printable.h"
+
 namespace kontur::app {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr std::size_t kNameWidth = 22;
 bool is_empty(const Facts& value) { return value.empty() || (value.is_string() && value.get<std::string>().empty()); }
 
 std::string value_text(const Facts& value) {
-    if (value.is_string()) return value.get<std::string>();
+    if (value.is_string()) return printable_utf8(value.get<std::string>());
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     // 6 digits serve the eye; the JSON has them all.
@@ -53,6 +55,8 @@ std::string to_text(const Facts& facts) {
     }
     return text;
 }
+
+std::string to_json_text(const Facts& facts) { return facts.dump(2, ' ', false, Facts::error_handler_t::replace) + "\n"; }
 
 Facts number(double value) { return std::isfinite(value) ? Facts(value) : Facts(fmt::format("{}", value)); }
 

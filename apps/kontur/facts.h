@@ -13,6 +13,9 @@ using Facts = nlohmann::ordered_json;
 /// One line for each name; a list of lists of facts becomes one indented line for each.
 std::string to_text(const Facts& facts);
 
+/// JSON of several lines, with a line break at its end. Names of files that are no UTF-8 get replacement characters.
+std::string to_json_text(const Facts& facts);
+
 /// A number as JSON where JSON has it; NaN and infinity as text.
 Facts number(double value);
 

@@ -152,7 +152,7 @@ void run(const InspectCommand& command, Console& console) {
         all.push_back({{"file", path.string()}});
         all.back().update(facts);
     }
-    if (command.json) console.print(all.dump(2) + "\n");
+    if (command.json) console.print(to_json_text(all));
     if (first_error) throw *first_error;
 }
 

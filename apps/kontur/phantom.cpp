@@ -73,7 +73,7 @@ public:
 
     void write_list(Outputs& outputs) {
         outputs.write(command_.folder / "phantom.json",
-                      [&](const fs::path& path) { write_file_atomically(path, list_.dump(2) + "\n"); });
+                      [&](const fs::path& path) { write_file_atomically(path, to_json_text(list_)); });
     }
 
     std::string summary() const {

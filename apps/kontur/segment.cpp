@@ -178,7 +178,7 @@ void run(const SegmentCommand& command, Console& console) {
     write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result)); });
     report.seconds.emplace_back("write", laps.lap());
     write(command.report,
-          [&](const fs::path& path) { write_file_atomically(path, report_json(report, mask.provenance).dump(2) + "\n"); });
+          [&](const fs::path& path) { write_file_atomically(path, to_json_text(report_json(report, mask.provenance))); });
     outputs.commit();
 
     for (const std::string& warning : report.warnings) console.warn(warning);

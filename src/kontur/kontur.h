@@ -7,6 +7,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/geometry.h"
 #include "kontur/base/parallel.h"
+#include "kontur/base/printable.h"
 #include "kontur/base/progress.h"
 #include "kontur/base/sha256.h"
 

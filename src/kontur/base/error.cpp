@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "kontur/base/printable.h"
+
 namespace kontur {
 namespace {
 
@@ -28,7 +30,11 @@ const KindRow& row(ErrorKind kind) noexcept {
     return kKinds.front();
 }
 
+constexpr std::size_t kMostBytes = 1500;
+
 }  // namespace
+
+Error::Error(ErrorKind kind, std::string_view message) : std::runtime_error(shortened(message, kMostBytes)), kind_(kind) {}
 
 Error Error::with_context(std::string_view context) const { return Error(kind_, std::string(context) + ": " + what()); }
 

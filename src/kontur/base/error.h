@@ -18,10 +18,11 @@ enum class ErrorKind {
     cancelled,        ///< the caller asked to stop
 };
 
-/// The one exception type of the library. `what()` is one sentence that names the thing, the number and the limit.
+/// The one exception type of the library. `what()` is one sentence that names the thing, the number and the limit: printable
+/// UTF-8 in one line of at most 1500 bytes, whatever text of a file the message quotes.
 class Error : public std::runtime_error {
 public:
-    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    Error(ErrorKind kind, std::string_view message);
 
     ErrorKind kind() const noexcept { return kind_; }
 

@@ -23,7 +23,7 @@ PatientFrame read_frame(const json& document) {
     const json& frame = member(document, "frame");
     if (frame == "LPS mm") return PatientFrame::lps;
     if (frame == "RAS mm") return PatientFrame::ras;
-    throw Error(ErrorKind::unsupported, "the frame is " + frame.dump() + "; \"LPS mm\" and \"RAS mm\" are supported");
+    throw Error(ErrorKind::unsupported, "the frame is " + quoted(frame) + "; \"LPS mm\" and \"RAS mm\" are supported");
 }
 
 void check_version(const json& document) {
@@ -31,7 +31,7 @@ void check_version(const json& document) {
     const json& version = document["version"];
     if (!version.is_number_integer()) corrupt("'version' is not a whole number");
     if (version != kVersion)
-        throw Error(ErrorKind::unsupported, fmt::format("the version is {}; {} is supported", version.dump(), kVersion));
+        throw Error(ErrorKind::unsupported, fmt::format("the version is {}; {} is supported", quoted(version), kVersion));
 }
 
 Vec3 read_direction(const json& owner, const char* key, PatientFrame frame) {

@@ -15,43 +15,12 @@
 #include <string_view>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/decimal_string.h"
+#include "kontur/io/dicom_nesting.h"
 
 namespace kontur::dcmtk {
 namespace {
-
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
-/// Length of the well-formed UTF-8 sequence at the front; 0 when there is none.
-std::size_t utf8_sequence(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text[0]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : (lead & 0xF0) == 0xE0       ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
-    if (length == 0 || text.size() < length) return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if (!is_continuation(text[i])) return 0;
-    const auto second = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
-    const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
-    const bool surrogate = lead == 0xED && second >= 0xA0, beyond = lead == 0xF4 && second >= 0x90;
-    return overlong || surrogate || beyond ? 0 : length;
-}
-
-/// Names travel into JSON reports, which must be UTF-8 whatever a file claims about itself; control characters would
-/// break one-line messages.
-std::string printable_utf8(std::string_view text) {
-    std::string result;
-    while (!text.empty()) {
-        const std::size_t length = utf8_sequence(text);
-        const bool control = length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
-        if (length == 0 || control) result += '?';
-        else result += text.substr(0, length);
-        text.remove_prefix(length == 0 ? 1 : length);
-    }
-    return result;
-}
 
 std::string raw_text(DcmItem& item, const DcmTagKey& tag) {
     OFString value;
@@ -91,6 +60,7 @@ void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKe
     set_up();
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) throw Error(ErrorKind::io, path.string() + ": no such file");
+    check_dicom_nesting(path);
     const OFCondition loaded =
         file.loadFileUntilTag(OFFilename(path.c_str()), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_fileOnly, stop);
     if (loaded.good()) return;

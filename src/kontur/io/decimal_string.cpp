@@ -19,13 +19,20 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kPadding) - first + 1);
 }
 
+/// Of a decimal number that is out of a double's range.
+bool is_below_one(std::string_view digits) {
+    const auto exponent = digits.find_first_of("eE");
+    if (exponent != std::string_view::npos) return digits.substr(exponent + 1).starts_with('-');
+    return digits.substr(digits.starts_with('-') ? 1 : 0).find_first_not_of('0') == digits.find('.');
+}
+
 double parse_number(std::string_view field, std::size_t ordinal) {
     std::string_view digits = trimmed(field);
     if (digits.starts_with('+')) digits.remove_prefix(1);
     double value = 0;
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    // A value too small for a double is 0 as good as any; one too large is as useless as a letter.
-    const bool underflow = status == std::errc::result_out_of_range && value == 0;
+    // A value too small for a double is 0 as good as any; one too large is as useless as a letter. `value` does not tell.
+    const bool underflow = status == std::errc::result_out_of_range && is_below_one(digits);
     if ((status != std::errc() && !underflow) || end != digits.data() + digits.size() || !std::isfinite(value))
         throw Error(ErrorKind::corrupt_file, "value " + std::to_string(ordinal) + " is not a decimal number");
     return value;

@@ -2,6 +2,7 @@
 #include "kontur/io/dicom_header.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "kontur/base/error.h"
@@ -17,6 +18,8 @@ DicomRescale read_rescale(DcmItem& item) {
     rescale.slope = dcmtk::first_decimal(item, DCM_RescaleSlope).value_or(1);
     rescale.intercept = dcmtk::first_decimal(item, DCM_RescaleIntercept).value_or(0);
     if (rescale.slope == 0) throw corrupt("RescaleSlope (0028,1053) is 0");
+    if (!std::isfinite(rescale.slope) || !std::isfinite(rescale.intercept))
+        throw corrupt("RescaleSlope (0028,1053) or RescaleIntercept (0028,1052) is not finite");
     return rescale;
 }
 
@@ -42,7 +45,7 @@ void read_transfer_syntax(const DcmXfer& syntax, DicomHeader& header) {
 /// Only for pixels that lie in the file as they are; what a compressed slice unpacks to is checked when it is decoded.
 void check_pixels_fit(const DicomHeader& header, const DcmXfer& syntax, std::int64_t bits_allocated) {
     if (syntax.isEncapsulated() || syntax.getStreamCompression() != ESC_none) return;
-    const auto claimed = header.frames * header.rows * header.columns * (bits_allocated / 8);
+    const auto claimed = header.frames * header.rows * header.columns * (std::min<std::int64_t>(bits_allocated, 64) / 8);
     const auto held = static_cast<std::int64_t>(std::filesystem::file_size(header.path));
     if (claimed > held)
         throw corrupt("the header claims " + std::to_string(claimed) + " bytes of pixels, the file has " +
@@ -105,10 +108,16 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     read_transfer_syntax(syntax, header);
     header.rows = dcmtk::integer(dataset, DCM_Rows).value_or(0);
     header.columns = dcmtk::integer(dataset, DCM_Columns).value_or(0);
-    if (header.rows < 1 || header.columns < 1)
+    constexpr std::int64_t kMostRows = 65535;  // of their 16 bits; a file may store them as text of any length
+    if (header.rows < 1 || header.columns < 1 || header.rows > kMostRows || header.columns > kMostRows)
         throw corrupt("the image has " + std::to_string(header.rows) + " rows and " + std::to_string(header.columns) +
                       " columns");
     header.frames = std::max<std::int64_t>(1, dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1));
+    // Its product with 65535 rows, as many columns and 8 bytes stays below 2^63.
+    constexpr std::int64_t kMostFrames = std::int64_t{1} << 27;
+    if (header.frames > kMostFrames)
+        throw corrupt("the image has " + std::to_string(header.frames) + " frames; at most " + std::to_string(kMostFrames) +
+                      " are possible");
     header.bits_stored = dcmtk::integer(dataset, DCM_BitsStored).value_or(0);
     header.is_signed = dcmtk::integer(dataset, DCM_PixelRepresentation).value_or(0) == 1;
     header.photometric_interpretation = dcmtk::text(dataset, DCM_PhotometricInterpretation);

@@ -72,6 +72,15 @@ std::span<const Uint8> pixel_bytes(DcmDataset& dataset, std::int64_t expected) {
     return {bytes, static_cast<std::size_t>(expected)};
 }
 
+/// A header that claims less than the file holds would make a part of the image into all of it.
+void check_no_more(DcmDataset& dataset, std::int64_t claimed, std::int64_t row_bytes) {
+    DcmElement* element = nullptr;
+    if (dataset.findAndGetElement(DCM_PixelData, element).bad()) return;
+    const std::int64_t held = element->getLength();
+    if (held - claimed >= std::max<std::int64_t>(row_bytes, 2))
+        throw corrupt(fmt::format("the pixel data has {} bytes, the header claims {}", held, claimed));
+}
+
 /// The lowest bits as a number, sign-extended where the layout is signed.
 std::int64_t extended(std::uint64_t raw, const PixelLayout& layout) {
     raw &= (std::uint64_t{1} << layout.bits) - 1;
@@ -91,11 +100,12 @@ class PixelFile {
 public:
     explicit PixelFile(const DicomHeader& any_slice) : path_(any_slice.path) {
         dcmtk::load(file_, path_);
-        check_expansion(any_slice, any_slice.frames * any_slice.rows * any_slice.columns *
-                                       dcmtk::integer(dataset(), DCM_BitsAllocated).value_or(0) / 8);
+        const std::int64_t pixels = any_slice.frames * any_slice.rows * any_slice.columns;
+        check_expansion(any_slice, pixels * read_layout(dataset()).bytes);
         if (!is_jpeg2000(dataset())) decompress(dataset());
         // A decoder may change the layout, so it counts as it stands after decoding.
         layout_ = read_layout(dataset());
+        if (!is_jpeg2000(dataset())) check_no_more(dataset(), pixels * layout_.bytes, any_slice.columns * layout_.bytes);
     }
 
     const std::filesystem::path& path() const { return path_; }

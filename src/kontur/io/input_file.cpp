@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 constexpr std::uint64_t kMaxInflation = 1100;
+constexpr std::uint64_t kMaxSkippedBytes = std::uint64_t{1} << 28;
 constexpr std::size_t kMaxTrailingBytes = std::size_t{1} << 20;
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& reason) {
@@ -36,9 +37,8 @@ struct InputFile::Inflater {
     z_stream stream{};
     bool ended = false;
 
-    Inflater() {
-        constexpr int kGzipOrZlib = 32;
-        if (::inflateInit2(&stream, MAX_WBITS + kGzipOrZlib) != Z_OK) throw std::bad_alloc();
+    explicit Inflater(int window_bits) {
+        if (::inflateInit2(&stream, window_bits) != Z_OK) throw std::bad_alloc();
     }
     ~Inflater() { ::inflateEnd(&stream); }
     Inflater(const Inflater&) = delete;
@@ -99,7 +99,12 @@ bool InputFile::at_gzip() {
            buffer_[buffer_begin_ + 1] == 0x8b;
 }
 
-void InputFile::inflate() { inflater_ = std::make_unique<Inflater>(); }
+void InputFile::inflate() {
+    constexpr int kGzipOrZlib = 32;
+    inflater_ = std::make_unique<Inflater>(MAX_WBITS + kGzipOrZlib);
+}
+
+void InputFile::inflate_raw() { inflater_ = std::make_unique<Inflater>(-MAX_WBITS); }
 
 std::optional<std::string> InputFile::read_line(std::size_t max_length) {
     std::string line;
@@ -187,6 +192,9 @@ bool InputFile::next_member() { return at_gzip() && ::inflateReset(&inflater_->s
 
 void InputFile::skip(std::uint64_t count) {
     if (inflater_) {
+        if (!declared_ && count > kMaxSkippedBytes)
+            fail_corrupt(path_, "its voxels start at byte " + std::to_string(count) + " of its compressed data; at most " +
+                                    std::to_string(kMaxSkippedBytes) + " are skipped");
         std::vector<unsigned char> discarded(std::min<std::uint64_t>(count, kBufferBytes));
         for (std::uint64_t left = count; left > 0; left -= std::min<std::uint64_t>(left, discarded.size()))
             read(discarded.data(), std::min<std::uint64_t>(left, discarded.size()));

@@ -29,6 +29,8 @@ public:
     bool at_gzip();
     /// What follows is a gzip or a zlib stream; `read` delivers its content.
     void inflate();
+    /// What follows is a deflate stream without a head, as in deflated DICOM.
+    void inflate_raw();
 
     /// The next line without its end (LF or CRLF), nullopt at the end of the file. Not for compressed content.
     std::optional<std::string> read_line(std::size_t max_length);
@@ -41,6 +43,7 @@ public:
     void read(void* to, std::size_t count);
     /// Up to `count` bytes; fewer only at the end of the file.
     std::size_t read_some(void* to, std::size_t count);
+    /// Of compressed content before `expect` only 256 MiB: a header that says more is a lie that would be long to follow.
     void skip(std::uint64_t count);
 
     /// Verifies the checksum behind compressed content.

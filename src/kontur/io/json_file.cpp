@@ -160,6 +160,11 @@ bool flag_member(const json& object, const char* key, bool fallback) {
     return value.get<bool>();
 }
 
+std::string quoted(const json& value) {
+    if (value.is_structured()) return std::string(kind_of(value));
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 Vec3 to_vec3(const json& value) {
     if (!value.is_array() || value.size() != 3)
         corrupt(value.is_array() ? fmt::format("has {} items, not the 3 numbers x, y, z", value.size())

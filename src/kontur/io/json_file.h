@@ -29,6 +29,9 @@ const nlohmann::json& array_member(const nlohmann::json& object, const char* key
 std::string text_member(const nlohmann::json& object, const char* key, const std::string& fallback);
 bool flag_member(const nlohmann::json& object, const char* key, bool fallback);
 
+/// The value as a message quotes it: itself when it is no array and no object, whose depth has no limit, else what it is.
+std::string quoted(const nlohmann::json& value);
+
 /// An array of exactly three numbers.
 Vec3 to_vec3(const nlohmann::json& value);
 

@@ -32,7 +32,7 @@ PatientFrame read_frame(const json& markup) {
     const json& frame = markup["coordinateSystem"];
     if (frame == "LPS" || frame == "1" || frame == 1) return PatientFrame::lps;
     if (frame == "RAS" || frame == "0" || frame == 0) return PatientFrame::ras;
-    refuse(ErrorKind::unsupported, "the coordinate system is " + frame.dump() + "; LPS and RAS are supported");
+    refuse(ErrorKind::unsupported, "the coordinate system is " + quoted(frame) + "; LPS and RAS are supported");
 }
 
 /// Millimetres per unit. The unit is a UCUM code, alone or as [code, scheme, meaning].
@@ -42,7 +42,7 @@ double read_unit_mm(const json& markup) {
     const json& code = units.is_array() && !units.empty() ? units.front() : units;
     if (code == "mm") return 1;
     if (code == "um") return 1e-3;
-    refuse(ErrorKind::unsupported, "the unit is " + code.dump() + "; mm and um are supported");
+    refuse(ErrorKind::unsupported, "the unit is " + quoted(code) + "; mm and um are supported");
 }
 
 bool has_position(const json& control_point) {

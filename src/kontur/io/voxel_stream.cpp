@@ -58,26 +58,44 @@ void swap_bytes(std::vector<Value>& values) {
 
 /// The `component`-th of every `components` interleaved values.
 template <typename Value>
-void read_interleaved(InputFile& data, std::size_t components, std::size_t component, std::vector<Value>& values) {
+std::vector<Value> read_interleaved(InputFile& data, std::size_t components, std::size_t component, std::size_t voxels) {
     const std::size_t chunk = std::max<std::size_t>(1, kChunkBytes / (components * sizeof(Value)));
-    std::vector<Value> buffer(std::min(chunk, values.size()) * components);
-    for (std::size_t begin = 0; begin < values.size(); begin += chunk) {
-        const std::size_t count = std::min(chunk, values.size() - begin);
+    std::vector<Value> buffer(std::min(chunk, voxels) * components);
+    std::vector<Value> values;
+    values.reserve(voxels);
+    while (values.size() < voxels) {
+        const std::size_t count = std::min(chunk, voxels - values.size());
         data.read(buffer.data(), count * components * sizeof(Value));
-        for (std::size_t n = 0; n < count; ++n) values[begin + n] = buffer[n * components + component];
+        for (std::size_t n = 0; n < count; ++n) values.push_back(buffer[n * components + component]);
     }
+    return values;
+}
+
+/// The vector grows as the values arrive: memory is reserved but not touched, so compressed data that claim gigabytes and
+/// hold little take no more than they hold.
+template <typename Value>
+std::vector<Value> read_plain(InputFile& data, std::size_t voxels) {
+    constexpr std::size_t kChunk = (std::size_t{1} << 22) / sizeof(Value);
+    std::vector<Value> values;
+    values.reserve(voxels);
+    while (values.size() < voxels) {
+        const std::size_t begin = values.size(), count = std::min(kChunk, voxels - begin);
+        values.resize(begin + count);
+        data.read(values.data() + begin, count * sizeof(Value));
+    }
+    return values;
 }
 
 template <typename Value>
 std::vector<Value> read_binary(InputFile& data, const VoxelEncoding& encoding, std::size_t voxels, std::size_t component) {
-    std::vector<Value> values(voxels);
+    std::vector<Value> values;
     const auto components = static_cast<std::size_t>(encoding.components);
     const std::uint64_t volume_bytes = voxels * sizeof(Value);
     if (encoding.interleaved && components > 1) {
-        read_interleaved(data, components, component, values);
+        values = read_interleaved<Value>(data, components, component, voxels);
     } else {
         data.skip(component * volume_bytes);
-        data.read(values.data(), volume_bytes);
+        values = read_plain<Value>(data, voxels);
         data.skip((components - 1 - component) * volume_bytes);
     }
     if (encoding.big_endian != (std::endian::native == std::endian::big)) swap_bytes(values);

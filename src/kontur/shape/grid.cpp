@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/shape/grid.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -57,6 +59,14 @@ void check_grid(const Grid& grid) {
                                               std::to_string(grid.size.j) + " x " + std::to_string(grid.size.k) +
                                               " voxels; at most 2^53 are possible");
     grid.index_to_mm.inverse();
+    constexpr double kLeastSpacing = 1e-9, kMostSpacing = 1e9;  // beyond, products of three of them lose their digits
+    for (int axis = 0; axis < 3; ++axis) {
+        const double spacing = norm(grid.index_to_mm.column(axis));
+        if (!(spacing >= kLeastSpacing && spacing <= kMostSpacing))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the voxels are {:g} mm apart along axis {}; {:g} to {:g} mm are possible", spacing,
+                                    axis + 1, kLeastSpacing, kMostSpacing));
+    }
 }
 
 Grid grid_around(const Box3& box, const Vec3& spacing_mm, double margin_mm) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "../apps/kontur/csv.h"
+#include "fuzz/scratch_folder.h"
+#include "kontur/base/error.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/dicom_seg.h"
+#include "kontur/io/image.h"
+#include "kontur/io/mesh.h"
+#include "kontur/io/rtstruct.h"
+#include "kontur/measure/contour_check.h"
+
+namespace kontur::fuzz {
+namespace {
+
+constexpr std::int64_t kMaxVoxels = std::int64_t{1} << 22;
+
+/// Whatever was read must keep what the types promise.
+void require(bool holds, const char* what) {
+    if (holds) return;
+    std::fprintf(stderr, "broken promise: %s\n", what);
+    std::abort();
+}
+
+/// Takes every choice that a careful user would be asked for, so that more of the readers is reached.
+void image(const std::string& name, Bytes bytes) {
+    ReadImageOptions options;
+    options.frame = 0;
+    options.prefer = NiftiTransform::sform;
+    options.allow_missing_geometry = true;
+    options.max_voxels = options.dicom.max_voxels = kMaxVoxels;
+    const Image image = read_image(scratch().file(name, bytes), options);
+    check_grid(image.grid);
+    require(std::visit([](const auto& v) { return static_cast<std::int64_t>(v.size()); }, image.samples) ==
+                image.grid.voxel_count(),
+            "as many samples as voxels");
+}
+
+void check(const ContourSet& contours) {
+    // Findings compare contours pairwise: of thousands of them, only so many are of use here.
+    if (contours.contours.size() <= 50) check_contour_set(contours);
+}
+
+void contours(const std::string& name, Bytes bytes) { check(read_contours(scratch().file(name, bytes)).contours); }
+
+void mesh(const std::string& name, Bytes bytes) {
+    const TriangleMesh mesh = read_mesh(scratch().file(name, bytes));
+    for (const Vec3& p : mesh.points) require(is_finite(p), "points are finite");
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle) require(corner < mesh.points.size(), "triangles have corners");
+}
+
+}  // namespace
+
+void nifti(Bytes bytes) { image(!bytes.empty() && bytes[0] == 0x1f ? "x.nii.gz" : "x.nii", bytes); }
+void nrrd(Bytes bytes) { image("x.nrrd", bytes); }
+void metaimage(Bytes bytes) { image("x.mha", bytes); }
+void dicom(Bytes bytes) { image("x.dcm", bytes); }
+void dicom_seg(Bytes bytes) {
+    const auto path = scratch().file("x.dcm", bytes);
+    const DicomSegmentation found = read_dicom_segmentation(path, kMaxVoxels);
+    for (const DicomSegment& segment : found.segments) read_dicom_seg(path, segment.number, kMaxVoxels);
+}
+void rtstruct(Bytes bytes) {
+    for (const Roi& roi : read_rtstruct(scratch().file("x.dcm", bytes)).rois) check(roi.contours);
+}
+void contour_json(Bytes bytes) { contours("x.json", bytes); }
+void markups(Bytes bytes) { contours("x.mrk.json", bytes); }
+void stl(Bytes bytes) { mesh("x.stl", bytes); }
+void ply(Bytes bytes) { mesh("x.ply", bytes); }
+void obj(Bytes bytes) { mesh("x.obj", bytes); }
+void csv(Bytes bytes) {
+    const app::CsvTable table = app::read_csv(scratch().file("x.csv", bytes));
+    for (const auto& row : table.rows) require(row.size() == table.columns.size(), "each row has each column");
+}
+
+}  // namespace kontur::fuzz

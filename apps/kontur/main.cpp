@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "command_line.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "kontur/base/error.h"
+#include "viewer/imports.h"
 
 namespace kontur::app {
 namespace {
@@ -47,6 +50,8 @@ int run(const Invocation& invocation) {
 }
 
 int main(int argc, char** argv) {
+    if (argc > 1 && std::string_view(argv[1]) == viewer::kImportWorker) return viewer::import_worker(argc, argv);
+    signal(SIGXFSZ, SIG_IGN);  // a file beyond the user's limit is then told as a disk that is full
     const Invocation invocation = parse_command_line(argc, argv);
     if (invocation.command) return run(invocation);
     if (invocation.exit_code != 0) return fail(invocation.text, invocation.exit_code);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cstring>
+
 #include "kontur/base/error.h"
 
 namespace kontur::viewer {
@@ -29,6 +31,9 @@ void Database::fail(int code) const {
             throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project, or damaged", name));
         case SQLITE_FULL:
             throw Error(ErrorKind::io, fmt::format("cannot write {}: the disk is full", name));
+        case SQLITE_IOERR:
+            throw Error(ErrorKind::io, fmt::format("cannot write {}: the disk refused it ({})", name,
+                                                   handle_ ? std::strerror(sqlite3_system_errno(handle_.get())) : "?"));
         case SQLITE_READONLY:
             throw Error(ErrorKind::io, fmt::format("cannot write {}: it is read-only", name));
         default:

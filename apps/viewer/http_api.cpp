@@ -88,8 +88,8 @@ std::string known_extension(const std::string& name, std::initializer_list<const
     throw Error(ErrorKind::unsupported, fmt::format("only files that end with {} can be imported here", list));
 }
 
-Session::TraceRequest trace_request(const Target& target) {
-    Session::TraceRequest request;
+TraceRequest trace_request(const Target& target) {
+    TraceRequest request;
     if (const auto planes = target.parameter("planes")) {
         const auto count = whole_number(*planes);
         if (!count || *count < 1 || *count > 200)
@@ -126,9 +126,9 @@ std::uint64_t HttpApi::body_limit(std::string_view target) {
     return target.starts_with("/api/import/") ? kLargestImport : kLargestBody;
 }
 
-std::function<HttpReply()> HttpApi::prepare(HttpRequest request) {
+std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest request) {
     if (request.method != "POST" || request.target != "/api/slice")
-        return [this, request = std::move(request)] { return handle(request); };
+        return [this, request = std::move(request)](const std::stop_token& stop) { return handle(request, stop); };
     const std::string view = view_of_slice(request.body);
     std::uint64_t ticket = 0;
     {
@@ -136,7 +136,9 @@ std::function<HttpReply()> HttpApi::prepare(HttpRequest request) {
         if (newest_slice_.size() >= kMostViews && !newest_slice_.contains(view)) newest_slice_.clear();
         ticket = newest_slice_[view] = ++next_ticket_;
     }
-    return [this, request = std::move(request), view, ticket] { return slice(request, ticket, view); };
+    return [this, request = std::move(request), view, ticket](const std::stop_token&) {
+        return slice(request, ticket, view);
+    };
 }
 
 HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view) {
@@ -150,16 +152,16 @@ HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const
     });
 }
 
-HttpReply HttpApi::handle(const HttpRequest& request) {
+HttpReply HttpApi::handle(const HttpRequest& request, const std::stop_token& stop) {
     return guarded([&]() -> HttpReply {
         const std::optional<Target> target = parse_target(request.target);
         if (!target) return error_reply(400, "invalid_input", "the address is malformed");
-        if (target->path.starts_with("/api/")) return api(request, *target);
+        if (target->path.starts_with("/api/")) return api(request, *target, stop);
         return request.method == "GET" ? page_file(target->path) : not_found();
     });
 }
 
-HttpReply HttpApi::api(const HttpRequest& request, const Target& target) {
+HttpReply HttpApi::api(const HttpRequest& request, const Target& target, const std::stop_token& stop) {
     const bool get = request.method == "GET";
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
     if (get && below("/api/mesh/")) {
@@ -167,34 +169,37 @@ HttpReply HttpApi::api(const HttpRequest& request, const Target& target) {
         if (!id || !session_.has_surface(*id)) return not_found();
         return binary(session_.mesh(*id));
     }
-    if (get && below("/api/export/")) return exported(target);
-    if (!get && below("/api/import/")) return import(request, target);
+    if (get && below("/api/export/")) return exported(target, stop);
+    if (!get && below("/api/import/")) return import(request, target, stop);
     return not_found();
 }
 
-HttpReply HttpApi::exported(const Target& target) {
+HttpReply HttpApi::exported(const Target& target, const std::stop_token& stop) {
     std::optional<Id> structure;
     if (const auto text = target.parameter("structure")) {
         structure = whole_number(*text);
         if (!structure) throw Error(ErrorKind::invalid_input, "'structure' is not a whole number");
     }
-    Download download = session_.exported(target.path.substr(std::string_view("/api/export/").size()), structure);
+    Download download = session_.exported(target.path.substr(std::string_view("/api/export/").size()), structure, stop);
     return {200,
             download.content_type,
             std::move(download.bytes),
             {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", download.file_name)}}};
 }
 
-HttpReply HttpApi::import(const HttpRequest& request, const Target& target) {
+HttpReply HttpApi::import(const HttpRequest& request, const Target& target, const std::stop_token& stop) {
     const std::string file = target.parameter("name").value_or("");
-    std::vector<Id> ids;
-    if (target.path == "/api/import/contours")
-        ids = session_.import_contours(request.body, known_extension(file, {".mrk.json", ".json", ".dcm"}));
-    else if (target.path == "/api/import/mask")
-        ids = session_.import_mask(request.body, known_extension(file, {".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".mha"}),
-                                   trace_request(target));
-    else return not_found();
-    return {200, "application/json", to_text({{"structures", ids}}), {}};
+    Upload upload;
+    if (target.path == "/api/import/contours") {
+        upload.extension = known_extension(file, {".mrk.json", ".json", ".dcm"});
+    } else if (target.path == "/api/import/mask") {
+        upload.content = Upload::Content::mask;
+        upload.extension = known_extension(file, {".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".mha"});
+        upload.trace = trace_request(target);
+    } else {
+        return not_found();
+    }
+    return {200, "application/json", to_text({{"structures", session_.import(request.body, upload, stop)}}), {}};
 }
 
 }  // namespace kontur::viewer

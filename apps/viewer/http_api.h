@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,15 +39,15 @@ public:
     static std::uint64_t body_limit(std::string_view target);
 
     /// To be called when a request has come, before it waits for its turn: of the slices asked for one view, only the
-    /// latest is made. Returns what handles it.
-    std::function<HttpReply()> prepare(HttpRequest request);
+    /// latest is made. Returns what handles it; whoever calls that requests the stop when nobody waits for the reply.
+    std::function<HttpReply(const std::stop_token&)> prepare(HttpRequest request);
 
 private:
-    HttpReply handle(const HttpRequest& request);
-    HttpReply api(const HttpRequest& request, const Target& target);
+    HttpReply handle(const HttpRequest& request, const std::stop_token& stop);
+    HttpReply api(const HttpRequest& request, const Target& target, const std::stop_token& stop);
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view);
-    HttpReply exported(const Target& target);
-    HttpReply import(const HttpRequest& request, const Target& target);
+    HttpReply exported(const Target& target, const std::stop_token& stop);
+    HttpReply import(const HttpRequest& request, const Target& target, const std::stop_token& stop);
 
     Session& session_;
     std::mutex mutex_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/server.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/socket.h>
 
 #include <utility>  // before Asio 1.18, which uses std::exchange without including it
 
@@ -17,6 +19,7 @@
 #include <deque>
 #include <optional>
 #include <set>
+#include <stop_token>
 
 #include "kontur/base/error.h"
 #include "viewer/access.h"
@@ -41,7 +44,12 @@ constexpr std::size_t kMostUnsentBytes = 64 << 20;  ///< a page that takes less 
 constexpr std::size_t kBytesPerSecond = 1 << 20;    ///< least speed of long bodies
 constexpr std::size_t kMostDrained = 1 << 20;
 constexpr int kWorkers = 4;
+constexpr int kMostImports = 2;  ///< at a time: each may be large
 constexpr const char* kSocket = "/api/socket";
+constexpr const char* kImports = "/api/import/";
+
+/// Programs that kontur starts (a browser, the reader of an import) must not keep the port and the connections open.
+void keep_to_this_process(int descriptor) { fcntl(descriptor, F_SETFD, FD_CLOEXEC); }
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
@@ -59,9 +67,10 @@ struct ServerCore {
     ServerOptions options;
     Access access;
     std::set<PageSocket*> sockets;
-    int connections = 0;
+    int connections = 0, imports = 0;
     Clock::time_point last_use;
-    asio::io_context io{1};  ///< destroyed before what the connections refer to in their destructors
+    std::stop_source ending;  ///< of all that is worked on
+    asio::io_context io{1};   ///< destroyed before what the connections refer to in their destructors
     tcp::acceptor acceptor;
     asio::steady_timer clock;
     asio::thread_pool calls{1};        ///< messages of the pages, in order
@@ -75,18 +84,18 @@ struct ServerCore {
 
 namespace {
 
-/// Counts a connection for as long as it lives.
+/// Counts something for as long as it lives.
 class Slot {
 public:
-    explicit Slot(ServerCore& core) : core_(&core) { ++core.connections; }
-    Slot(Slot&& other) noexcept : core_(std::exchange(other.core_, nullptr)) {}
+    explicit Slot(int& count) : count_(&count) { ++count; }
+    Slot(Slot&& other) noexcept : count_(std::exchange(other.count_, nullptr)) {}
     Slot& operator=(Slot&&) = delete;
     ~Slot() {
-        if (core_) --core_->connections;
+        if (count_) --*count_;
     }
 
 private:
-    ServerCore* core_;
+    int* count_;
 };
 
 /// One open page: messages in, one at a time, and replies and events out.
@@ -198,13 +207,13 @@ private:
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(ServerCore& core, tcp::socket socket)
-        : core_(core), slot_(core), stream_(std::move(socket)), buffer_(128 << 10) {}
+        : core_(core), slot_(core.connections), stream_(std::move(socket)), buffer_(128 << 10) {}
 
     void wait_for_request(std::chrono::seconds patience) {
         parser_.emplace();
         parser_->header_limit(kLargestHeader);
         // Checked again, by target, once the header is known; the parser would refuse imports by its own limit.
-        parser_->body_limit(HttpApi::body_limit("/api/import/"));
+        parser_->body_limit(HttpApi::body_limit(kImports));
         stream_.expires_after(patience);
         http::async_read_header(stream_, buffer_, *parser_,
                                 [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -261,6 +270,11 @@ private:
             return finish_with(error_reply(413, "too_large",
                                            fmt::format("the request's body has {} bytes; the limit is {}", length, limit)));
         parser_->body_limit(limit);
+        if (head.target.starts_with(kImports)) {
+            if (core_.imports >= kMostImports)
+                return finish_with(error_reply(413, "too_large", "other files are being imported; try again after them"));
+            import_.emplace(core_.imports);
+        }
         stream_.expires_after(
             std::chrono::seconds(core_.options.request_timeout_s + static_cast<long>(length / kBytesPerSecond)));
         http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -279,9 +293,27 @@ private:
         Request request = parser_->release();
         keep_alive_ = request.keep_alive();
         auto make = core_.api.prepare({text(request.method_string()), text(request.target()), std::move(request.body())});
-        asio::post(core_.work, [self = shared_from_this(), make = std::move(make)] {
-            auto reply = std::make_shared<HttpReply>(make());
-            asio::post(self->core_.io, [self, reply] { self->reply(std::move(*reply)); });
+        stop_ = std::stop_source();
+        watch();
+        asio::post(core_.work, [self = shared_from_this(), make = std::move(make), stop = stop_]() mutable {
+            const std::stop_callback end(self->core_.ending.get_token(), [&] { stop.request_stop(); });
+            auto reply = std::make_shared<HttpReply>(make(stop.get_token()));
+            asio::post(self->core_.io, [self, reply] {
+                beast::error_code ignored;
+                self->stream_.socket().cancel(ignored);  // the watch
+                self->reply(std::move(*reply));
+            });
+        });
+    }
+
+    /// Nothing is worked on for a client that has gone: that is how a page cancels. What it sends already, ahead of our
+    /// reply, stays in the socket.
+    void watch() {
+        stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this()](beast::error_code error) {
+            char byte = 0;
+            if (error) return;
+            if (recv(self->stream_.socket().native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0)
+                self->stop_.request_stop();
         });
     }
 
@@ -291,6 +323,7 @@ private:
     }
 
     void reply(HttpReply reply) {
+        import_.reset();
         core_.last_use = Clock::now();
         response_ = {};
         response_.version(11);
@@ -335,6 +368,8 @@ private:
     beast::flat_buffer buffer_;
     std::optional<http::request_parser<http::string_body>> parser_;
     http::response<http::string_body> response_;
+    std::optional<Slot> import_;
+    std::stop_source stop_{std::nostopstate};  ///< of what is worked on
     std::string host_ = "127.0.0.1";
     bool keep_alive_ = false;
     std::size_t drained_ = 0;
@@ -348,6 +383,7 @@ void ServerCore::accept() {
         if (!error && connections < options.most_connections) {
             beast::error_code ignored;
             socket.set_option(tcp::no_delay(true), ignored);
+            keep_to_this_process(socket.native_handle());
             std::make_shared<Connection>(*this, std::move(socket))
                 ->wait_for_request(std::chrono::seconds(options.request_timeout_s));
         }
@@ -387,12 +423,14 @@ Server::Server(Session& session, const ServerOptions& options) : core_(std::make
     if (!error) core_->acceptor.bind(endpoint, error);
     if (!error) core_->acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (error) throw Error(ErrorKind::io, fmt::format("cannot listen on 127.0.0.1:{}: {}", options.port, error.message()));
+    keep_to_this_process(core_->acceptor.native_handle());
     core_->access.port = core_->acceptor.local_endpoint().port();
     session.on_event([core = core_.get()](const std::string& message) { core->broadcast(message); });
 }
 
 Server::~Server() {
     core_->session.on_event({});
+    core_->ending.request_stop();
     for (asio::thread_pool* pool : {&core_->calls, &core_->work}) {
         pool->stop();  // what waits is dropped, what runs is finished
         pool->join();

@@ -135,14 +135,12 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       edges_(image_),
       project_(project, opened.reference),
       surfaces_({[this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
-                 [this](const std::string& text, std::optional<double> fraction) {
-                     tell({{"event", "status"}, {"text", text}, {"fraction", fraction ? json(*fraction) : json(nullptr)}});
-                 }}) {
+                 [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); }}) {
     if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
     if (project_.image().path != opened.reference.path) project_.save_image(opened.reference);
-    for (const auto& [id, structure] : project_.state().structures) follow(id);
+    for (const auto& [id, structure] : project_.state().structures) surfaces_.follow_later(surface_task(id));
 }
 
 Session::~Session() = default;
@@ -160,6 +158,10 @@ void Session::on_event(std::function<void(const std::string&)> listener) {
 void Session::tell(const json& event) {
     const std::scoped_lock lock(listener_mutex_);
     if (listener_) listener_(to_text(event));
+}
+
+void Session::tell_status(const std::string& text, std::optional<double> fraction) {
+    tell({{"event", "status"}, {"text", text}, {"fraction", fraction ? json(*fraction) : json(nullptr)}});
 }
 
 void Session::notice(std::string_view level, const std::string& text) {
@@ -462,7 +464,10 @@ std::vector<Id> Session::add_structures(const std::string& label, const std::vec
             added.contours.push_back({drawn.id, {}, std::move(drawn)});
         }
     }
-    commit(added);
+    clear_draft();
+    project_.commit(added);
+    tell_changes(added);
+    for (const Id id : ids) surfaces_.follow_later(surface_task(id));
     return ids;
 }
 
@@ -473,15 +478,19 @@ void Session::commit(const Commit& commit) {
     announce(commit);
 }
 
-void Session::announce(const Commit& commit) {
+void Session::tell_changes(const Commit& commit) {
     tell({{"event", "changed"},
           {"structures", changes_json(commit.structures)},
           {"contours", changes_json(commit.contours)},
           {"history", history()}});
-    follow_surfaces(commit);
 }
 
-void Session::follow_surfaces(const Commit& commit) {
+void Session::announce(const Commit& commit) {
+    tell_changes(commit);
+    for (const Id id : touched_surfaces(commit)) follow(id);
+}
+
+std::set<Id> Session::touched_surfaces(const Commit& commit) {
     std::set<Id> touched;
     for (const auto& change : commit.structures)
         if (!change.before || !change.after) touched.insert(change.id);
@@ -490,10 +499,10 @@ void Session::follow_surfaces(const Commit& commit) {
         for (const auto& side : {change.before, change.after})
             if (side) touched.insert(side->structure);
     }
-    for (const Id id : touched) follow(id);
+    return touched;
 }
 
-void Session::follow(Id structure) {
+SurfaceTask Session::surface_task(Id structure) const {
     SurfaceTask task;
     task.structure = structure;
     const State& state = project_.state();
@@ -507,7 +516,7 @@ void Session::follow(Id structure) {
     if (draft_) add(*draft_);
     if (const auto found = state.structures.find(structure); found != state.structures.end())
         task.set.name = found->second.name;
-    surfaces_.follow(std::move(task));
+    return task;
 }
 
 void Session::clear_draft() {

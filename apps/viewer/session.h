@@ -7,11 +7,14 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kontur/shape/volume.h"
+#include "viewer/imports.h"
 #include "viewer/project.h"
 #include "viewer/sketch.h"
 #include "viewer/slice_edges.h"
@@ -56,13 +59,8 @@ public:
     std::string slice(std::string_view request);
     bool has_surface(Id structure) const;
     std::string mesh(Id structure);
-    Download exported(const std::string& name, std::optional<Id> structure);
-    std::vector<Id> import_contours(const std::string& bytes, const std::string& extension);
-    struct TraceRequest {
-        int planes = 9;  ///< along each axis
-        bool axial = true, sagittal = true, coronal = true;
-    };
-    std::vector<Id> import_mask(const std::string& bytes, const std::string& extension, const TraceRequest& request);
+    Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {});
+    std::vector<Id> import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {});
 
     /// One structure for each set, as one step of the history.
     std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets);
@@ -78,6 +76,7 @@ public:
     void wait_for_surfaces() { surfaces_.wait(); }
 
 private:
+    class StatusLine;
     struct Call {
         nlohmann::json (Session::*method)(const Members&);
         bool needs_project = true;  ///< false: it only looks at the image, and edits and slices need not wait for it
@@ -109,13 +108,16 @@ private:
     nlohmann::json put(const std::string& label, DrawnContour contour, const Members& m);
     nlohmann::json moved(const std::optional<Commit>& step);
     void commit(const Commit& commit);
+    void tell_changes(const Commit& commit);
     void announce(const Commit& commit);
-    void follow_surfaces(const Commit& commit);
-    void follow(Id structure);
+    static std::set<Id> touched_surfaces(const Commit& commit);
+    SurfaceTask surface_task(Id structure) const;
+    void follow(Id structure) { surfaces_.follow(surface_task(structure)); }
     void clear_draft();
     nlohmann::json history();
     nlohmann::json surface_event(const Surface& surface) const;
     void tell(const nlohmann::json& event);
+    void tell_status(const std::string& text, std::optional<double> fraction);
 
     const std::shared_ptr<const Image> image_;
     const std::string title_;

@@ -68,6 +68,26 @@ std::string_view name(SurfaceStage stage) noexcept {
 
 void Surfaces::follow(SurfaceTask task) {
     const std::scoped_lock lock(mutex_);
+    std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
+    start(std::move(task));
+}
+
+void Surfaces::follow_later(SurfaceTask task) {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
+    later_.push_back(std::move(task));
+    start_next();
+}
+
+void Surfaces::start_next() {
+    const bool is_busy = std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
+    if (is_busy || later_.empty()) return;
+    SurfaceTask task = std::move(later_.front());
+    later_.pop_front();
+    start(std::move(task));
+}
+
+void Surfaces::start(SurfaceTask task) {
     const Id structure = task.structure;
     Follower& follower = followers_[structure];
     if (!follower.editor)
@@ -75,16 +95,20 @@ void Surfaces::follow(SurfaceTask task) {
             EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); });
     // The lock makes the editor's answer wait until its task is known.
     const std::uint64_t number = follower.editor->edit(task.set);
+    follower.is_working = true;
     follower.tasks[number] = std::move(task);
 }
 
 void Surfaces::wait() {
-    std::vector<LiveEditor*> editors;
-    {
-        const std::scoped_lock lock(mutex_);
-        for (const auto& [structure, follower] : followers_) editors.push_back(follower.editor.get());
+    for (bool is_done = false; !is_done;) {
+        std::vector<LiveEditor*> editors;
+        {
+            const std::scoped_lock lock(mutex_);
+            is_done = later_.empty();
+            for (const auto& [structure, follower] : followers_) editors.push_back(follower.editor.get());
+        }
+        for (LiveEditor* editor : editors) editor->wait();
     }
-    for (LiveEditor* editor : editors) editor->wait();
 }
 
 std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
@@ -105,7 +129,12 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
         if (is_done) follower.stage = {};
     }
     publish(shown(task, update));
-    if (is_done) listener_.status("", std::nullopt);
+    if (!is_done) return;
+    listener_.status("", std::nullopt);
+    const std::scoped_lock lock(mutex_);
+    Follower& follower = followers_[structure];
+    if (follower.tasks.size() == 1) follower.is_working = false;  // there may be another edit by now
+    start_next();
 }
 
 /// News by the tenth: more would only cost the page time.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -62,6 +63,8 @@ public:
 
     /// The structure's contours are now these. Does not wait.
     void follow(SurfaceTask task);
+    /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed.
+    void follow_later(SurfaceTask task);
     /// Waits until every surface is refined.
     void wait();
 
@@ -71,11 +74,14 @@ public:
 private:
     struct Follower {
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
+        bool is_working = false;
         std::string_view stage;                      ///< what the status line was told last ...
         int tenths = 0;                              ///< ... and how far it was
         std::unique_ptr<LiveEditor> editor;
     };
 
+    void start(SurfaceTask task);
+    void start_next();
     void hear(Id structure, const EditorUpdate& update);
     void show_progress(Id structure, const EditorUpdate& update);
     void publish(Surface surface);
@@ -84,6 +90,7 @@ private:
     mutable std::mutex mutex_;
     std::map<Id, std::shared_ptr<const Surface>> latest_;
     std::int64_t revision_ = 0;
+    std::deque<SurfaceTask> later_;
     std::map<Id, Follower> followers_;  ///< last: their threads use all above
 };
 

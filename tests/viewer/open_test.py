@@ -1,33 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur open: a session as a page lives it."""
+import concurrent.futures
+import gzip
 import json
+import os
+import pathlib
+import re
+import resource
 import signal
+import socket
 import subprocess
+import sys
+import time
 
 import nibabel
 import numpy
 import pytest
 
-from support import KONTUR, Server, at_offset, ring, running, shifted, spline_controls
+from support import KONTUR, Server, at_offset, ring, running, shifted, spline_controls, write_image
 
 RADIUS = 12.0
 
 
 @pytest.fixture(scope="module")
 def image(tmp_path_factory):
-    """A ball of 100 on -1000, oblique and anisotropic."""
     path = tmp_path_factory.mktemp("image") / "ball.nii.gz"
-    shape, spacing = (48, 40, 32), (1.0, 1.2, 1.5)
-    turn = 0.2
-    rotation = numpy.array([[numpy.cos(turn), -numpy.sin(turn), 0], [numpy.sin(turn), numpy.cos(turn), 0], [0, 0, 1]])
-    affine = numpy.eye(4)
-    affine[:3, :3] = rotation @ numpy.diag(spacing)
-    affine[:3, 3] = (-20, -30, 7)
-    index = numpy.stack(numpy.meshgrid(*(numpy.arange(n) for n in shape), indexing="ij"), -1)
-    center = (numpy.array(shape) // 2)
-    distance = numpy.linalg.norm((index - center) * spacing, axis=-1)
-    values = numpy.where(distance < RADIUS, 100, -1000).astype(numpy.int16)
-    nibabel.save(nibabel.Nifti1Image(values, affine), path)
+    write_image(path, RADIUS)
     return path
 
 
@@ -273,11 +271,129 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 422 and str(tmp_path) not in body.decode()
 
 
+def big_mask(size=220):
+    """A checkered mask of many voxels, which takes a while to trace."""
+    index = numpy.indices((size, size, size)) // 20
+    values = (index.sum(axis=0) % 2).astype(numpy.uint8)
+    return nibabel.Nifti1Image(values, numpy.eye(4)).to_bytes()
+
+
+def readers(server):
+    """The processes in which the server reads imports."""
+    tasks = pathlib.Path(f"/proc/{server.process.pid}/task")
+    return [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
+
+
+def wait_for(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if found := condition():
+            return found
+        time.sleep(0.005)
+    raise AssertionError("it did not happen")
+
+
+def test_a_file_that_crashes_its_reader_costs_only_the_import(server):
+    page = server.page()
+    before = dict(page.structures)
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        reply = pool.submit(server.request, "POST", "/api/import/mask?name=m.nii&planes=200", big_mask())
+        for reader in wait_for(lambda: readers(server)):
+            limits = pathlib.Path(f"/proc/{reader}/limits")
+            wait_for(lambda: re.search(r"Max cpu time +600 ", limits.read_text()))
+            os.kill(reader, signal.SIGSEGV)
+        status, _, body = reply.result()
+    assert status == 422 and "did not foresee" in json.loads(body)["error"]["message"]
+    assert page.do("ping") == {} and page.structures == before
+    assert not list(server.folder.glob("kontur-*")), "nothing is left of the upload"
+
+
+def test_who_leaves_ends_what_was_read_for_him(server):
+    with socket.create_connection(("127.0.0.1", server.port)) as connection:
+        body = big_mask()
+        head = (
+            f"POST /api/import/mask?name=m.nii&planes=200 HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
+            f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
+        )
+        connection.sendall(head.encode() + body)
+        wait_for(lambda: readers(server))
+    wait_for(lambda: not readers(server), seconds=5)
+    wait_for(lambda: not list(server.folder.glob("kontur-*")), seconds=5)
+    assert server.page().structures.keys() == {1}
+
+
+@pytest.mark.parametrize("size", [(30000, 30000, 30), (2000, 2000, 2000)])
+def test_a_file_that_declares_more_than_it_holds_costs_no_memory(server, size):
+    header = nibabel.Nifti1Header()
+    header.set_data_dtype(numpy.float32)
+    header.set_data_shape(size)
+    header["vox_offset"], header["magic"] = 352, b"n+1"
+    header.set_sform(numpy.eye(4), 1)
+    body = gzip.compress(header.binaryblock + b"\0" * 100_000)
+    status, _, answer = server.request("POST", "/api/import/mask?name=m.nii.gz", body)
+    assert status in (413, 422), answer
+    peak = re.search(r"VmHWM:\s+(\d+)", pathlib.Path(f"/proc/{server.process.pid}/status").read_text())
+    assert int(peak[1]) < 400_000  # KiB
+
+
+def test_an_rtstruct_brings_every_region_that_has_contours(server, tmp_path):
+    file = tmp_path / "plan.dcm"
+    script = pathlib.Path(__file__).parent.parent / "support" / "make_rtstruct.py"
+    subprocess.run([sys.executable, script, "good", file], check=True)
+    page = server.page()
+    status, _, body = server.request("POST", "/api/import/contours?name=plan.dcm", file.read_bytes())
+    assert status == 200, body
+    page.do("ping")
+    ids = json.loads(body)["structures"]
+    names = {page.structures[i]["name"] for i in ids}
+    assert {"plain", "nested", "keyhole"} <= names and "empty" not in names
+    assert page.do("undo")["label"] == "Import contours" and not set(ids) & page.structures.keys()
+
+
 def test_two_processes_on_one_project(server, tmp_path, image):
     second = subprocess.run(
         [KONTUR, "open", image, "--project", server.project, "--no-browser", "--timeout", "1"], capture_output=True, text=True
     )
     assert second.returncode == 74 and "is open in another kontur" in second.stderr
+
+
+def test_a_full_disk_is_told_changes_nothing_and_passes(server):
+    """By a limit on the size of files, which SQLite meets as it would a full disk."""
+    page = server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    before = dict(page.contours)
+    full = server.project.stat().st_size
+    resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (full, resource.RLIM_INFINITY))
+    refusals = []
+    plane = page.session["views"]["axial"]["plane"]
+    for _ in range(30):
+        reply = page.ask("contour.add", structure=structure, plane=plane, control=spline_controls(ring(plane, 9, 60)))
+        if "error" in reply:
+            refusals.append(reply["error"])
+            break
+    assert refusals and refusals[0]["kind"] == "io" and "cannot write" in refusals[0]["message"], refusals
+    drawn = len(page.contours)
+    resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    page.do("contour.remove", ids=[ids[0]])
+    assert len(page.contours) == drawn - 1
+    state = (page.structures, page.contours, page.history)
+    server.stop(signal.SIGKILL)
+    with running(server.folder, server.project) as again:
+        reopened = again.page()
+        assert (reopened.structures, reopened.contours, reopened.history) == state
+        for _ in range(1 + drawn - len(before)):
+            reopened.do("undo")
+        assert reopened.contours == before
+
+
+def test_a_place_that_cannot_be_written_is_told(tmp_path, image):
+    for folder in ("/proc", tmp_path / "missing"):
+        result = subprocess.run(
+            [KONTUR, "open", image, "--project", pathlib.Path(folder) / "work.kontur", "--no-browser", "--timeout", "1"],
+            capture_output=True, text=True,
+        )
+        assert result.returncode == 74 and "work.kontur" in result.stderr and result.stderr.count("\n") == 1, result.stderr
 
 
 def test_a_project_refuses_another_image(server, tmp_path):

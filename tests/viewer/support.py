@@ -13,6 +13,7 @@ import socket
 import struct
 import subprocess
 
+import nibabel
 import numpy
 
 KONTUR = os.environ["KONTUR_CLI"]
@@ -218,3 +219,17 @@ def ring(plane, radius, count=12, center=(0.0, 0.0)):
 
 def spline_controls(points):
     return [{"at": p, "kind": "spline"} for p in points]
+
+
+def write_image(path, radius=12.0):
+    """A ball of 100 on -1000, oblique and anisotropic."""
+    shape, spacing = (48, 40, 32), (1.0, 1.2, 1.5)
+    turn = 0.2
+    rotation = numpy.array([[numpy.cos(turn), -numpy.sin(turn), 0], [numpy.sin(turn), numpy.cos(turn), 0], [0, 0, 1]])
+    affine = numpy.eye(4)
+    affine[:3, :3] = rotation @ numpy.diag(spacing)
+    affine[:3, 3] = (-20, -30, 7)
+    index = numpy.stack(numpy.meshgrid(*(numpy.arange(n) for n in shape), indexing="ij"), -1)
+    distance = numpy.linalg.norm((index - numpy.array(shape) // 2) * spacing, axis=-1)
+    values = numpy.where(distance < radius, 100, -1000).astype(numpy.int16)
+    nibabel.save(nibabel.Nifti1Image(values, affine), path)

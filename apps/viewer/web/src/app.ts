@@ -9,6 +9,7 @@ import { VIEW_NAMES, type Contour, type ServerEvent, type Session, type ViewName
 import { Socket, type ConnectionState } from "./net/socket";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
+import { Sketch, type SavedSketch } from "./tools/sketch";
 import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
@@ -23,9 +24,11 @@ interface SavedPage {
   navigation: SavedNavigation;
   structure: number;
   hintSeen: boolean;
+  sketch?: SavedSketch;
 }
 
 const SAVE_PAGE_MS = 400;
+const LONGEST_SAVED_SKETCH = 40_000; // characters: the server keeps 64 KiB for a page
 
 /** Puts the parts of the page together, and hands the server's events to them. */
 export class App {
@@ -115,6 +118,7 @@ export class App {
     project.on(["structures"], () => this.savePageSoon());
     editor.on(["tool", "sketch", "hover"], each((view) => view.paint()));
     editor.on(["tool", "sketch"], () => this.tellHint());
+    editor.on(["points"], () => this.savePageSoon());
     project.on(["selection"], () => this.tellHint());
     for (const [name, view] of this.views) {
       this.inputs.push(
@@ -161,6 +165,7 @@ export class App {
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
     this.project.start(session);
     if (isFirst && page?.structure) this.project.activate(page.structure);
+    if (isFirst && page?.sketch) this.editor.resume(Sketch.from(page.sketch));
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
     this.hintSeen ||= page?.hintSeen ?? false;
@@ -190,12 +195,11 @@ export class App {
   }
 
   undo(): void {
-    if (this.editor.sketch) return this.editor.removeLastPoint();
-    this.editor.edit("undo", {});
+    if (!this.editor.undo()) this.editor.edit("undo", {});
   }
 
   redo(): void {
-    this.editor.edit("redo", {});
+    if (!this.editor.redo()) this.editor.edit("redo", {});
   }
 
   // Looking around
@@ -290,7 +294,7 @@ export class App {
     return {
       http: this.http,
       failed: (error: unknown) => this.failed(error),
-      working: (text: string) => this.status.setWork(text, null),
+      working: (text: string, cancel: () => void) => this.notices.working(text, cancel),
       imported: (file: string, structures: number[]) => {
         this.notices.show("info", `${file}: ${structures.length === 1 ? "1 structure" : `${structures.length} structures`} imported.`);
         if (structures[0]) this.project.activate(structures[0]);
@@ -312,6 +316,8 @@ export class App {
     window.clearTimeout(this.saveTimer);
     this.saveTimer = window.setTimeout(() => {
       const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen };
+      const sketch = this.editor.sketch?.saved();
+      if (sketch && JSON.stringify(sketch).length < LONGEST_SAVED_SKETCH) state.sketch = sketch;
       this.socket.call("page.save", { state }).catch(() => undefined); // the next change saves again
     }, SAVE_PAGE_MS);
   }

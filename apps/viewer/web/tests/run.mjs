@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the TypeScript under tests/<what>/ and runs it: `node tests/run.mjs unit`.
+// Bundles the TypeScript under tests/<what>/ and runs it: `node tests/run.mjs unit`, or only some of its files:
+// `node tests/run.mjs e2e edit`.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -15,7 +16,7 @@ if (what === "e2e" && !existsSync(process.env.KONTUR_CHROMIUM ?? "/usr/bin/chrom
 
 const tests = dirname(fileURLToPath(import.meta.url));
 const output = join(tests, "..", "node_modules", ".tests", what);
-const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(what === "bench" ? ".ts" : ".test.ts"));
+const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(what === "bench" ? ".ts" : ".test.ts")).filter((name) => what === "bench" || rest.length === 0 || rest.some((word) => name.startsWith(word)));
 
 mkdirSync(output, { recursive: true });
 await build({

@@ -22,6 +22,7 @@ export interface SavedNavigation {
   window: Window;
   layout: LayoutName;
   big: PaneName;
+  linked?: boolean;
 }
 
 const ZOOM_LIMITS: [number, number] = [0.25, 40];
@@ -33,6 +34,7 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
   cameras = {} as Record<ViewName, Camera>;
   window: Window = { center: 0, width: 1 };
   layout: LayoutName = "overview";
+  linked = false; // all slices zoom and shift together
   big: PaneName = "axial"; // the pane that is big in "big-slice", or alone in "single"
   private image: ImageInfo | null = null;
   private views!: Record<ViewName, ViewGeometry>;
@@ -45,6 +47,7 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     for (const view of VIEW_NAMES) this.cameras[view] = saved?.cameras[view] ?? this.initialCamera(view);
     this.layout = saved?.layout ?? "overview";
     this.big = saved?.big ?? "axial";
+    this.linked = saved?.linked ?? false;
     this.emit("planes", "window", "layout");
   }
 
@@ -54,8 +57,8 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
   }
 
   saved(): SavedNavigation {
-    const { crosshair, cameras, window, layout, big } = this;
-    return { crosshair, cameras, window, layout, big };
+    const { crosshair, cameras, window, layout, big, linked } = this;
+    return { crosshair, cameras, window, layout, big, linked };
   }
 
   plane(view: ViewName): Plane {
@@ -128,18 +131,28 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     this.emit("planes");
   }
 
+  toggleLinked(): void {
+    this.linked = !this.linked;
+    this.emit("layout");
+  }
+
+  private together(view: ViewName): readonly ViewName[] {
+    return this.linked ? VIEW_NAMES : [view];
+  }
+
   /** Keeps the image under `at` where it is on the screen. */
   zoomAt(view: ViewName, at: Vec3, factor: number): void {
-    const camera = this.cameras[view];
-    const zoom = Math.min(Math.max(camera.zoom * factor, ZOOM_LIMITS[0]), ZOOM_LIMITS[1]);
-    const center = add(at, scale(sub(camera.center, at), camera.zoom / zoom));
-    this.cameras[view] = { ...camera, zoom, center };
+    for (const each of this.together(view)) {
+      const camera = this.cameras[each];
+      const zoom = Math.min(Math.max(camera.zoom * factor, ZOOM_LIMITS[0]), ZOOM_LIMITS[1]);
+      const center = add(at, scale(sub(camera.center, at), camera.zoom / zoom));
+      this.cameras[each] = { ...camera, zoom, center };
+    }
     this.emit("planes");
   }
 
   pan(view: ViewName, by: Vec3): void {
-    const camera = this.cameras[view];
-    this.cameras[view] = { ...camera, center: add(camera.center, by) };
+    for (const each of this.together(view)) this.cameras[each] = { ...this.cameras[each], center: add(this.cameras[each].center, by) };
     this.emit("planes");
   }
 

@@ -18,7 +18,7 @@ export interface MeshHeader {
   stage: string;
 }
 
-/** Requests for bulk data below `/api/`. */
+/** Requests for bulk data below `/api/`. One that is aborted costs the server nothing more. */
 export class Http {
   constructor(private readonly token: string) {}
 
@@ -31,15 +31,16 @@ export class Http {
   }
 
   /** The file and the name that the server proposes for it. */
-  async export(name: string, structure: number | null): Promise<{ blob: Blob; name: string }> {
-    const reply = await this.request(`export/${name}` + (structure === null ? "" : `?structure=${structure}`));
+  async export(name: string, structure: number | null, signal?: AbortSignal): Promise<{ blob: Blob; name: string }> {
+    const reply = await this.request(`export/${name}` + (structure === null ? "" : `?structure=${structure}`), { signal: signal ?? null });
     const proposed = /filename="([^"]+)"/.exec(reply.headers.get("Content-Disposition") ?? "");
     return { blob: await reply.blob(), name: proposed?.[1] ?? name };
   }
 
-  async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}): Promise<{ structures: number[] }> {
+  async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<{ structures: number[] }> {
     const query = new URLSearchParams({ name: file.name, ...options });
-    return (await (await this.post(`import/${what}?${query}`, file)).json()) as { structures: number[] };
+    const reply = await this.request(`import/${what}?${query}`, { method: "POST", body: file, signal: signal ?? null });
+    return (await reply.json()) as { structures: number[] };
   }
 
   private post(path: string, body: BodyInit): Promise<Response> {
@@ -51,6 +52,7 @@ export class Http {
     try {
       reply = await fetch(`/api/${path}`, { ...options, headers: { Authorization: `Bearer ${this.token}` } });
     } catch {
+      if (options.signal?.aborted) throw new ServerError("cancelled", "Cancelled.");
       throw new ServerError("io", "kontur does not answer.");
     }
     if (!reply.ok) throw await errorOf(reply);

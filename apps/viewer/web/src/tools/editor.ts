@@ -14,6 +14,7 @@ import { VIEW_NAMES } from "../net/protocol";
 export type ToolName = "edit" | "freehand" | "spline" | "wire" | "redraw" | "move";
 
 const KIND_OF_TOOL: Partial<Record<ToolName, StretchKind>> = { freehand: "line", spline: "spline", wire: "wire" };
+const TOOL_OF_KIND: Record<StretchKind, ToolName> = { free: "freehand", line: "freehand", spline: "spline", wire: "wire" };
 const CLOSE_PIXELS = 11;
 const CLICK_PIXELS = 5; // a press that moves less is a click
 const HAND_STEP_PIXELS = 1.5;
@@ -40,7 +41,7 @@ export interface EditorServices {
 export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
 
 /** The tools: turns presses, moves and keys on a view into calls that draw and edit. */
-export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
+export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   tool: ToolName = "edit";
   sketch: Sketch | null = null;
   /** The sketch's line as the server made it, and the line on to the pointer. */
@@ -53,6 +54,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   hover: Hover = null;
   linesShown = true;
   private hidden = new Set<ViewName>();
+  /** The sketch that was left last, and by what: undo or redo brings it back, until something else is done. */
+  private leftSketch: { sketch: Sketch; by: "leaving" | "undo" } | null = null;
 
   private readonly placed = new Latest<Sketch>((sketch) => this.askPlaced(sketch));
   private readonly rubber = new Latest<{ sketch: Sketch; pointer: Vec3; mm: number }>((request) => this.askRubber(request));
@@ -76,7 +79,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
     if (kind) this.sketch?.setKind(kind);
     else this.leaveSketch();
     this.setHover(null);
-    this.emit("tool", "sketch");
+    this.emit("tool", "sketch", "points");
   }
 
   get draws(): boolean {
@@ -227,6 +230,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   private begun(screen: Screen): Sketch {
     const structure = this.project.activeStructure?.id ?? 0;
     this.sketch ??= new Sketch(planeOf(screen), structure, KIND_OF_TOOL[this.tool] ?? "line");
+    this.leftSketch = null;
     this.project.select(null);
     return this.sketch;
   }
@@ -239,7 +243,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   private sketchChanged(): void {
     this.rubberLine = [];
     if (this.sketch) this.placed.send(this.sketch);
-    this.emit("sketch");
+    this.emit("sketch", "points");
   }
 
   private stretchRubber(view: ViewName, screen: Screen, pointer: Point2): void {
@@ -284,11 +288,17 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
     const sketch = this.sketch;
     if (!sketch) return;
     if (!sketch.canClose) return this.services.tell("A contour needs at least three points.");
-    this.leaveSketch();
+    this.clearSketch();
     void this.add(sketch);
   }
 
+  /** Puts the sketch aside, from where undo brings it back. */
   leaveSketch(): void {
+    if (this.sketch) this.leftSketch = { sketch: this.sketch, by: "leaving" };
+    this.clearSketch();
+  }
+
+  private clearSketch(): void {
     this.sketch = null;
     this.placedLine = [];
     this.rubberLine = [];
@@ -296,19 +306,62 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
     this.pointerCloses = false;
     this.placed.drop();
     this.rubber.drop();
-    this.emit("sketch");
+    this.emit("sketch", "points");
   }
 
   removeLastPoint(): void {
-    if (!this.sketch) return;
-    this.sketch.removeLast();
-    if (this.sketch.isEmpty) this.leaveSketch();
-    else this.sketchChanged();
+    const sketch = this.sketch;
+    if (!sketch) return;
+    sketch.removeLast();
+    if (!sketch.isEmpty) return this.sketchChanged();
+    this.clearSketch();
+    this.leftSketch = { sketch, by: "undo" };
+    this.emit("points");
+  }
+
+  /** Goes on with a sketch from before. */
+  resume(sketch: Sketch): void {
+    this.leftSketch = null;
+    this.sketch = sketch;
+    this.tool = TOOL_OF_KIND[sketch.kind];
+    this.project.select(null);
+    this.emit("tool");
+    this.sketchChanged();
+  }
+
+  /** What undo and redo do to the sketch, or to the one that was left last; null: they are the project's. */
+  get undoLabel(): string | null {
+    if (this.sketch) return "Place a point";
+    return this.leftSketch?.by === "leaving" ? "Leave the contour" : null;
+  }
+
+  get redoLabel(): string | null {
+    if (this.sketch) return this.sketch.canRestore ? "Place a point" : null;
+    return this.leftSketch?.by === "undo" ? "Place a point" : null;
+  }
+
+  /** False where there is nothing of this kind to undo. */
+  undo(): boolean {
+    if (this.sketch) this.removeLastPoint();
+    else if (this.leftSketch?.by === "leaving") this.resume(this.leftSketch.sketch);
+    else return false;
+    return true;
+  }
+
+  redo(): boolean {
+    if (!this.sketch && this.leftSketch?.by !== "undo") return false;
+    const sketch = this.sketch ?? this.leftSketch!.sketch;
+    if (!sketch.canRestore) return true; // a sketch has its own history, in which this was the end
+    sketch.restoreLast();
+    if (this.sketch) this.sketchChanged();
+    else this.resume(sketch);
+    return true;
   }
 
   private async add(sketch: Sketch): Promise<void> {
+    this.leftSketch = null;
     try {
-      const structure = sketch.structure || (await this.addStructure());
+      const structure = this.project.structures.has(sketch.structure) ? sketch.structure : await this.addStructure();
       const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
       const { contour } = await this.services.call<{ contour: Contour }>("contour.add", { structure, plane, control: sketch.points });
       if (!this.sketch) this.project.select({ contour: contour.id, point: null });
@@ -416,6 +469,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "hover"> {
   }
 
   edit(name: string, args: Record<string, unknown>): void {
+    this.leftSketch = null;
+    this.emit("points");
     this.services.call(name, args).catch((error: unknown) => {
       this.project.draft = null;
       this.services.failed(error);

@@ -3,14 +3,23 @@ import { coincide, type Plane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { ControlPoint, SketchPoint, StretchKind } from "../net/protocol";
 
+/** A sketch as it is kept with the project until the next visit. */
+export interface SavedSketch {
+  plane: Plane;
+  structure: number;
+  kind: StretchKind;
+  points: SketchPoint[];
+}
+
 /** A contour while it is drawn: control points, each with how the line from it goes on. */
 export class Sketch {
   points: SketchPoint[] = [];
+  private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
   constructor(
     readonly plane: Plane,
     readonly structure: number,
-    private kind: StretchKind,
+    public kind: StretchKind,
   ) {}
 
   get isEmpty(): boolean {
@@ -41,6 +50,7 @@ export class Sketch {
   }
 
   place(at: Vec3): void {
+    this.undone = [];
     this.points.push({ at, kind: this.kind });
   }
 
@@ -62,12 +72,33 @@ export class Sketch {
     return sketch;
   }
 
+  get canRestore(): boolean {
+    return this.undone.length > 0;
+  }
+
+  /** Takes the latest removal back. */
+  restoreLast(): void {
+    this.points = this.undone.pop() ?? this.points;
+  }
+
   removeLast(): void {
+    this.undone.push(this.points.map((point) => ({ ...point })));
     this.points.pop();
     const last = this.last;
     if (!last) return;
     delete last.path;
     last.kind = this.kind;
+  }
+
+  saved(): SavedSketch {
+    const { plane, structure, kind, points } = this;
+    return { plane, structure, kind, points };
+  }
+
+  static from({ plane, structure, kind, points }: SavedSketch): Sketch {
+    const sketch = new Sketch(plane, structure, kind);
+    sketch.points = points;
+    return sketch;
   }
 
   /** Takes over where the server has moved points to the edge. */

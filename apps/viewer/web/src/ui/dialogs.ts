@@ -55,20 +55,25 @@ export function openExport({ http, project }: ExportServices): void {
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
   const chosen = () => (structure.value ? Number(structure.value) : null);
   const status = el("p", { class: "dialog-status" });
-  const save = async (name: string, of: number | null, clicked: HTMLButtonElement): Promise<void> => {
-    clicked.disabled = true;
-    status.textContent = `Preparing ${name} …`;
+  let running: AbortController | null = null;
+  /** One at a time; another one, "Cancel" and closing the dialog end it. */
+  const save = async (name: string, of: number | null): Promise<void> => {
+    running?.abort();
+    const own = (running = new AbortController());
+    const cancel = button({ label: "Cancel", title: "Cancel the export", class: "choice", test: "export-cancel", onclick: () => own.abort() });
+    status.replaceChildren(`Preparing ${name} …`, cancel);
+    let outcome: string;
     try {
-      const file = await http.export(name, of);
+      const file = await http.export(name, of, own.signal);
       download(file.blob, file.name);
-      status.textContent = `${file.name} was handed to the browser's downloads.`;
+      outcome = `${file.name} was handed to the browser's downloads.`;
     } catch (error) {
-      status.textContent = error instanceof Error ? error.message : String(error); // a notice would lie behind the dialog
+      outcome = error instanceof Error ? error.message : String(error); // a notice would lie behind the dialog
     }
-    clicked.disabled = false;
+    if (running === own) status.replaceChildren(outcome);
   };
   const entry = (name: string, label: string, extension: string, of: () => number | null): HTMLElement => {
-    const element: HTMLButtonElement = button({ label, title: `Save as ${extension}`, class: "choice", test: `export-${name}`, onclick: () => void save(name, of(), element) });
+    const element = button({ label, title: `Save as ${extension}`, class: "choice", test: `export-${name}`, onclick: () => void save(name, of()) });
     element.append(el("small", {}, extension));
     return element;
   };
@@ -81,7 +86,8 @@ export function openExport({ http, project }: ExportServices): void {
     el("h3", {}, "Project with its history"),
     el("div", { class: "choices" }, entry("project.kontur", "kontur project", ".kontur", () => null)),
   );
-  openDialog("Export", "export-dialog", el("label", { class: "field" }, "Structure", structure), ...groups, whole, status);
+  const dialog = openDialog("Export", "export-dialog", el("label", { class: "field" }, "Structure", structure), ...groups, whole, status);
+  dialog.addEventListener("close", () => running?.abort());
 }
 
 function download(blob: Blob, name: string): void {
@@ -96,11 +102,12 @@ export interface ImportServices {
   http: Http;
   failed(error: unknown): void;
   imported(file: string, structures: number[]): void;
-  working(text: string): void;
+  /** Says so, with a button to cancel; returns what ends that. */
+  working(text: string, cancel: () => void): () => void;
 }
 
 const CONTOUR_FILES = /\.(json|dcm)$/i;
-const MASK_FILES = /\.(nii|nii\.gz|nrrd|mha|mhd)$/i;
+const MASK_FILES = /\.(nii|nii\.gz|nrrd|mha)$/i;
 
 export function openImport(services: ImportServices): void {
   const input = el("input", { type: "file", accept: ".json,.dcm,.nii,.gz,.nrrd,.mha", "data-test": "import-file" });
@@ -152,13 +159,14 @@ function openMaskImport(file: File, services: ImportServices): void {
 }
 
 async function send(what: "contours" | "mask", file: File, options: Record<string, string>, services: ImportServices): Promise<void> {
-  services.working(`Importing ${file.name}`);
+  const abort = new AbortController();
+  const done = services.working(`Importing ${file.name} …`, () => abort.abort());
   try {
-    services.imported(file.name, (await services.http.import(what, file, options)).structures);
+    services.imported(file.name, (await services.http.import(what, file, options, abort.signal)).structures);
   } catch (error) {
-    services.failed(error);
+    if (!abort.signal.aborted) services.failed(error);
   }
-  services.working("");
+  done();
 }
 
 type KeyRow = [string, string];
@@ -174,7 +182,7 @@ const HELP: [string, KeyRow[]][] = [
       ["Click, drag", "move the crosshair (Edit)"],
       ["Drag a plane line", "move that plane; drag its dot to turn it"],
       ["1 2 3 4 5", "axial, sagittal, coronal, oblique, 3D alone; 0 all"],
-      ["X", "show or hide plane lines"],
+      ["X, K", "plane lines on or off; all slices zoom and shift together"],
       ["Home", "all views back to where they began"],
     ],
   ],

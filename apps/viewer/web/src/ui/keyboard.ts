@@ -82,6 +82,9 @@ export class Keyboard {
       case "h":
         this.toggleHole();
         return true;
+      case "k":
+        navigation.toggleLinked();
+        return true;
       case "x":
         editor.toggleLines();
         return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { ConnectionState } from "../net/socket";
 import type { Notice } from "../net/protocol";
-import { el } from "./dom";
+import { button, el } from "./dom";
 
 /** The line at the bottom: cursor, what to do next, what is computed, whether all is saved. */
 export class StatusBar {
@@ -64,5 +64,13 @@ export class Notices {
     this.element.append(notice);
     while (this.element.children.length > 4) this.element.firstElementChild!.remove();
     if (level !== "error") setTimeout(() => notice.remove(), NOTICE_MS);
+  }
+
+  /** Something that takes its time, with a button to end it. Returns what takes the notice away. */
+  working(text: string, cancel: () => void): () => void {
+    const stop = button({ label: "Cancel", title: "Cancel", class: "choice", test: "cancel", onclick: cancel });
+    const notice = el("div", { class: "notice working" }, el("span", {}, text), stop);
+    this.element.append(notice);
+    return () => notice.remove();
   }
 }

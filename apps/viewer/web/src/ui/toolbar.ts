@@ -42,6 +42,7 @@ export class Toolbar {
   private readonly layouts = new Map<LayoutName, HTMLButtonElement>();
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
+  private readonly link: HTMLButtonElement;
   private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets" });
   private readonly center = el("input", { type: "number", class: "number", title: "Window: centre (drag with the right button over a slice)" });
   private readonly width = el("input", { type: "number", class: "number", title: "Window: width", min: "0" });
@@ -56,6 +57,7 @@ export class Toolbar {
       this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, onclick: () => navigation.setLayout(layout) }));
     this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", onclick: services.undo });
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", onclick: services.redo });
+    this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", onclick: () => navigation.toggleLinked() });
     this.presets.onchange = () => this.choosePreset();
     this.center.onchange = this.width.onchange = () => this.typeWindow();
     this.element.append(
@@ -68,6 +70,7 @@ export class Toolbar {
       group(...this.layouts.values()),
       group(
         button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", onclick: () => editor.toggleLines() }),
+        this.link,
       ),
       group(
         button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", onclick: services.openImport }),
@@ -75,7 +78,7 @@ export class Toolbar {
         button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", onclick: services.openHelp }),
       ),
     );
-    editor.on(["tool"], () => this.update());
+    editor.on(["tool", "points"], () => this.update());
     navigation.on(["layout", "window"], () => this.update());
     services.project.on(["history"], () => this.update());
   }
@@ -96,8 +99,9 @@ export class Toolbar {
     for (const [tool, element] of this.tools) press(element, tool === editor.tool);
     for (const [layout, element] of this.layouts) press(element, layout === navigation.layout);
     const { undo, redo } = project.history;
-    describe(this.undo, undo, "Undo", "Ctrl+Z");
-    describe(this.redo, redo, "Redo", "Ctrl+Shift+Z");
+    describe(this.undo, editor.undoLabel ?? undo, "Undo", "Ctrl+Z");
+    describe(this.redo, editor.redoLabel ?? (editor.sketch ? null : redo), "Redo", "Ctrl+Shift+Z");
+    press(this.link, navigation.linked);
     const { center, width } = navigation.window;
     if (document.activeElement !== this.center) this.center.value = short(center);
     if (document.activeElement !== this.width) this.width.value = short(width);

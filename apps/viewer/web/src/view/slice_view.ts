@@ -67,6 +67,7 @@ export class SliceView {
       icon: ICONS.reset,
       title: "Turn and zoom this view back to where it began",
       class: "icon-button small",
+      test: `reset-${name}`,
       onclick: () => navigation.resetView(name),
     });
     const enlarge = button({

@@ -25,22 +25,29 @@ export function run(...words: string[]): void {
 }
 
 export const BALL_RADIUS_MM = 40;
+export const BALL_ML = (4 / 3) * Math.PI * (BALL_RADIUS_MM / 10) ** 3;
 
-/** A NIfTI image of 96 x 80 x 40 voxels of 2 x 2 x 4 mm with a ball of 100 in its middle, in a little noise. */
-export function writeBallImage(path: string): void {
-  const size = [96, 80, 40] as const, spacing = [2, 2, 4] as const;
+/** Columns of a NIfTI's matrix (RAS): the steps in mm along i, j and k. */
+export type Steps = readonly [readonly number[], readonly number[], readonly number[]];
+const STRAIGHT: Steps = [[2, 0, 0], [0, 2, 0], [0, 0, 4]];
+/** Turned by 25 degrees about x, and the slices shifted against each other as a tilted gantry does. */
+export const SHEARED: Steps = [[2, 0, 0], [0, 1.81, 0.85], [0.6, -0.7, 3.8]];
+
+/** A NIfTI image of 96 x 80 x 40 voxels with a ball of 100 in the middle of space, in a little noise. */
+export function writeBallImage(path: string, steps: Steps = STRAIGHT): void {
+  const size = [96, 80, 40] as const;
   const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2]);
   file.writeInt32LE(348, 0);
   [3, ...size, 1, 1, 1, 1].forEach((value, i) => file.writeInt16LE(value, 40 + 2 * i));
   file.writeInt16LE(4, 70); // 16-bit integers
   file.writeInt16LE(16, 72);
-  [1, ...spacing].forEach((value, i) => file.writeFloatLE(value, 76 + 4 * i));
+  [1, ...steps.map((step) => Math.hypot(...step))].forEach((value, i) => file.writeFloatLE(value, 76 + 4 * i));
   file.writeFloatLE(352, 108);
   file.writeUInt8(2, 123); // mm
   file.writeInt16LE(1, 254); // the sform counts
-  const first = size.map((count, axis) => (-(count - 1) / 2) * spacing[axis]!);
+  const first = [0, 1, 2].map((axis) => steps.reduce((sum, step, n) => sum - ((size[n]! - 1) / 2) * step[axis]!, 0));
   [0, 1, 2].forEach((axis) => {
-    file.writeFloatLE(spacing[axis]!, 280 + 16 * axis + 4 * axis);
+    steps.forEach((step, n) => file.writeFloatLE(step[axis]!, 280 + 16 * axis + 4 * n));
     file.writeFloatLE(first[axis]!, 280 + 16 * axis + 12);
   });
   file.write("n+1\0", 344);
@@ -50,8 +57,8 @@ export function writeBallImage(path: string): void {
   for (let k = 0; k < size[2]; ++k)
     for (let j = 0; j < size[1]; ++j)
       for (let i = 0; i < size[0]; ++i) {
-        const distance = Math.hypot(...[i, j, k].map((index, axis) => first[axis]! + index * spacing[axis]!));
-        file.writeInt16LE((distance < BALL_RADIUS_MM ? 100 : 0) + noise(), at);
+        const place = first.map((from, axis) => from + i * steps[0][axis]! + j * steps[1][axis]! + k * steps[2][axis]!);
+        file.writeInt16LE((Math.hypot(...place) < BALL_RADIUS_MM ? 100 : 0) + noise(), at);
         at += 2;
       }
   writeFileSync(path, file);
@@ -157,6 +164,22 @@ export class Viewer {
     await mouse.down({ button });
     for (const place of places.slice(1)) await mouse.move(...(await this.at(view, ...place)));
     await mouse.up({ button });
+  }
+
+  /** The contour of this number of the list goes into its plane and is selected. */
+  async show(row: number): Promise<void> {
+    await this.page.locator(".contour-row").nth(row).click();
+    await this.slicesShown();
+  }
+
+  /** The volume in ml that the panel shows. */
+  async volume(): Promise<number> {
+    return Number.parseFloat((await this.page.locator(".figure strong").first().textContent())!);
+  }
+
+  /** Waits until the button's title says that this is what undo, or redo, would do. */
+  async waitForStep(which: "undo" | "redo", label: string): Promise<void> {
+    await this.page.waitForSelector(`[data-test=${which}][title^="${which === "undo" ? "Undo" : "Redo"}: ${label}"]`);
   }
 
   async click(view: string, right: number, down: number): Promise<void> {

@@ -68,6 +68,19 @@ test("a turned view still goes through the crosshair and scrolls to the image's 
   assert.ok(!navigation.isTurned("sagittal"));
 });
 
+test("linked slices zoom and shift together, others alone", () => {
+  const navigation = started();
+  navigation.zoomAt("axial", [10, 0, 0], 2);
+  assert.equal(navigation.cameras.coronal.zoom, 1);
+  navigation.toggleLinked();
+  navigation.zoomAt("axial", [10, 0, 0], 2);
+  assert.deepEqual([navigation.cameras.axial.zoom, navigation.cameras.coronal.zoom], [4, 2]);
+  const before = navigation.cameras.coronal.center;
+  navigation.pan("axial", [5, 6, 0]);
+  near(navigation.cameras.coronal.center, [before[0] + 5, before[1] + 6, before[2]]);
+  assert.equal(navigation.saved().linked, true);
+});
+
 test("going to a point moves views that are zoomed in elsewhere, and only those", () => {
   const navigation = started();
   navigation.zoomAt("axial", [-90, 0, 0], 10);

@@ -250,3 +250,47 @@ test("a sketch goes on in its own plane only", () => {
   assert.equal(editor.press("oblique", elsewhere, [50, 50], { ctrl: false, shift: false }), null);
   assert.equal(editor.sketch!.points.length, 1);
 });
+
+test("points of a sketch undo and redo, down to none and back", () => {
+  const { editor, drag } = editing("wire", []);
+  const places: Point2[] = [[100, 100], [200, 100], [300, 100]];
+  for (const place of places) drag(place);
+  const drawn = editor.sketch!.points.map((point) => point.at);
+  for (let i = 0; i < 3; ++i) assert.ok(editor.undo());
+  assert.equal(editor.sketch, null);
+  assert.equal(editor.undo(), false, "the project's history comes next");
+  assert.equal(editor.redoLabel, "Place a point");
+  for (let i = 0; i < 3; ++i) assert.ok(editor.redo());
+  assert.deepEqual(editor.sketch!.points.map((point) => point.at), drawn);
+  assert.ok(editor.redo(), "a sketch keeps redo to itself");
+  drag([320, 120]);
+  editor.undo();
+  drag([330, 130]);
+  assert.equal(editor.redoLabel, null, "a new point drops what was undone");
+});
+
+test("a sketch that was left comes back by undo, with its tool, until something else is done", async () => {
+  const { editor, drag, settled } = editing("spline", []);
+  drag([100, 100]);
+  drag([200, 100]);
+  editor.choose("edit");
+  assert.equal(editor.sketch, null);
+  assert.equal(editor.undoLabel, "Leave the contour");
+  assert.ok(editor.undo());
+  assert.equal(editor.tool, "spline");
+  assert.equal(editor.sketch!.points.length, 2);
+  editor.leaveSketch();
+  editor.edit("structure.add", {});
+  await settled();
+  assert.equal(editor.undo(), false);
+});
+
+test("a sketch survives being saved", () => {
+  const sketch = new Sketch(plane, 3, "wire");
+  sketch.place([1, 2, 0]);
+  sketch.drawFree(line(5));
+  const again = Sketch.from(JSON.parse(JSON.stringify(sketch.saved())) as ReturnType<Sketch["saved"]>);
+  assert.deepEqual(again.points, sketch.points);
+  again.place([9, 9, 0]);
+  assert.equal(again.last!.kind, "wire");
+});

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kontur/base/progress.h"
+#include "kontur/shape/contour.h"
+
+namespace kontur::viewer {
+
+/// Where a mask is cut into contours.
+struct TraceRequest {
+    int planes = 9;  ///< along each axis
+    bool axial = true, sagittal = true, coronal = true;
+};
+
+/// A file that a page has sent.
+struct Upload {
+    enum class Content { contours, mask };
+    Content content = Content::contours;
+    std::string extension;  ///< one that kontur knows; nothing else of the file's name is used
+    TraceRequest trace;     ///< of a mask
+};
+
+struct Imported {
+    std::vector<ContourSet> sets;    ///< one for each structure of the file, none of them empty
+    std::vector<std::string> notes;  ///< how the file was read, for the user to see
+};
+
+/// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a
+/// reader, or makes it grow or run on, costs the import and nothing else. Throws the reader's error, and Error(corrupt_file)
+/// or Error(too_large) when that process ends otherwise; Error(cancelled) ends it at once.
+Imported import_apart(const std::string& bytes, const Upload& upload, const Progress& progress = {});
+
+/// The word that makes this program that process; for `main`, before it reads its command line.
+inline constexpr const char* kImportWorker = "--import-worker";
+int import_worker(int argc, char** argv);
+
+}  // namespace kontur::viewer

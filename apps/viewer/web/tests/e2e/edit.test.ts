@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be done to contours, views and files beyond the first visit (page.test.ts), each from a drawing of its own.
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, beforeEach, describe, test } from "node:test";
+import type { Browser } from "playwright-core";
+import { BALL_ML, BALL_RADIUS_MM, circle, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+
+const folder = temporaryFolder();
+const image = join(folder.path, "ball.nii");
+let server: Server;
+let browser: Browser;
+let viewer: Viewer;
+let visit = 0;
+
+interface Drawing {
+  planes: { contours: { points: [number, number, number][] }[] }[];
+}
+
+const points = async (): Promise<[number, number, number][]> =>
+  (JSON.parse((await viewer.export("contours.json")).bytes.toString()) as Drawing).planes.flatMap((plane) => plane.contours.flatMap((contour) => contour.points));
+const most = (all: [number, number, number][], axis: number): number => Math.max(...all.map((p) => p[axis]!));
+const near = (actual: number, expected: number, tolerance: number, what: string): void =>
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected} to within ${tolerance}`);
+const isOrange = (r: number, g: number, b: number): boolean => Math.abs(r - 255) < 12 && Math.abs(g - 143) < 14 && Math.abs(b - 63) < 24;
+
+/** Draws by hand around the ball, or a circle of another radius. */
+async function drawBall(view: string, radius_mm = BALL_RADIUS_MM, contours = 1): Promise<number> {
+  const radius = await viewer.pixels(view, radius_mm);
+  await viewer.page.keyboard.press("f");
+  await viewer.drag(view, circle(radius, 36));
+  await viewer.waitForContours(contours);
+  await viewer.page.keyboard.press("v");
+  return radius;
+}
+
+before(async () => {
+  writeBallImage(image);
+  browser = await launch();
+});
+
+beforeEach(async () => {
+  await viewer?.page.close();
+  await server?.end();
+  server = await Server.start(folder.path, image, "--project", join(folder.path, `visit${++visit}.kontur`));
+  viewer = await Viewer.open(browser, server.address);
+  await viewer.closeHint();
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.end();
+  folder.remove();
+});
+
+describe("contours", () => {
+  test("a part is redrawn from the line back to the line", async () => {
+    const radius = await drawBall("axial");
+    const original = await points();
+    await viewer.page.keyboard.press("r");
+    const bulge = circle(radius, 36).slice(-4).concat(circle(radius, 36).slice(1, 5)); // 40 degrees on both sides of the right end
+    const end = bulge.length - 1;
+    await viewer.drag("axial", bulge.map(([x, y], i): [number, number] => [x * (1 + 0.3 * Math.sin((Math.PI * i) / end)), y]));
+    await viewer.waitForStep("undo", "Redraw a part");
+    await viewer.surfaceShown();
+    const redrawn = await points();
+    near(most(redrawn, 0), 1.3 * BALL_RADIUS_MM, 2, "the new part's end");
+    near(most(redrawn, 1), most(original, 1), 0.2, "the rest");
+    await viewer.page.keyboard.press("Control+z");
+    await viewer.waitForStep("redo", "Redraw a part");
+    assert.deepEqual(await points(), original);
+  });
+
+  test("a stretch is pulled, and the rest stays", async () => {
+    const radius = await drawBall("axial");
+    const pull = await viewer.pixels("axial", 8);
+    await viewer.drag("axial", [[radius, 0], [radius + pull / 2, 0], [radius + pull, 0]]);
+    await viewer.waitForStep("undo", "Bend a contour");
+    await viewer.surfaceShown();
+    const pulled = await points();
+    near(most(pulled, 0), BALL_RADIUS_MM + 8, 2, "the pulled end");
+    near(most(pulled, 1), BALL_RADIUS_MM, 2, "the rest");
+  });
+
+  test("a contour is moved within its plane", async () => {
+    const radius = await drawBall("axial");
+    const by = await viewer.pixels("axial", 10);
+    await viewer.page.keyboard.press("m");
+    await viewer.drag("axial", [[0, radius], [by / 2, radius], [by, radius]]);
+    await viewer.waitForStep("undo", "Move a contour");
+    const moved = await points();
+    near(most(moved, 0), BALL_RADIUS_MM + 10, 2, "the moved end");
+    near(most(moved, 1), BALL_RADIUS_MM, 2, "across");
+  });
+
+  test("points of a spline are inserted, dragged and deleted", async () => {
+    const { page } = viewer;
+    const radius = await viewer.pixels("coronal", BALL_RADIUS_MM);
+    await page.keyboard.press("s");
+    for (const place of circle(radius, 6).slice(0, 6)) await viewer.click("coronal", ...place);
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(1);
+    await page.keyboard.press("v");
+    const waitForPoints = (count: number) =>
+      page.waitForFunction((wanted) => Number.parseInt(document.querySelector(".contour-points")!.textContent!.replace(/\D+/, ""), 10) === wanted, count);
+    await waitForPoints(6);
+    const [x, y] = circle(radius, 12)[1]!; // between two of the points
+    await page.keyboard.down("Control");
+    await viewer.click("coronal", x, y);
+    await page.keyboard.up("Control");
+    await viewer.waitForStep("undo", "Insert a point");
+    await waitForPoints(7);
+    await viewer.drag("coronal", [[x, y], [x + 6, y - 3], [x + 12, y - 6]]);
+    await viewer.waitForStep("undo", "Move a point");
+    await page.keyboard.press("Delete");
+    await viewer.waitForStep("undo", "Delete a point");
+    await waitForPoints(6);
+  });
+
+  test("where two contradict each other a ring stands, and a click on its row goes there", async () => {
+    await drawBall("axial");
+    await drawBall("coronal", 1.3 * BALL_RADIUS_MM, 2);
+    const row = viewer.page.locator("[data-test=conflict]").first();
+    await row.waitFor();
+    assert.match((await row.textContent())!, /disagree by \d/);
+    await viewer.page.mouse.move(...(await viewer.at("axial", 20, 20)));
+    await viewer.page.mouse.wheel(0, 600);
+    const gone = await viewer.slice("axial");
+    await row.click();
+    await viewer.page.waitForFunction((slice) => document.querySelector<HTMLElement>("[data-view=axial]")!.dataset["slice"] !== String(slice), gone);
+    await viewer.slicesShown();
+    for (const view of ["axial", "coronal"]) assert.ok((await viewer.countPixels(view, isOrange)) > 0, `a ring in the ${view} view`);
+    assert.ok((await viewer.countPixels("surface", (r, g, b) => r > 190 && g > 90 && g < 160 && b < 110)) > 0, "a mark in 3D");
+  });
+});
+
+describe("a contour that is being drawn", () => {
+  test("has points that undo and redo, comes back after Esc, and after the tab was closed", async () => {
+    const { page } = viewer;
+    const places = circle(await viewer.pixels("axial", BALL_RADIUS_MM), 8);
+    await page.keyboard.press("s");
+    for (const place of places.slice(0, 5)) await viewer.click("axial", ...place);
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForStep("redo", "Place a point");
+    await page.keyboard.press("Control+Shift+z");
+    await page.keyboard.press("Control+Shift+z");
+    await page.waitForSelector("[data-test=redo]:disabled");
+    await page.keyboard.press("Escape");
+    await viewer.waitForStep("undo", "Leave the contour");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForStep("undo", "Place a point");
+    await page.waitForTimeout(1000); // longer than the page waits before it saves where the user is
+    await page.reload();
+    await viewer.ready();
+    await viewer.waitForStep("undo", "Place a point");
+    for (const place of places.slice(5, 8)) await viewer.click("axial", ...place);
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(1);
+    await viewer.surfaceShown();
+    near(await viewer.volume(), BALL_ML, 0.35 * BALL_ML, "volume from one contour");
+  });
+});
+
+describe("views", () => {
+  test("a dragged line moves its plane, a dragged dot turns it, and the title's arrow brings it back", async () => {
+    const { page } = viewer;
+    const box = (await viewer.pane("axial").boundingBox())!;
+    const reach = 0.33 * Math.min(box.width, box.height);
+    const before = await viewer.slice("coronal");
+    await viewer.drag("axial", [[0.6 * reach, 0], [0.6 * reach, 15], [0.6 * reach, 30]]);
+    await page.waitForFunction((slice) => document.querySelector<HTMLElement>("[data-view=coronal]")!.dataset["slice"] !== String(slice), before);
+    assert.equal(await viewer.pane("coronal").getAttribute("data-turned"), "false");
+    const moved = 30; // the crosshair has gone down with the line
+    await viewer.drag("axial", [[reach, moved], [reach * Math.cos(0.2), moved + reach * Math.sin(0.2)], [reach * Math.cos(0.5), moved + reach * Math.sin(0.5)]]);
+    await page.waitForSelector("[data-view=coronal][data-turned=true]");
+    await viewer.slicesShown();
+    await viewer.pane("coronal").hover();
+    await viewer.pane("coronal").locator("[data-test=reset-coronal]").click();
+    await page.waitForSelector("[data-view=coronal][data-turned=false]");
+  });
+
+  test("zoom and shift one slice, or all that are linked", async () => {
+    const { page } = viewer;
+    const scales = () => Promise.all(["axial", "coronal", "oblique"].map(async (view) => Number(await viewer.pane(view).getAttribute("data-pixels-per-mm"))));
+    const start = await scales();
+    const zoom = async () => {
+      await page.mouse.move(...(await viewer.at("axial", 20, 10)));
+      await page.keyboard.down("Control");
+      await page.mouse.wheel(0, -200);
+      await page.keyboard.up("Control");
+      await viewer.slicesShown();
+    };
+    await zoom();
+    const alone = await scales();
+    assert.ok(alone[0]! > 1.3 * start[0]! && alone[1] === start[1]);
+    await page.keyboard.press("k");
+    await page.waitForSelector("[data-test=link][aria-pressed=true]");
+    await zoom();
+    const linked = await scales();
+    linked.forEach((scale, i) => near(scale / alone[i]!, linked[0]! / alone[0]!, 1e-6, "the same zoom"));
+    assert.ok(linked[2]! > 1.3 * alone[2]!);
+    await page.keyboard.press("Home");
+    await viewer.slicesShown();
+    assert.deepEqual(await scales(), start);
+  });
+});
+
+describe("files", () => {
+  test("a mask is traced into contours that give its surface again", async () => {
+    await drawBall("axial");
+    await drawBall("coronal", BALL_RADIUS_MM, 2);
+    await viewer.surfaceShown();
+    const drawn = await viewer.volume();
+    const mask = join(folder.path, "ball mask.nii.gz");
+    writeFileSync(mask, (await viewer.export("mask.nii.gz")).bytes);
+    await viewer.page.click("[data-test=import]");
+    await viewer.page.setInputFiles("[data-test=import-file]", mask);
+    await viewer.page.click("[data-test=import-mask]");
+    await viewer.page.waitForFunction(() => document.querySelectorAll(".structure").length === 2);
+    await viewer.page.waitForFunction(() => document.querySelectorAll(".contour-row").length > 15);
+    await viewer.surfaceShown();
+    near(await viewer.volume(), drawn, 0.03 * drawn, "volume");
+    await viewer.page.keyboard.press("Control+z");
+    await viewer.waitForContours(2);
+  });
+
+  test("an export is cancelled", async () => {
+    await drawBall("axial");
+    await viewer.surfaceShown();
+    const { page } = viewer;
+    await page.route("**/api/export/**", async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 3000));
+      await route.continue().catch(() => undefined); // it was cancelled meanwhile
+    });
+    await page.click("[data-test=export]");
+    await page.click('[data-test="export-mask.nrrd"]');
+    await page.click("[data-test=export-cancel]");
+    await page.waitForFunction(() => document.querySelector(".dialog-status")!.textContent === "Cancelled.");
+    await page.unroute("**/api/export/**");
+    await page.keyboard.press("Escape");
+    assert.equal((await viewer.export("mask.nrrd")).bytes.subarray(0, 4).toString(), "NRRD");
+  });
+});

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be opened: any grid, a DICOM folder, nothing at all.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import type { Browser } from "playwright-core";
+import { BALL_ML, BALL_RADIUS_MM, circle, launch, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
+
+const folder = temporaryFolder();
+let browser: Browser;
+
+before(async () => {
+  browser = await launch();
+});
+
+after(async () => {
+  await browser?.close();
+  folder.remove();
+});
+
+async function visit(words: string[], act: (viewer: Viewer) => Promise<void>): Promise<void> {
+  const server = await Server.start(folder.path, ...words);
+  try {
+    const viewer = await Viewer.open(browser, server.address);
+    await viewer.closeHint();
+    await act(viewer);
+    assert.deepEqual(viewer.complaints, []);
+    await viewer.page.close();
+  } finally {
+    await server.end();
+  }
+}
+
+describe("kontur open", () => {
+  test("shows a sheared, oblique image without bending it: drawn circles make the ball", async () => {
+    const image = join(folder.path, "sheared.nii");
+    writeBallImage(image, SHEARED);
+    await visit([image], async (viewer) => {
+      await viewer.page.keyboard.press("f");
+      let contours = 0;
+      for (const view of ["axial", "coronal", "oblique"]) {
+        await viewer.drag(view, circle(await viewer.pixels(view, BALL_RADIUS_MM), 40));
+        await viewer.waitForContours(++contours);
+      }
+      await viewer.surfaceShown();
+      const volume = await viewer.volume();
+      assert.ok(Math.abs(volume / BALL_ML - 1) < 0.06, `${volume} ml; the ball has ${BALL_ML.toFixed(0)} ml`);
+      // The outline lies where the image changes: live-wire clicks beside the border find it on the sheared slice, too.
+      await viewer.page.keyboard.press("l");
+      const beside = (await viewer.pixels("sagittal", BALL_RADIUS_MM)) + 2;
+      for (const place of circle(beside, 6).slice(0, 6)) await viewer.click("sagittal", ...place);
+      await viewer.page.keyboard.press("Enter");
+      await viewer.waitForContours(4);
+      await viewer.surfaceShown();
+      assert.ok(Math.abs((await viewer.volume()) / BALL_ML - 1) < 0.06);
+    });
+  });
+
+  test("opens a folder of DICOM files, tilted as a gantry is", async (t) => {
+    const python = process.env["KONTUR_TEST_PYTHON"], script = process.env["KONTUR_DICOM_SERIES"];
+    if (!python || !script) return t.skip("no script that writes DICOM files");
+    const { status, stderr } = spawnSync(python, [script, "tilt", join(folder.path, "series")], { encoding: "utf8" });
+    assert.equal(status, 0, stderr);
+    await visit([join(folder.path, "series", "dicom")], async (viewer) => {
+      assert.equal(await viewer.page.locator(".file-title").textContent(), "dicom");
+      const { page } = viewer;
+      await page.mouse.move(...(await viewer.at("axial", 4, 4)));
+      await page.waitForFunction(() => /HU$/.test(document.querySelector("[data-test=cursor]")!.textContent ?? ""));
+      await page.keyboard.press("f");
+      await viewer.drag("axial", circle(await viewer.pixels("axial", 2.5), 24));
+      await viewer.waitForContours(1);
+      await viewer.surfaceShown();
+      assert.equal((await viewer.export("mask.nii.gz")).bytes.readUInt16BE(0), 0x1f8b);
+    });
+  });
+
+  test("opens the phantom when nothing is named", async () => {
+    await visit([], async (viewer) => {
+      assert.match((await viewer.page.locator(".file-title").textContent())!, /^Phantom/);
+      await viewer.page.keyboard.press("f");
+      await viewer.drag("axial", circle(await viewer.pixels("axial", 30), 24));
+      await viewer.waitForContours(1);
+      await viewer.surfaceShown();
+    });
+  });
+});

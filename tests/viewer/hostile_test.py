@@ -13,6 +13,9 @@ import pytest
 from support import Page, running
 
 
+FUZZ = int(os.environ.get("KONTUR_FUZZ_ROUNDS", "300"))  # random paths, and as many messages: 100000 for people
+
+
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
     with running(tmp_path_factory.mktemp("hostile")) as one:
@@ -174,21 +177,24 @@ def test_text_that_is_no_utf8_closes_the_socket(server):
 
 
 def test_random_paths_lead_nowhere(server):
-    choose = random.Random(7)
+    choose = random.Random(FUZZ)
     parts = ["..", "%2e%2e", "%2f", "/", "//", "api", "mesh", "export", "import", "etc", "passwd", "%00", "~", "\\", "index.html", "?", "&", "=", ".", "assets", "😀", "%e2"]
-    for _ in range(300):
-        target = "/" + "".join(choose.choice(parts) for _ in range(choose.randrange(1, 9)))
+    for number in range(FUZZ):
+        if number % 3:
+            target = "/" + "".join(choose.choice(parts) for _ in range(choose.randrange(1, 9)))
+        else:  # any bytes that can stand in a request's first line
+            target = "/" + "".join(chr(choose.randrange(33, 127)) for _ in range(choose.randrange(1, 40)))
         status = raw(server, head(server, target=target))
         assert status in (200, 400, 404, 415) and (status != 200 or "index.html" in target or set(target.split("?")[0]) <= {"/"}), target
 
 
 def test_fuzzed_messages_change_nothing_that_was_not_asked_for(server):
-    choose = random.Random(11)
+    choose = random.Random(FUZZ + 1)
     page = server.page()
     calls = ["path", "contour.add", "contour.move_point", "contour.pull", "contour.redraw", "contour.copy", "contour.set", "structure.set", "value", "draft.drop"]
     values = [None, -1, 0, 1, 1e308, "x", "", [], {}, [0, 0, 0], [[0, 0, 0]] * 3, True, SLICE["plane"], [{"at": [0, 0, 0], "kind": "wire"}] * 2]
     names = ["id", "plane", "control", "at", "to", "from", "by", "path", "index", "structure", "closed", "offset_mm", "radius_mm", "draft"]
-    for _ in range(400):
+    for _ in range(FUZZ):
         reply = page.ask(choose.choice(calls), **{choose.choice(names): choose.choice(values) for _ in range(6)})
         assert "result" in reply or reply["error"]["kind"] in ("invalid_input", "too_large")
 
@@ -232,3 +238,43 @@ def test_a_page_that_reads_nothing_is_cut_off_and_costs_the_others_nothing(serve
         page.do("structure.set", id=1, name=f"{name}{number}")
     assert page.structures[1]["name"].endswith("199")
     deaf.close()
+
+
+def resident_mib(server, what="VmRSS"):
+    with open(f"/proc/{server.process.pid}/status") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(what))
+
+
+def test_floods_cost_no_memory(server):
+    """Requests that nobody reads the replies of, a page that calls and does not listen, connections that come and go."""
+    before = resident_mib(server)
+    body = json.dumps({**SLICE, "width": 512, "height": 512}).encode()
+    one = head(server, "POST", "/api/slice", origin=f"http://{server.host}", extra=f"Content-Length: {len(body)}\r\n") + body
+    deaf = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(4)]
+    for connection in deaf:
+        connection.settimeout(0.5)
+        try:
+            connection.sendall(one * 2000)
+        except TimeoutError:
+            pass  # the server does not take more than it answers
+    page = server.page()
+    page.socket.settimeout(0.5)
+    try:
+        for _ in range(20_000):
+            page.send_frame(json.dumps({"seq": 1, "call": "path", "plane": SLICE["plane"], "control": [{"at": [0, 0, 0], "kind": "line"}] * 50}).encode())
+    except TimeoutError:
+        pass
+    for connection in (*deaf, page.socket):
+        connection.close()
+    for _ in range(1000):
+        socket.create_connection(("127.0.0.1", server.port), timeout=15).close()
+    assert server.page().do("ping") == {}
+    assert resident_mib(server) < before + 150
+
+
+def test_an_idle_server_is_small(tmp_path):
+    with running(tmp_path) as one:  # the phantom, which is 60 MiB of it
+        page = one.page()
+        page.do("ping")
+        print(f"\nidle with the phantom: {resident_mib(one):.0f} MiB")
+        assert resident_mib(one) < 400

@@ -31,5 +31,5 @@ await build({
   sourcemap: "inline",
 });
 const outputs = files.map((name) => join(output, name.replace(/\.ts$/, ".mjs")));
-const run = what === "bench" ? [join(output, "bench.mjs"), ...rest] : ["--test", ...outputs];
+const run = what === "bench" ? [join(output, `${rest[0] ?? "bench"}.mjs`)] : ["--test", ...outputs];
 process.exit(spawnSync(process.execPath, ["--enable-source-maps", ...run], { stdio: "inherit" }).status ?? 1);

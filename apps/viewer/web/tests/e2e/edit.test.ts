@@ -166,6 +166,7 @@ describe("a contour that is being drawn", () => {
 describe("views", () => {
   test("a dragged line moves its plane, a dragged dot turns it, and the title's arrow brings it back", async () => {
     const { page } = viewer;
+    await page.keyboard.press("v");
     const box = (await viewer.pane("axial").boundingBox())!;
     const reach = 0.33 * Math.min(box.width, box.height);
     const before = await viewer.slice("coronal");

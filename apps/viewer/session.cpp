@@ -298,7 +298,7 @@ json Session::put(const std::string& label, DrawnContour contour, const Members&
         follow(contour.structure);
     } else {
         if (contour.id == 0) contour.id = project_.new_id();
-        commit(one_contour(label, project_.state(), contour));
+        commit_ahead(one_contour(label, project_.state(), contour));
     }
     return {{"contour", to_json(contour)}};
 }
@@ -472,10 +472,36 @@ std::vector<Id> Session::add_structures(const std::string& label, const std::vec
 }
 
 void Session::commit(const Commit& commit) {
-    clear_draft();
-    if (commit.is_empty()) return;
-    project_.commit(commit);
-    announce(commit);
+    std::set<Id> touched = touched_surfaces(commit);
+    if (draft_) touched.insert(draft_->structure);
+    draft_.reset();
+    try {
+        if (!commit.is_empty()) project_.commit(commit);
+    } catch (...) {
+        for (const Id id : touched) follow(id);
+        throw;
+    }
+    if (!commit.is_empty()) tell_changes(commit);
+    for (const Id id : touched) follow(id);
+}
+
+void Session::commit_ahead(const Commit& step) {
+    const DrawnContour& contour = *step.contours.front().after;
+    const bool stays = !step.contours.front().before || step.contours.front().before->structure == contour.structure;
+    const bool is_other_draft = draft_ && (draft_->id != contour.id || draft_->structure != contour.structure);
+    if (!stays || is_other_draft) return commit(step);
+    // What the hand released is most often what it showed last, and then its surface is here already, or on its way.
+    const bool is_followed = draft_ ? same_surface(*draft_, contour) : touched_surfaces(step).empty();
+    draft_ = contour;
+    if (!is_followed) follow(contour.structure);
+    try {
+        project_.commit(step);
+    } catch (...) {
+        clear_draft();
+        throw;
+    }
+    draft_.reset();
+    tell_changes(step);
 }
 
 void Session::tell_changes(const Commit& commit) {
@@ -511,9 +537,9 @@ SurfaceTask Session::surface_task(Id structure) const {
         task.set.contours.push_back({contour.plane, contour.points, true, contour.hole});
         task.ids.push_back(contour.id);
     };
-    for (const auto& [id, contour] : state.contours)
-        if (!draft_ || draft_->id != id) add(*contour);
-    if (draft_) add(*draft_);
+    // The draft in its contour's place: what is shown of it is then what will be, to the last bit.
+    for (const auto& [id, contour] : state.contours) add(draft_ && draft_->id == id ? *draft_ : *contour);
+    if (draft_ && !state.contours.contains(draft_->id)) add(*draft_);
     if (const auto found = state.structures.find(structure); found != state.structures.end())
         task.set.name = found->second.name;
     return task;

@@ -108,6 +108,8 @@ private:
     nlohmann::json put(const std::string& label, DrawnContour contour, const Members& m);
     nlohmann::json moved(const std::optional<Commit>& step);
     void commit(const Commit& commit);
+    /// The same for a step that makes or changes one contour: its surface is computed while the disk is written.
+    void commit_ahead(const Commit& step);
     void tell_changes(const Commit& commit);
     void announce(const Commit& commit);
     static std::set<Id> touched_surfaces(const Commit& commit);

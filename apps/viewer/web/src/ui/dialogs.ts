@@ -114,7 +114,7 @@ export function openImport(services: ImportServices): void {
   const dialog = openDialog(
     "Import",
     "import-dialog",
-    el("p", {}, "Contours (kontur or 3D Slicer JSON, RTSTRUCT) become a new structure. A mask (NIfTI, NRRD, MetaImage) is traced into contours. You can also drop a file onto the page."),
+    el("p", {}, "Contours (kontur or 3D Slicer JSON) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage) is traced into contours. You can also drop a file onto the page."),
     input,
   );
   input.onchange = () => {

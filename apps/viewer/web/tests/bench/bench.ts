@@ -90,6 +90,7 @@ async function measureEdits(viewer: Viewer): Promise<void> {
     await page.mouse.move(grip[0] + 4, grip[1]);
     moves.push(await editWaits(page, false));
     await watchEdit(page, "pointerup");
+    await page.mouse.move(grip[0] + 6, grip[1]); // a hand moves until it lets go
     await page.mouse.up();
     releases.push(await editWaits(page, true));
     await page.keyboard.press("Control+z");

@@ -100,8 +100,8 @@ public:
         const double tolerance = matrix_tolerance(precondition(target_), limit_);
         times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, progress); });
         polynomials_.project_out(weights_);
-        if (!system.start.empty()) image_.values = times_("products", [&] { return (*operator_)(weights_); });
         update_residual();
+        if (!system.start.empty()) start_from_weights();
     }
 
     /// The recurrence's residual drifts from the true one, and H2 products are not exact: at the end the residual is
@@ -141,6 +141,17 @@ public:
     }
 
 private:
+    /// Unless they are worse than none: weights that lost what balanced them leave residuals of kilometres.
+    void start_from_weights() {
+        const double without = residual_;
+        image_.values = times_("products", [&] { return (*operator_)(weights_); });
+        update_residual();
+        if (residual_ < without) return;
+        weights_.assign(weights_.size(), 0.0);
+        image_.values.assign(weights_.size(), 0.0);
+        update_residual();
+    }
+
     Vector precondition(const Vector& r) {
         Vector z(r.size());
         times_("preconditioning", [&] { preconditioner_.apply(r, z); });

@@ -43,9 +43,9 @@ private:
 /// needs it and kept. A value depends on its point only, not on what else was asked.
 class FarField final : public PointEvaluator {
 public:
-    /// The radius in lattice spacings. Interpolation of what the split leaves errs by about 3e-3 of f's unevenness at 4, by
+    /// The radius in lattice spacings. Interpolation of what the split leaves errs by about 1e-3 of f's unevenness at 5, by
     /// a third of it with each more.
-    static constexpr double kRadius = 4;
+    static constexpr double kRadius = 5;
     FarField(const ImplicitFunction& function, double spacing, std::unique_ptr<PointEvaluator> nodes, int threads);
 
     /// Coordinates of points must be smaller.

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-
 #include "fuzz/scratch_folder.h"
 #include "kontur/base/error.h"
 #include "kontur/csv.h"

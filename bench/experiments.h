@@ -25,4 +25,8 @@ Json reduction(const PhantomCase& phantom, int repeat);
 /// From contours to mask by stage, and peak memory, for kontur's pipeline and the paper's.
 Json end_to_end(const PhantomCase& phantom, int repeat);
 
+/// From an edit of one contour to the preview's surface at 2 mm, while that contour is dragged to and fro; and how far the
+/// previews are from the refined surfaces.
+Json editing(const PhantomCase& phantom, int repeat);
+
 }  // namespace kontur::bench

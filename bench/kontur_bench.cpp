@@ -27,6 +27,7 @@ struct Experiment {
     bool by_hand;  ///< also on the cases drawn by hand
 };
 constexpr Experiment kExperiments[] = {{"end_to_end", end_to_end, true},
+                                       {"editing", editing, true},
                                        {"solving", solving, false},
                                        {"voxelizing", voxelizing, true},
                                        {"reduction", reduction, true}};

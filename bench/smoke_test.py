@@ -44,7 +44,7 @@ def test_tracking_finds_what_evaluating_every_voxel_finds(results):
 
 def test_iterative_and_adaptive_come_close_to_the_exact_mask(results):
     shares = [row["jaccard_exact"] for row in results["end_to_end"] if "jaccard_exact" in row]
-    assert len(shares) == 2 and min(shares) > 0.999
+    assert len(shares) == 3 and min(shares) > 0.999
 
 
 def test_pipelines_come_close_to_the_truth(results):

@@ -156,6 +156,21 @@ def end_to_end(results):
     return table(header, rows)
 
 
+def editing(results):
+    rows = [
+        [
+            case_name(row["case"]), row["edits"], seconds(row["median_s"]), seconds(row["rank_90_s"]), seconds(row["cpu_s"]),
+            percent(row["within_half_mm"]), f"{row['largest_mm']:.2f}",
+        ]
+        for row in results["editing"]
+    ]
+    header = [
+        "case", "edits", "median, s", "nine of ten within, s", "CPU s", "within 0.5 mm of the refined surface, %",
+        "largest distance, mm",
+    ]
+    return table(header, rows)
+
+
 def stages(results):
     rows = []
     for row in (row for row in results["end_to_end"] if row["pipeline"] == "default"):

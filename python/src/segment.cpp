@@ -22,7 +22,7 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
         .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
         .field("tolerance_mm", &SegmentOptions::tolerance_mm,
-               "Of the iterative solver, at all constraints; None: 3e-6 of the contours' box diagonal.")
+               "Of the iterative solver, at all constraints; None: 1e-5 of the contours' box diagonal.")
         .field("voxelizer", &SegmentOptions::voxelizer,
                "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
                "all voxels.")

@@ -32,7 +32,7 @@ def test_the_stages_make_what_segment_makes(case, kidney):
                                 offset_mm=kidney.report.normal_offset_mm)
     fitted = kontur.fit(prepared, normal_offset_mm=kidney.report.normal_offset_mm,
                         merge_distance_mm=4e-4 * diagonal, smoothing=kidney.report.smoothing,
-                        tolerance_mm=3e-6 * diagonal)
+                        tolerance_mm=1e-5 * diagonal)
     starts = numpy.concatenate([prepared.positions] + [contour.points for contour in case.contours.contours])
     surface = kontur.track_surface_adaptively(fitted.function, case.grid, starts)
     assert numpy.array_equal(kontur.fill(surface).values, kidney.mask.values)

@@ -14,7 +14,7 @@ namespace {
 // structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
 constexpr double kOffsetFraction = 3e-3;
 constexpr double kMergeFraction = 4e-4;
-constexpr double kToleranceFraction = 3e-6;  // 0.001 mm on a liver
+constexpr double kToleranceFraction = 1e-5;  // 0.004 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
 
 FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
@@ -35,8 +35,10 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
 
 /// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
 PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
-    PrepareOptions prepare{
-        .quality = options.quality, .fill_rule = options.fill_rule, .click_margin_mm = fitting.place.normal_offset_mm};
+    PrepareOptions prepare{.quality = options.quality,
+                           .fill_rule = options.fill_rule,
+                           .click_margin_mm = fitting.place.normal_offset_mm,
+                           .threads = options.threads};
     if (options.normals == Normals::in_plane) {
         prepare.least_segments = 0;
         prepare.caps = false;

@@ -32,7 +32,7 @@ struct SegmentOptions {
     FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
     double quality = 1.0;                        ///< fraction of each contour's points that the fit uses, in (0, 1]
     Solver solver = Solver::automatic;
-    std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 3e-6 of the box diagonal
+    std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 1e-5 of the box diagonal
     Voxelizer voxelizer = Voxelizer::adaptive;
     bool mesh = false;  ///< also make the surface
     int threads = 0;    ///< 0: the machine's

@@ -2,8 +2,12 @@
 #include "kontur/base/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace kontur {
@@ -28,6 +32,35 @@ TEST(ParallelFor, RethrowsABodysException) {
     };
     EXPECT_THROW(run(1), std::runtime_error);
     EXPECT_THROW(run(4), std::runtime_error);
+}
+
+std::int64_t sum_in_parallel(std::int64_t count) {
+    std::atomic<std::int64_t> sum = 0;
+    parallel_for(count, 1, 4, [&](std::int64_t begin, std::int64_t) { sum += begin; });
+    return sum;
+}
+
+TEST(ParallelFor, NestsAndServesSeveralThreadsAtOnce) {
+    std::atomic<int> right = 0;
+    const auto nest = [&] {
+        for (int repeat = 0; repeat < 50; ++repeat)
+            parallel_for(8, 1, 4, [&](std::int64_t, std::int64_t) { right += sum_in_parallel(20) == 190; });
+    };
+    {
+        std::jthread other(nest), another(nest);
+        nest();
+    }
+    EXPECT_EQ(right, 3 * 50 * 8);
+}
+
+TEST(ParallelFor, WorksInAForkedChild) {
+    EXPECT_EQ(sum_in_parallel(100), 4950);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) _exit(sum_in_parallel(100) == 4950 ? 0 : 1);
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "../apps/kontur/csv.h"
 #include "fuzz/scratch_folder.h"
 #include "kontur/base/error.h"
+#include "kontur/csv.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/image.h"

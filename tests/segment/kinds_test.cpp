@@ -255,7 +255,7 @@ TEST(Kinds, TinyAndHugeContoursSpikesAndRepeatedPoints) {
     std::vector<Vec3>& points = dirty.contours[1].points;
     points.insert(points.begin() + 20, {points[19] + Vec3{9, 9, 0}, points[19], points[19]});
     const Segmentation cleaned = segment(dirty, grid_over(ball, 2));
-    EXPECT_TRUE(cleaned.mask.values == segment(plain, grid_over(ball, 2)).mask.values);
+    EXPECT_GT(test::dice(cleaned.mask.values, segment(plain, grid_over(ball, 2)).mask.values), 0.999);
     EXPECT_TRUE(warns(cleaned.report, "repeated points") && warns(cleaned.report, "spikes"));
 
     ContourSet tiny;

@@ -6,7 +6,8 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <vector>
+
+#include "kontur/base/workers.h"
 
 namespace kontur {
 
@@ -36,13 +37,7 @@ void parallel_for(std::int64_t count, std::int64_t chunk, int threads,
         }
     };
 
-    const std::int64_t helpers = std::min<std::int64_t>(thread_count(threads), chunks) - 1;
-    {
-        std::vector<std::jthread> pool;
-        pool.reserve(static_cast<std::size_t>(helpers));
-        for (std::int64_t t = 0; t < helpers; ++t) pool.emplace_back(work);
-        work();
-    }
+    Workers::instance().run(static_cast<int>(std::min<std::int64_t>(thread_count(threads), chunks)) - 1, work);
     if (failure) std::rethrow_exception(failure);
 }
 

@@ -94,6 +94,7 @@ public:
           progress_(progress),
           fast_(function),
           coarse_(grid, strides(grid)),
+          cubics_(coarse_),
           fine_(grid) {
         const Vec3 spacing = grid.spacing_mm();
         for (int axis = 0; axis < 3; ++axis)
@@ -140,22 +141,17 @@ private:
     }
 
     void interpolate_band() {
-        constexpr std::size_t batch = 1024;
-        std::vector<std::vector<double>> values(batch);
-        for (std::size_t first = 0; first < band_.size(); first += batch) {
-            const std::size_t count = std::min(batch, band_.size() - first);
-            parallel_for(static_cast<std::int64_t>(count), 32, threads_, [&](std::int64_t begin, std::int64_t end) {
-                for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c)
-                    values[c] = interpolate_cell(coarse_, band_[first + c].cell);
+        for (const BandCell& band : band_) fine_.reserve(lowest(band.cell), highest(band.cell));
+        for_each_cell([&](const BandCell& band) {
+            thread_local std::vector<double> values;
+            cubics_.interpolate(band.cell, values);
+            const Index3& s = coarse_.stride();
+            for_each_point(band.cell, [&](const Index3& p) {
+                const Index3 at{p.i - band.cell.i * s.i, p.j - band.cell.j * s.j, p.k - band.cell.k * s.k};
+                // Points between cells are set by several, but to the same value.
+                fine_.set_reserved(p, values[static_cast<std::size_t>(at.i + (s.i + 1) * (at.j + (s.j + 1) * at.k))]);
             });
-            for (std::size_t c = 0; c < count; ++c) {
-                std::size_t next = 0;
-                for_each_point(band_[first + c].cell, [&](const Index3& p, bool is_inner) {
-                    const double value = values[c][next++];
-                    if (is_inner && std::isnan(fine_.value(p))) fine_.set_value(p, value);
-                });
-            }
-        }
+        });
     }
 
     void doubt_near_centres() {
@@ -178,7 +174,7 @@ private:
             for (int axis = 0; axis < 3; ++axis)
                 fraction[axis] = index[axis] / static_cast<double>(coarse_.stride()[axis]) - static_cast<double>(cell[axis]);
             BandCell& band = band_[found->second];
-            band.error_mm = std::max(band.error_mm, std::abs(interpolate_in_cell(coarse_, cell, fraction)));
+            band.error_mm = std::max(band.error_mm, std::abs(cubics_.interpolate_at(cell, fraction)));
         }
         spread_errors();
     }
@@ -198,18 +194,23 @@ private:
 
     /// Computes the values in doubt that have not been; true if there were any.
     bool resolve_doubts() {
+        std::vector<std::vector<Index3>> found(band_.size());
+        for_each_cell([&](BandCell& band) {
+            if (band.doubt_mm <= band.resolved_mm) return;
+            band.resolved_mm = band.doubt_mm;
+            std::vector<Index3>& in_doubt = found[static_cast<std::size_t>(&band - band_.data())];
+            for_each_point(band.cell, [&](const Index3& p) {
+                if (!is_node(p) && std::abs(fine_.value(p)) < band.doubt_mm) in_doubt.push_back(p);
+            });
+        });
         std::vector<Index3> points;
         std::vector<std::size_t> cells;
-        for (std::size_t b = 0; b < band_.size(); ++b) {
-            if (band_[b].doubt_mm <= band_[b].resolved_mm) continue;
-            band_[b].resolved_mm = band_[b].doubt_mm;
-            for_each_point(band_[b].cell, [&](const Index3& p, bool is_inner) {
-                if (!is_inner || is_node(p) || !(std::abs(fine_.value(p)) < band_[b].doubt_mm) || !fine_.mark_point(p))
-                    return;
+        for (std::size_t b = 0; b < band_.size(); ++b)
+            for (const Index3& p : found[b]) {
+                if (!fine_.mark_point(p)) continue;
                 points.push_back(p);
                 cells.push_back(b);
-            });
-        }
+            }
         std::vector<Vec3> positions;
         positions.reserve(points.size());
         for (const Index3& p : points) positions.push_back(grid_.center_mm(p.i, p.j, p.k));
@@ -245,14 +246,35 @@ private:
         return p.i % coarse_.stride().i == 0 && p.j % coarse_.stride().j == 0 && p.k % coarse_.stride().k == 0;
     }
 
-    /// Calls visit(point, whether it is in the grid) for the points of a coarse cell and its faces, i fastest.
+    /// Calls visit(band cell) for all, in parallel.
+    template <typename Visit>
+    void for_each_cell(const Visit& visit) {
+        parallel_for(static_cast<std::int64_t>(band_.size()), 32, threads_, [&](std::int64_t begin, std::int64_t end) {
+            progress_.check();
+            for (; begin < end; ++begin) visit(band_[static_cast<std::size_t>(begin)]);
+        });
+    }
+
+    /// The points of the grid in a coarse cell and on its faces.
+    Index3 lowest(const Index3& cell) const {
+        Index3 low;
+        for (int axis = 0; axis < 3; ++axis) low[axis] = std::max<std::int64_t>(cell[axis] * coarse_.stride()[axis], 0);
+        return low;
+    }
+    Index3 highest(const Index3& cell) const {
+        Index3 high;
+        for (int axis = 0; axis < 3; ++axis)
+            high[axis] = std::min((cell[axis] + 1) * coarse_.stride()[axis], grid_.size[axis] - 1);
+        return high;
+    }
+
+    /// Calls visit(point) for them, i fastest.
     template <typename Visit>
     void for_each_point(const Index3& cell, const Visit& visit) const {
-        const Index3& s = coarse_.stride();
-        for (std::int64_t k = cell.k * s.k; k <= (cell.k + 1) * s.k; ++k)
-            for (std::int64_t j = cell.j * s.j; j <= (cell.j + 1) * s.j; ++j)
-                for (std::int64_t i = cell.i * s.i; i <= (cell.i + 1) * s.i; ++i)
-                    visit(Index3{i, j, k}, fine_.in_grid({i, j, k}));
+        const Index3 low = lowest(cell), high = highest(cell);
+        for (std::int64_t k = low.k; k <= high.k; ++k)
+            for (std::int64_t j = low.j; j <= high.j; ++j)
+                for (std::int64_t i = low.i; i <= high.i; ++i) visit(Index3{i, j, k});
     }
 
     /// Calls visit(band cell) for a coarse cell and the 26 around it, as far as they are in the band.
@@ -273,6 +295,7 @@ private:
     const Progress& progress_;
     FastFunction& fast_;
     CoarseLattice coarse_;
+    CubicCells cubics_;
     Lattice fine_;
     double coarse_spacing_mm_ = 0;
     std::vector<BandCell> band_;

@@ -16,6 +16,12 @@ Lattice::Block& Lattice::block(const Index3& p) {
     return *slot;
 }
 
+void Lattice::reserve(const Index3& low, const Index3& high) {
+    for (std::int64_t k = low.k >> 3; k <= high.k >> 3; ++k)
+        for (std::int64_t j = low.j >> 3; j <= high.j >> 3; ++j)
+            for (std::int64_t i = low.i >> 3; i <= high.i >> 3; ++i) block({8 * i, 8 * j, 8 * k});
+}
+
 bool Lattice::mark_cell(const Index3& c) {
     const Index3 shifted{c.i + 1, c.j + 1, c.k + 1};
     auto bit = block(shifted).marked_cells[within(shifted)];
@@ -26,6 +32,13 @@ bool Lattice::mark_cell(const Index3& c) {
 
 std::array<double, 8> Lattice::corners(const Index3& c) const {
     std::array<double, 8> result;
+    const Index3 last = corner(c, 7);
+    if (in_grid(c) && in_grid(last) && block_of(c) == block_of(last)) {
+        const Block* block = blocks_[block_of(c)].get();
+        if (!block) return {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+        const double* v = block->values.data() + within(c);
+        return {v[0], v[1], v[8], v[9], v[64], v[65], v[72], v[73]};
+    }
     for (int n = 0; n < 8; ++n) result[static_cast<std::size_t>(n)] = value(corner(c, n));
     return result;
 }

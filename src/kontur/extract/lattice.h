@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <bitset>
 #include <limits>
 #include <memory>
@@ -38,6 +39,14 @@ public:
         return block ? block->values[within(p)] : kUnknown;
     }
     void set_value(const Index3& p, double value) { block(p).values[within(p)] = value; }
+
+    /// Makes room for the values at the points from `low` to `high`, for set_reserved.
+    void reserve(const Index3& low, const Index3& high);
+
+    /// set_value for several threads at a time; if more than one sets the same point, then to the same value.
+    void set_reserved(const Index3& p, double value) {
+        std::atomic_ref(blocks_[block_of(p)]->values[within(p)]).store(value, std::memory_order_relaxed);
+    }
 
     /// Marks a cell; true if it was not marked before.
     bool mark_cell(const Index3& c);

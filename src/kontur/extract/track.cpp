@@ -2,6 +2,7 @@
 #include "kontur/extract/track.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "kontur/extract/tracker.h"
 
@@ -21,26 +22,53 @@ struct Face {
 constexpr Face kFaces[6] = {{0b01010101u, {-1, 0, 0}}, {0b10101010u, {1, 0, 0}},  {0b00110011u, {0, -1, 0}},
                             {0b11001100u, {0, 1, 0}},  {0b00001111u, {0, 0, -1}}, {0b11110000u, {0, 0, 1}}};
 
+/// Layer by layer: counted first, then sorted within.
+void sort_in_memory_order(std::vector<Index3>& cells, std::int64_t layers) {
+    std::vector<std::size_t> starts(static_cast<std::size_t>(layers) + 2, 0);  // the lowest layer of cells is -1
+    for (const Index3& c : cells) ++starts[static_cast<std::size_t>(c.k + 2)];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<Index3> sorted(cells.size());
+    std::vector<std::size_t> next(starts);
+    for (const Index3& c : cells) sorted[next[static_cast<std::size_t>(c.k + 1)]++] = c;
+    for (std::size_t layer = 0; layer + 1 < starts.size(); ++layer)
+        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(starts[layer]),
+                  sorted.begin() + static_cast<std::ptrdiff_t>(starts[layer + 1]),
+                  [](const Index3& a, const Index3& b) { return a.j != b.j ? a.j < b.j : a.i < b.i; });
+    cells = std::move(sorted);
+}
+
 class Tracker {
 public:
     Tracker(Lattice known, const EvaluatePoints& evaluate) : evaluate_(evaluate), surface_{std::move(known), {}, 0} {}
 
+    struct MixedCell {
+        Index3 cell;
+        unsigned inside;  ///< corners, as bits
+    };
+
     /// Evaluates the cells' corners and returns the cells that the surface passes through.
-    std::vector<Index3> keep_mixed(std::vector<Index3> cells) {
-        evaluate_corners(cells);
-        std::erase_if(cells, [&](const Index3& c) {
-            const unsigned inside = inside_corners(surface_.lattice.corners(c));
-            return inside == 0 || inside == 0xffu;
-        });
-        return cells;
+    std::vector<MixedCell> keep_mixed(const std::vector<Index3>& cells) {
+        std::vector<MixedCell> mixed;
+        std::vector<Index3> incomplete;
+        const auto keep_if_mixed = [&](const Index3& c, const std::array<double, 8>& values) {
+            if (const unsigned inside = inside_corners(values); inside != 0 && inside != 0xffu) mixed.push_back({c, inside});
+        };
+        for (const Index3& c : cells) {
+            const std::array<double, 8> values = surface_.lattice.corners(c);
+            if (std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); })) incomplete.push_back(c);
+            else keep_if_mixed(c, values);
+        }
+        if (incomplete.empty()) return mixed;
+        evaluate_corners(incomplete);
+        for (const Index3& c : incomplete) keep_if_mixed(c, surface_.lattice.corners(c));
+        return mixed;
     }
 
     /// Adds mixed cells to the surface and returns the cells behind their mixed faces that nobody has seen.
-    std::vector<Index3> advance(const std::vector<Index3>& mixed) {
+    std::vector<Index3> advance(const std::vector<MixedCell>& mixed) {
         std::vector<Index3> next;
-        for (const Index3& c : mixed) {
+        for (const auto& [c, inside] : mixed) {
             surface_.cells.push_back(c);
-            const unsigned inside = inside_corners(surface_.lattice.corners(c));
             for (const Face& face : kFaces) {
                 if (!is_mixed(inside, face.corners)) continue;
                 const Index3 n{c.i + face.neighbour.i, c.j + face.neighbour.j, c.k + face.neighbour.k};
@@ -58,22 +86,21 @@ public:
     }
 
     SurfaceLattice finish() {
-        std::sort(surface_.cells.begin(), surface_.cells.end(), [](const Index3& a, const Index3& b) {
-            return a.k != b.k ? a.k < b.k : a.j != b.j ? a.j < b.j : a.i < b.i;
-        });
+        sort_in_memory_order(surface_.cells, surface_.lattice.grid().size.k);
         return std::move(surface_);
     }
 
 private:
     void evaluate_corners(const std::vector<Index3>& cells) {
         std::vector<Index3> wanted;
-        for (const Index3& c : cells)
+        for (const Index3& c : cells) {
+            const std::array<double, 8> values = surface_.lattice.corners(c);
             for (int n = 0; n < 8; ++n) {
-                const Index3 p = Lattice::corner(c, n);
-                if (!std::isnan(surface_.lattice.value(p))) continue;
-                surface_.lattice.set_value(p, kPending);
-                wanted.push_back(p);
+                if (!std::isnan(values[static_cast<std::size_t>(n)])) continue;
+                wanted.push_back(Lattice::corner(c, n));
+                surface_.lattice.set_value(wanted.back(), kPending);
             }
+        }
         std::vector<Vec3> points;
         points.reserve(wanted.size());
         for (const Index3& p : wanted) points.push_back(surface_.lattice.grid().center_mm(p.i, p.j, p.k));
@@ -126,7 +153,7 @@ SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std:
     Tracker tracker(std::move(known), evaluate);
     // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
     // contour they are cells that the walk visits anyway.
-    std::vector<Index3> front = tracker.keep_mixed(tracker.unseen(cells_around(grid, starts)));
+    auto front = tracker.keep_mixed(tracker.unseen(cells_around(grid, starts)));
     while (!front.empty()) {
         progress.check();
         front = tracker.keep_mixed(tracker.advance(front));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kontur/base/parallel.h"
 #include "kontur/field/section_probes.h"
 #include "kontur/shape/contour_nesting.h"
 
@@ -127,17 +128,21 @@ bool has_open_contour(const ContourSet& set, const Plane& plane, double toleranc
                        [&](const Contour& c) { return !c.closed && coincide(c.plane, plane, tolerance); });
 }
 
-void append_leak_probes(const Section& section, const Box3& box, double step, std::vector<Cap>& probes) {
+void append_leak_probes(const Section& section, const Box3& box, double step, int threads, std::vector<Cap>& probes) {
     const Point2 center = section.plane.to_uv(box.center());
     const int reach = static_cast<int>(std::ceil(box.diagonal() / 2 / step));
-    for (int j = -reach; j <= reach; ++j)
-        for (int i = -reach; i <= reach; ++i) {
-            const Point2 at{center[0] + i * step, center[1] + j * step};
-            const Vec3 position = section.plane.from_uv(at[0], at[1]);
-            if (!box.contains(position) || section.contains(at)) continue;
-            const double clear = section.clearance(at);
-            if (clear > step) probes.push_back({position, 0, -clear / 2});
-        }
+    std::vector<std::vector<Cap>> rows(static_cast<std::size_t>(2 * reach + 1));
+    parallel_for(2 * reach + 1, 4, threads, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin)
+            for (int i = -reach; i <= reach; ++i) {
+                const Point2 at{center[0] + i * step, center[1] + static_cast<double>(begin - reach) * step};
+                const Vec3 position = section.plane.from_uv(at[0], at[1]);
+                if (!box.contains(position) || section.contains(at)) continue;
+                const double clear = section.clearance(at);
+                if (clear > step) rows[static_cast<std::size_t>(begin)].push_back({position, 0, -clear / 2});
+            }
+    });
+    for (const std::vector<Cap>& row : rows) probes.insert(probes.end(), row.begin(), row.end());
 }
 
 }  // namespace
@@ -157,14 +162,14 @@ std::vector<Cap> find_caps(const ContourSet& set) {
     return caps;
 }
 
-std::vector<Cap> find_leak_probes(const ContourSet& set) {
+std::vector<Cap> find_leak_probes(const ContourSet& set, int threads) {
     std::vector<Cap> probes;
     const double diagonal = bounding_box(set).diagonal();
     const Box3 box = bounding_box(set).padded(diagonal / 3);
     const std::vector<Section> sections = sections_of(set, 1e-3 * diagonal);
     for (const Section& section : sections)
         if (!has_open_contour(set, section.plane, 1e-3 * diagonal) && !is_incomplete(section, sections, 0.05 * diagonal))
-            append_leak_probes(section, box, diagonal / 24, probes);
+            append_leak_probes(section, box, diagonal / 24, threads, probes);
     return probes;
 }
 

@@ -7,19 +7,20 @@
 namespace kontur {
 namespace {
 
-/// Accepts points that keep a distance from all those accepted before. Cells of the size of that distance, so that only
-/// 27 of them need a look.
+/// Accepts points that keep a distance from all those accepted before. Cells of several times that distance, so that most
+/// points need a look into their own only.
 class SpacingFilter {
 public:
-    explicit SpacingFilter(double distance) : distance_(distance), cell_(distance > 0 ? distance : 1.0) {}
+    explicit SpacingFilter(double distance) : distance_(distance), cell_(distance > 0 ? 8 * distance : 1.0) {}
 
     bool accept(const Vec3& p) {
-        const Index3 at{cell(p.x), cell(p.y), cell(p.z)};
-        for (std::int64_t k = at.k - 1; k <= at.k + 1; ++k)
-            for (std::int64_t j = at.j - 1; j <= at.j + 1; ++j)
-                for (std::int64_t i = at.i - 1; i <= at.i + 1; ++i)
+        const Vec3 reach{distance_, distance_, distance_};
+        const Index3 low = cell_at(p - reach), high = cell_at(p + reach);
+        for (std::int64_t k = low.k; k <= high.k; ++k)
+            for (std::int64_t j = low.j; j <= high.j; ++j)
+                for (std::int64_t i = low.i; i <= high.i; ++i)
                     if (repeats_one_of(cells_.find({i, j, k}), p)) return false;
-        cells_[at].push_back(p);
+        cells_[cell_at(p)].push_back(p);
         return true;
     }
 
@@ -34,7 +35,10 @@ private:
     };
     using Cells = std::unordered_map<Index3, std::vector<Vec3>, Hash>;
 
-    std::int64_t cell(double coordinate) const { return static_cast<std::int64_t>(std::floor(coordinate / cell_)); }
+    Index3 cell_at(const Vec3& p) const {
+        const auto along = [&](double v) { return static_cast<std::int64_t>(std::floor(v / cell_)); };
+        return {along(p.x), along(p.y), along(p.z)};
+    }
 
     bool repeats_one_of(Cells::const_iterator found, const Vec3& p) const {
         if (found == cells_.end()) return false;

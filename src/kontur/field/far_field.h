@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "kontur/base/progress.h"
@@ -75,6 +76,7 @@ private:
     SourceCells sources_;
     std::unique_ptr<PointEvaluator> nodes_;
     std::unordered_map<std::uint64_t, std::unique_ptr<NodeBlock>> blocks_;
+    std::unordered_set<std::uint64_t> prepared_;  ///< cells whose nodes are all known
     std::int64_t kernel_values_ = 0;
 };
 

@@ -74,20 +74,23 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
 /// The caps and leak probes, and which of them have become constraints.
 class ActiveCaps {
 public:
-    explicit ActiveCaps(const PreparedContours& contours) : caps_(contours.caps) {
+    explicit ActiveCaps(const PreparedContours& contours) : caps_(contours.caps), first_probe_(caps_.size()) {
         for (const Cap& cap : caps_)
             active_.push_back(cap.from_start || (contours.coplanar && cap.kind == ConstraintKind::cap));
         caps_.insert(caps_.end(), contours.leak_probes.begin(), contours.leak_probes.end());
         active_.resize(caps_.size(), false);
+        values_.resize(caps_.size(), std::numeric_limits<double>::quiet_NaN());
         for (const Cap& cap : caps_) positions_.push_back(cap.position);
     }
 
-    /// Activates the caps that the function violates; true if there are new ones.
+    /// Activates the caps that the function violates; true if there are new ones. Of the leak probes that the last function
+    /// kept well, one of a few is looked at: a leak is larger than their distance. If it shows a leak, all are.
     bool update(const ImplicitFunction& function, int threads) {
-        std::vector<double> values(caps_.size());
-        function.values(positions_, values, threads);
+        Indices doubtful, others;
+        for (std::size_t i = 0; i < caps_.size(); ++i) (is_doubtful(i) ? doubtful : others).push_back(i);
         const std::size_t before = count();
-        for (std::size_t i = 0; i < caps_.size(); ++i) active_[i] = active_[i] || !caps_[i].allows(values[i]);
+        evaluate(function, doubtful, threads);
+        if (count() > before) evaluate(function, others, threads);
         return count() > before;
     }
 
@@ -98,8 +101,25 @@ public:
     std::size_t count() const { return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true)); }
 
 private:
+    bool is_doubtful(std::size_t i) const {
+        constexpr std::size_t kSampleEvery = 4;
+        return i < first_probe_ || i % kSampleEvery == 0 || !(values_[i] < caps_[i].value_mm / 2);
+    }
+
+    void evaluate(const ImplicitFunction& function, const Indices& indices, int threads) {
+        std::vector<double> values(indices.size());
+        function.values(pick(positions_, indices), values, threads);
+        for (std::size_t n = 0; n < indices.size(); ++n) {
+            const std::size_t i = indices[n];
+            values_[i] = values[n];
+            active_[i] = active_[i] || !caps_[i].allows(values[n]);
+        }
+    }
+
     std::vector<Cap> caps_;
+    std::size_t first_probe_;  ///< of the leaks; behind all others
     std::vector<Vec3> positions_;
+    std::vector<double> values_;  ///< of the last function for which they were computed; NaN before
     std::vector<bool> active_;
 };
 
@@ -115,7 +135,7 @@ public:
         std::vector<PointConstraint> single_points;
         caps_.append_to(single_points);
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
-        const Solution solution = solve(placed.constraints, solving, progress_of_next_solve());
+        const Solution solution = solve(placed.constraints, solving, progress_of_next_solve(), &previous_);
         result_.function = solution.function;
         result_.report = solution.report;
         result_.iterations += solution.report.iterations;
@@ -181,6 +201,7 @@ private:
     const FitOptions& options_;
     const Progress& progress_;
     ActiveCaps caps_;
+    PreviousSolve previous_;
     Fit result_;
 };
 

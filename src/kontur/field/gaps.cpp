@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kontur/base/parallel.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
@@ -63,15 +64,20 @@ double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, dou
 
 }  // namespace
 
-void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points) {
+void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points, int threads) {
     const std::vector<Drawing> drawings = drawings_of(set, tolerance_mm);
+    std::vector<const Drawing*> drawing_of(set.contours.size());
+    for (const Drawing& drawing : drawings)
+        for (const std::int32_t c : drawing.contours) drawing_of[static_cast<std::size_t>(c)] = &drawing;
     // Points of refined contours lie on their edge only up to rounding.
     const double own_edge = 1e-9 * bounding_box(set).diagonal();
-    for (const Drawing& drawing : drawings)
-        for (BoundaryPoint& point : points)
-            if (std::find(drawing.contours.begin(), drawing.contours.end(), point.contour) != drawing.contours.end() &&
-                !(point.inplane_normal == Vec3{}))
-                point.gap_mm = gap(drawing, point, reach_mm, own_edge);
+    parallel_for(static_cast<std::int64_t>(points.size()), 128, threads, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin) {
+            BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
+            if (point.contour != kNoContour && !(point.inplane_normal == Vec3{}))
+                point.gap_mm = gap(*drawing_of[static_cast<std::size_t>(point.contour)], point, reach_mm, own_edge);
+        }
+    });
 }
 
 }  // namespace kontur

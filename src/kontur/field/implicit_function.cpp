@@ -53,21 +53,38 @@ Vec3 ImplicitFunction::gradient(const Vec3& point_mm) const {
     return result;
 }
 
+void ImplicitFunction::add_polynomial(const PointArrays& points, std::span<double> values) const {
+    const auto& p = data_->polynomial;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        values[i] += p[0] + p[1] * points.x[i] + p[2] * points.y[i] + p[3] * points.z[i];
+}
+
+/// Adds the polynomial's and goes from the frame's unit to mm.
+void ImplicitFunction::finish_gradients(std::span<Vec3> gradients) const {
+    const Vec3 linear{data_->polynomial[1], data_->polynomial[2], data_->polynomial[3]};
+    for (Vec3& gradient : gradients) gradient = (gradient + linear) / data_->frame.scale;
+}
+
 void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, int threads) const {
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel(d.kernel, d.centers, d.weights, points, out, threads);
-    const auto& p = d.polynomial;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        out[i] += p[0] + p[1] * points.x[i] + p[2] * points.y[i] + p[3] * points.z[i];
+    add_polynomial(points, out);
 }
 
 void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads) const {
     const Data& d = *data_;
+    sum_kernel_gradient(d.kernel, d.centers, d.weights, PointArrays(d.frame.to_unit(points_mm)), out, threads);
+    finish_gradients(out);
+}
+
+void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values,
+                                            std::span<Vec3> gradients, int threads) const {
+    const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
-    sum_kernel_gradient(d.kernel, d.centers, d.weights, points, out, threads);
-    const Vec3 linear{d.polynomial[1], d.polynomial[2], d.polynomial[3]};
-    for (Vec3& gradient : out) gradient = (gradient + linear) / d.frame.scale;
+    sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, threads);
+    add_polynomial(points, values);
+    finish_gradients(gradients);
 }
 
 }  // namespace kontur

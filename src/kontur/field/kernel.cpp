@@ -88,6 +88,28 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic_gradient(const Sources& s, cons
     }
 }
 
+KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_both(const Sources& s, const Lanes& t, double* __restrict out, Lanes& slope) {
+    alignas(64) double sum[kLanes] = {}, gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j], w3 = 3 * s.w[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
+            const double factor = w3 * r;
+            sum[l] += w * (r2 * r);
+            gx[l] += factor * dx;
+            gy[l] += factor * dy;
+            gz[l] += factor * dz;
+        }
+    }
+    for (int l = 0; l < kLanes; ++l) {
+        out[l] = sum[l];
+        slope.x[l] = gx[l];
+        slope.y[l] = gy[l];
+        slope.z[l] = gz[l];
+    }
+}
+
 Sources sources(const PointArrays& centers, std::span<const double> weights) {
     return {centers.x.data(), centers.y.data(), centers.z.data(), weights.data(), centers.size()};
 }
@@ -145,6 +167,23 @@ void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<co
         load(targets, begin, count, lanes);
         sum(sources(centers, weights), lanes, result);
         for (std::size_t l = 0; l < count; ++l) out[begin + l] = {result.x[l], result.y[l], result.z[l]};
+    });
+}
+
+void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
+                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients, int threads) {
+    if (kernel != Kernel::triharmonic) {
+        sum_kernel(kernel, centers, weights, targets, values, threads);
+        sum_kernel_gradient(kernel, centers, weights, targets, gradients, threads);
+        return;
+    }
+    for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
+        Lanes lanes, slope;
+        alignas(64) std::array<double, kLanes> result;
+        load(targets, begin, count, lanes);
+        sum_triharmonic_both(sources(centers, weights), lanes, result.data(), slope);
+        std::copy_n(result.begin(), count, values.begin() + static_cast<std::ptrdiff_t>(begin));
+        for (std::size_t l = 0; l < count; ++l) gradients[begin + l] = {slope.x[l], slope.y[l], slope.z[l]};
     });
 }
 

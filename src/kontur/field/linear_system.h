@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@ struct LinearSystem {
     std::vector<double> smoothing;  ///< of every constraint
     PointArrays centers;            ///< unit-box coordinates
     std::vector<double> values;     ///< mm
+    std::vector<double> start = {};  ///< weights that may be close to the solution; empty: none are known
+    std::shared_ptr<const PreconditionerPattern> pattern = {};  ///< of these centres, if there is one already
 
     std::size_t size() const { return values.size(); }
     double entry(std::size_t i, std::size_t j) const {
@@ -36,6 +39,7 @@ struct Coefficients {
     double matrix_mb = 0;
     double evaluations = 0;           ///< see SolveReport
     std::vector<std::pair<std::string, double>> seconds = {};
+    std::shared_ptr<const PreconditionerPattern> pattern = {};
 };
 
 /// Eq. 6 as printed, by dsysv (Bunch-Kaufman).

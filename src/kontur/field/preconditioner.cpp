@@ -14,6 +14,8 @@
 namespace kontur {
 namespace {
 
+constexpr std::size_t kTop = static_cast<std::size_t>(-1);  // among the supernodes
+
 /// Local coordinates of a few points: about their members' mean, scaled to radius 1, padded with zeros to whole registers.
 struct LocalPoints {
     std::vector<double> x, y, z;
@@ -96,9 +98,28 @@ Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const Precondition
     : pattern_(std::move(pattern)), threads_(threads) {
     std::vector<double> ordered;
     for (const std::int32_t point : pattern_->order()) ordered.push_back(diagonal[static_cast<std::size_t>(point)]);
-    factorise_top(kernel, ordered);
-    progress.check();
-    factorise_supernodes(kernel, ordered, progress);
+
+    const std::vector<PreconditionerPattern::Supernode>& nodes = pattern_->supernodes();
+    rows_begin_.resize(nodes.size() + 1);
+    for (std::size_t s = 0; s < nodes.size(); ++s)
+        rows_begin_[s + 1] =
+            rows_begin_[s] + static_cast<std::size_t>(nodes[s].members) * static_cast<std::size_t>(nodes[s].size());
+    rows_.resize(rows_begin_.back());
+    for_top_and_nodes(4, [&](std::size_t s) {
+        progress.check();
+        if (s == kTop) factorise_top(kernel, ordered);
+        else
+            factorise(kernel, nodes[s], ordered, std::span(rows_).subspan(rows_begin_[s], rows_begin_[s + 1] - rows_begin_[s]));
+    });
+}
+
+/// Calls work(kTop) and work(s) for every supernode, in parallel.
+template <class Work>
+void Preconditioner::for_top_and_nodes(std::int64_t chunk, const Work& work) const {
+    const auto nodes = static_cast<std::int64_t>(pattern_->supernodes().size());
+    parallel_for(nodes + 1, chunk, threads_, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin) work(begin == 0 ? kTop : static_cast<std::size_t>(begin - 1));
+    });
 }
 
 void Preconditioner::factorise_top(Kernel kernel, std::span<const double> diagonal) {
@@ -117,32 +138,22 @@ void Preconditioner::factorise_top(Kernel kernel, std::span<const double> diagon
                     "the coarse part of the system is not positive definite; constraints coincide");
 }
 
-void Preconditioner::factorise_supernodes(Kernel kernel, std::span<const double> diagonal, const Progress& progress) {
-    const std::vector<PreconditionerPattern::Supernode>& nodes = pattern_->supernodes();
-    rows_begin_.resize(nodes.size() + 1);
-    for (std::size_t s = 0; s < nodes.size(); ++s)
-        rows_begin_[s + 1] =
-            rows_begin_[s] + static_cast<std::size_t>(nodes[s].members) * static_cast<std::size_t>(nodes[s].size());
-    rows_.resize(rows_begin_.back());
-    parallel_for(static_cast<std::int64_t>(nodes.size()), 4, threads_, [&](std::int64_t begin, std::int64_t end) {
-        progress.check();
-        LocalPoints local;
-        std::vector<double> matrix, inverse_rows;
-        for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
-            const int n = nodes[s].size();
-            localise(pattern_->points(), pattern_->columns(nodes[s]), nodes[s].members, local);
-            const double scale = degree_scale(kernel, local.radius);
-            matrix.resize(static_cast<std::size_t>(padded_rows(n)) * static_cast<std::size_t>(n));
-            inverse_rows.resize(rows_begin_[s + 1] - rows_begin_[s]);
-            fill_local(kernel, local, pattern_->options().polynomial_weight, matrix.data(), n);
-            add_diagonal(diagonal, pattern_->columns(nodes[s]), scale, matrix.data());
-            if (!small_cholesky(matrix.data(), n)) continue;  // its rows stay zero: no preconditioning of these points
-            last_rows_of_inverse(matrix.data(), n, nodes[s].members, inverse_rows.data());
-            const double factor = 1 / std::sqrt(scale);
-            std::transform(inverse_rows.begin(), inverse_rows.end(), &rows_[rows_begin_[s]],
-                           [factor](double v) { return static_cast<float>(v * factor); });
-        }
-    });
+/// A node that cannot be factorised keeps rows of zeros: no preconditioning of these points.
+void Preconditioner::factorise(Kernel kernel, const PreconditionerPattern::Supernode& node, std::span<const double> diagonal,
+                               std::span<float> rows) const {
+    const int n = node.size();
+    LocalPoints local;
+    localise(pattern_->points(), pattern_->columns(node), node.members, local);
+    const double scale = degree_scale(kernel, local.radius);
+    std::vector<double> matrix(static_cast<std::size_t>(padded_rows(n)) * static_cast<std::size_t>(n));
+    std::vector<double> inverse_rows(rows.size());
+    fill_local(kernel, local, pattern_->options().polynomial_weight, matrix.data(), n);
+    add_diagonal(diagonal, pattern_->columns(node), scale, matrix.data());
+    if (!small_cholesky(matrix.data(), n)) return;
+    last_rows_of_inverse(matrix.data(), n, node.members, inverse_rows.data());
+    const double factor = 1 / std::sqrt(scale);
+    std::transform(inverse_rows.begin(), inverse_rows.end(), rows.begin(),
+                   [factor](double v) { return static_cast<float>(v * factor); });
 }
 
 void Preconditioner::apply(std::span<const double> r, std::span<double> z) const {
@@ -150,21 +161,16 @@ void Preconditioner::apply(std::span<const double> r, std::span<double> z) const
     std::vector<double> ordered(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = r[static_cast<std::size_t>(order[i])];
 
-    std::vector<double> top(ordered.begin(), ordered.begin() + pattern_->top());
-    small_cholesky_solve(top_factor_.data(), pattern_->top(), top.data());
-
     // Every supernode writes its own contributions; every point then gathers its share of them in order.
+    std::vector<double> top(ordered.begin(), ordered.begin() + pattern_->top());
     std::vector<double> contributions(pattern_->column_count());
     const auto& nodes = pattern_->supernodes();
-    parallel_for(static_cast<std::int64_t>(nodes.size()), 32, threads_, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<double> in;
-        for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
-            const std::span<const std::int32_t> columns = pattern_->columns(nodes[s]);
-            in.resize(columns.size());
-            for (std::size_t c = 0; c < columns.size(); ++c) in[c] = ordered[static_cast<std::size_t>(columns[c])];
-            apply_rows(&rows_[rows_begin_[s]], nodes[s].members, nodes[s].size(), in.data(),
-                       &contributions[nodes[s].columns]);
-        }
+    for_top_and_nodes(16, [&](std::size_t s) {
+        if (s == kTop) return small_cholesky_solve(top_factor_.data(), pattern_->top(), top.data());
+        const std::span<const std::int32_t> columns = pattern_->columns(nodes[s]);
+        std::vector<double> in(columns.size());
+        for (std::size_t c = 0; c < columns.size(); ++c) in[c] = ordered[static_cast<std::size_t>(columns[c])];
+        apply_rows(&rows_[rows_begin_[s]], nodes[s].members, nodes[s].size(), in.data(), &contributions[nodes[s].columns]);
     });
     parallel_for(static_cast<std::int64_t>(order.size()), 4096, threads_, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::int32_t>(begin); i < static_cast<std::int32_t>(end); ++i) {

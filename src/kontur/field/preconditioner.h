@@ -15,7 +15,7 @@ namespace kontur {
 struct PreconditionerOptions {
     int neighbours = 0;              ///< earlier points that a point's row is conditioned on; 0: what fits their number
     int supernode = 32;              ///< most points that share their neighbours
-    int dense_top = 800;             ///< coarsest points, factorised exactly
+    int dense_top = 0;               ///< coarsest points, factorised exactly; 0: what fits the number of all
     double polynomial_weight = 100;  ///< multiple of 1 + x.y that makes the local matrices definite
 };
 
@@ -80,8 +80,11 @@ public:
     double megabytes() const;
 
 private:
+    template <class Work>
+    void for_top_and_nodes(std::int64_t chunk, const Work& work) const;
     void factorise_top(Kernel kernel, std::span<const double> diagonal);
-    void factorise_supernodes(Kernel kernel, std::span<const double> diagonal, const Progress& progress);
+    void factorise(Kernel kernel, const PreconditionerPattern::Supernode& node, std::span<const double> diagonal,
+                   std::span<float> rows) const;
 
     std::shared_ptr<const PreconditionerPattern> pattern_;
     int threads_;

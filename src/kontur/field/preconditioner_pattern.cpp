@@ -9,7 +9,12 @@ namespace kontur {
 namespace {
 
 /// More points need more neighbours to be solved in as many iterations.
-int fitting_neighbours(std::size_t points) { return points <= 20000 ? 128 : points <= 400000 ? 192 : 256; }
+int fitting_neighbours(std::size_t points) {
+    return points <= 3000 ? 64 : points <= 20000 ? 128 : points <= 400000 ? 192 : 256;
+}
+
+/// Its factorisation takes no longer than the others' together.
+int fitting_top(std::size_t points) { return points <= 20000 ? 400 : 800; }
 
 PointArrays reordered(const PointArrays& points, const std::vector<std::int32_t>& order) {
     PointArrays result;
@@ -27,6 +32,7 @@ PreconditionerPattern::PreconditionerPattern(const PointArrays& points, const Pr
                                              const Progress& progress)
     : options_(options) {
     if (options_.neighbours <= 0) options_.neighbours = fitting_neighbours(points.size());
+    if (options_.dense_top <= 0) options_.dense_top = fitting_top(points.size());
     const MultiscaleOrder order = multiscale_order(points);
     progress.check();
     order_ = order.order;

@@ -82,7 +82,7 @@ void append_boundary(ContourSet& set, std::size_t drawn, PreparedContours& prepa
 void append_limits(const ContourSet& set, const PrepareOptions& options, PreparedContours& prepared) {
     if (options.caps) {
         prepared.caps = find_caps(set);
-        prepared.leak_probes = find_leak_probes(set);
+        prepared.leak_probes = find_leak_probes(set, options.threads);
         const Ends ends = find_ends(set);
         prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
         prepared.caps.insert(prepared.caps.end(), ends.guards.begin(), ends.guards.end());
@@ -113,7 +113,7 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), prepared);
-    if (options.gaps) find_gaps(fitted, 0.1 * diagonal, 1e-3 * diagonal, prepared.points);
+    if (options.gaps) find_gaps(fitted, 0.1 * diagonal, 1e-3 * diagonal, prepared.points, options.threads);
     append_limits(set, options, prepared);
     return prepared;
 }

@@ -18,6 +18,7 @@ struct PrepareOptions {
     FillRule fill_rule = FillRule::even_odd;  ///< what contours inside others mean
     bool gaps = true;                         ///< keep normal constraints clear of the opposite wall (find_gaps)
     double click_margin_mm = 1.0;             ///< how far f must be from 0 at interior and exterior points
+    int threads = 0;                          ///< 0: the machine's
 };
 
 /// The contours as the fit sees them.

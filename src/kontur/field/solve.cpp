@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <string>
 
@@ -72,6 +73,26 @@ std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOp
     return smoothing;
 }
 
+/// phi of distances in mm is this much times phi of distances in the frame.
+double kernel_scale(Kernel kernel, const UnitFrame& frame) { return kernel_value(kernel, frame.scale); }
+
+/// The weights of those centres that the previous solve had too; the others' are 0.
+std::vector<double> start_weights(const std::vector<Vec3>& centers, const PreviousSolve& previous, double scale) {
+    const auto key = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
+    std::map<std::array<double, 3>, double> known;
+    for (std::size_t i = 0; i < previous.centers.size(); ++i) known[key(previous.centers[i])] = previous.weights[i];
+    std::vector<double> start(centers.size(), 0.0);
+    for (std::size_t i = 0; i < centers.size(); ++i)
+        if (const auto found = known.find(key(centers[i])); found != known.end()) start[i] = scale * found->second;
+    return start;
+}
+
+PreviousSolve remember(const ConstraintSet& constraints, const Coefficients& c, double scale) {
+    PreviousSolve solve{constraints.centers, c.weights, c.pattern};
+    for (double& w : solve.weights) w /= scale;
+    return solve;
+}
+
 }  // namespace
 
 std::string_view name(Solver solver) noexcept {
@@ -90,20 +111,27 @@ std::string_view name(Solver solver) noexcept {
 
 std::string_view name(Kernel kernel) noexcept { return kernel == Kernel::triharmonic ? "triharmonic" : "biharmonic"; }
 
-Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress) {
+Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress,
+               PreviousSolve* previous) {
     SolveOptions options = requested;
     if (options.solver == Solver::automatic) options.solver = Solver::iterative;
     check(constraints, options);
     progress.check();
 
     const UnitFrame frame = unit_frame(constraints.centers);
-    const LinearSystem system{options.kernel, smoothing_of(constraints, options),
+    LinearSystem system{options.kernel, smoothing_of(constraints, options),
                               PointArrays(frame.to_unit(constraints.centers)), constraints.values};
     static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane, which dsysv may not notice
+    const double scale = kernel_scale(options.kernel, frame);
+    if (previous && !previous->centers.empty()) {
+        system.start = start_weights(constraints.centers, *previous, scale);
+        if (previous->centers == constraints.centers) system.pattern = previous->pattern;
+    }
     Coefficients c = run(system, options, progress);
     for (const double w : c.weights)
         if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
 
+    if (previous) *previous = remember(constraints, c, scale);
     Solution solution;
     solution.report = {options.solver, system.size(), c.iterations, c.residual, c.residual_points, c.matrix_mb, c.evaluations,
                        c.seconds};

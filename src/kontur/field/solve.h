@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,10 +51,21 @@ struct Solution {
     SolveReport report;
 };
 
+class PreconditionerPattern;
+
+/// What a solve leaves to the next one of a similar problem.
+struct PreviousSolve {
+    std::vector<Vec3> centers;    ///< mm
+    std::vector<double> weights;  ///< of phi of distances in mm
+    std::shared_ptr<const PreconditionerPattern> pattern = {};
+};
+
 /// The variational interpolant through the constraints: Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
 /// Throws Error(singular_system) when the centres coincide or all lie in one plane, Error(too_large) when the dense matrix
 /// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints or values that are not finite.
-/// Results are the same bytes for any number of threads.
-Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {});
+/// Results are the same bytes for any number of threads. The iterative solver starts from the weights that centres had in
+/// the `previous` solve, which is replaced by this one; so it takes fewer iterations to the same tolerance.
+Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {},
+               PreviousSolve* previous = nullptr);
 
 }  // namespace kontur

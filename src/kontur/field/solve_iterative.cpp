@@ -83,23 +83,25 @@ public:
           progress_(progress),
           limit_(options.tolerance_mm),
           polynomials_(system.centers),
-          pattern_(times_("neighbours",
-                          [&] {
-                              return std::make_shared<PreconditionerPattern>(system.centers, PreconditionerOptions{},
-                                                                             options.threads, progress);
-                          })),
+          pattern_(system.pattern ? system.pattern : times_("neighbours", [&] {
+              return std::make_shared<const PreconditionerPattern>(system.centers, PreconditionerOptions{}, options.threads,
+                                                                   progress);
+          })),
           preconditioner_(
               times_("factors",
                      [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, options.threads, progress); })),
-          weights_(system.size(), 0.0),
+          weights_(system.start.empty() ? Vector(system.size(), 0.0) : system.start),
           target_(system.values),
           image_{.values = Vector(system.size()), .checked = system.size()} {
         for (double& v : target_) v *= kernel_sign(system.kernel);
-        update_residual();
-        start_ = std::max(residual_, limit_);
+        polynomials_.project_out(target_);
+        start_ = std::max(largest(target_), limit_);
         // The preconditioner's first guess at the weights tells how large they are.
-        const double tolerance = matrix_tolerance(precondition(r_), limit_);
+        const double tolerance = matrix_tolerance(precondition(target_), limit_);
         times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, progress); });
+        polynomials_.project_out(weights_);
+        update_residual();
+        if (!system.start.empty()) start_from_weights();
     }
 
     /// The recurrence's residual drifts from the true one, and H2 products are not exact: at the end the residual is
@@ -107,7 +109,7 @@ public:
     /// helps.
     void run() {
         double last_residual = std::numeric_limits<double>::infinity(), last_deviation = last_residual;
-        while (residual_ > limit_) {
+        while (true) {
             const bool stuck = !descend();
             polynomials_.project_out(weights_);
             check_image();
@@ -134,10 +136,22 @@ public:
         c.matrix_mb = preconditioner_.megabytes() + operator_->matrix().megabytes();
         c.evaluations = operator_->matrix().evaluations();
         c.seconds = times_.seconds();
+        c.pattern = pattern_;
         return c;
     }
 
 private:
+    /// Unless they are worse than none: weights that lost what balanced them leave residuals of kilometres.
+    void start_from_weights() {
+        const double without = residual_;
+        image_.values = times_("products", [&] { return (*operator_)(weights_); });
+        update_residual();
+        if (residual_ < without) return;
+        weights_.assign(weights_.size(), 0.0);
+        image_.values.assign(weights_.size(), 0.0);
+        update_residual();
+    }
+
     Vector precondition(const Vector& r) {
         Vector z(r.size());
         times_("preconditioning", [&] { preconditioner_.apply(r, z); });

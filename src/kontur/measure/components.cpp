@@ -2,6 +2,7 @@
 #include "kontur/measure/components.h"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <numeric>
 
@@ -38,17 +39,27 @@ struct RunList {
     std::vector<std::size_t> row_start;  ///< first run of row j + size.j * k, and one end more
 };
 
+/// The first byte that is not 0; eight at a time, for most of a mask is empty.
+const std::uint8_t* skip_zeros(const std::uint8_t* at, const std::uint8_t* end) {
+    for (std::uint64_t eight = 0; end - at >= 8; at += 8) {
+        std::memcpy(&eight, at, 8);
+        if (eight != 0) break;
+    }
+    while (at < end && *at == 0) ++at;
+    return at;
+}
+
 RunList find_runs(const Mask& mask) {
     const Index3 size = mask.grid.size;
     RunList list;
     for (std::int64_t row = 0; row < size.j * size.k; ++row) {
         list.row_start.push_back(list.runs.size());
-        const std::uint8_t* values = mask.values.data() + row * size.i;
-        for (std::int64_t i = 0; i < size.i; ++i) {
-            if (values[i] == 0) continue;
-            const std::int64_t begin = i;
-            while (i < size.i && values[i] != 0) ++i;
-            list.runs.push_back({begin, i});
+        const std::uint8_t *values = mask.values.data() + row * size.i, *end = values + size.i;
+        for (const std::uint8_t* at = skip_zeros(values, end); at < end;) {
+            const auto* zero = static_cast<const std::uint8_t*>(std::memchr(at, 0, static_cast<std::size_t>(end - at)));
+            const std::uint8_t* run_end = zero ? zero : end;
+            list.runs.push_back({at - values, run_end - values});
+            at = skip_zeros(run_end, end);
         }
     }
     list.row_start.push_back(list.runs.size());

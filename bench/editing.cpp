@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "experiments.h"
+#include "kontur/editor.h"
+#include "runs.h"
+
+namespace kontur::bench {
+namespace {
+
+constexpr int kEdits = 24;
+constexpr double kDragMm = 4;
+
+/// The contour in the middle of the list, moved within its plane.
+ContourSet dragged(ContourSet set, int edit) {
+    Contour& contour = set.contours[set.contours.size() / 2];
+    const Vec3 by = kDragMm * std::sin(0.5 * edit) * contour.plane.u;
+    contour.plane.origin += by;
+    for (Vec3& p : contour.points) p += by;
+    return set;
+}
+
+/// First-order distances of the mesh's points from the surface of the function, ascending.
+std::vector<double> distances(const TriangleMesh& mesh, const ImplicitFunction& function) {
+    std::vector<double> values(mesh.points.size());
+    std::vector<Vec3> gradients(mesh.points.size());
+    function.values_and_gradients(mesh.points, values, gradients);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::abs(values[i]) / std::max(norm(gradients[i]), 0.1);
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+}  // namespace
+
+Json editing(const PhantomCase& phantom, int repeat) {
+    Editor editor({.segment = {}, .preview_spacing_mm = 2});
+    editor.preview(phantom.contours);
+    std::vector<double> walls, shares, largest;
+    double cpu_s = 0;
+    for (int edit = 1; edit <= (repeat == 1 ? 2 : kEdits); ++edit) {
+        const ContourSet contours = dragged(phantom.contours, edit);
+        EditedSurface preview;
+        const Timing timing = measure(1, [&] { preview = editor.preview(contours); });
+        walls.push_back(timing.seconds);
+        cpu_s += timing.cpu_seconds;
+        if (edit % 6 != 2) continue;
+        const std::vector<double> off = distances(preview.mesh, editor.refine(contours).function);
+        const auto within = std::upper_bound(off.begin(), off.end(), 0.5) - off.begin();
+        shares.push_back(static_cast<double>(within) / static_cast<double>(off.size()));
+        largest.push_back(off.back());
+    }
+    std::sort(walls.begin(), walls.end());
+    const auto rank = [&](double share) { return walls[static_cast<std::size_t>(share * static_cast<double>(walls.size() - 1))]; };
+    return Json::array({{{"case", phantom.name},
+                         {"edits", walls.size()},
+                         {"median_s", rank(0.5)},
+                         {"rank_90_s", rank(0.9)},
+                         {"cpu_s", cpu_s / static_cast<double>(walls.size())},
+                         {"within_half_mm", *std::min_element(shares.begin(), shares.end())},
+                         {"largest_mm", *std::max_element(largest.begin(), largest.end())}}});
+}
+
+}  // namespace kontur::bench

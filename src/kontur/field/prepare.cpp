@@ -46,7 +46,8 @@ void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
 void append_closed(const Contour& contour, std::int32_t index, PreparedContours& prepared) {
     const ContourOrientation orientation = orient(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
-        prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});
+        prepared.points.push_back(
+            {contour.points[i], orientation.normals[i], contour.plane.normal, index, contour.weight});
     const auto append_to = [](std::vector<Vec3>& to, const std::vector<Vec3>& from) {
         to.insert(to.end(), from.begin(), from.end());
     };
@@ -58,7 +59,7 @@ void append_open(const Contour& contour, std::int32_t index, PreparedContours& p
     const std::vector<Vec3> left = left_normals(contour);
     const double outward = contour.inside == Hand::left ? -1 : 1;
     for (std::size_t i = 0; i < contour.points.size(); ++i)
-        prepared.points.push_back({contour.points[i], outward * left[i], contour.plane.normal, index});
+        prepared.points.push_back({contour.points[i], outward * left[i], contour.plane.normal, index, contour.weight});
 }
 
 void append_surface_points(const ContourSet& set, PreparedContours& prepared) {

@@ -13,6 +13,7 @@ _Progress = Callable[[str, float], object]
 _Kernel = Literal["triharmonic", "biharmonic"]
 _Normals = Literal["surface", "in-plane"]
 _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
+_Corners = Literal["rounded", "faithful"]
 _Conflicts = Literal["reconcile", "newest-wins", "exact"]
 _FillRule = Literal["even-odd", "declared"]
 _Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
@@ -282,6 +283,7 @@ class Editor:
         smoothing: float | None = None,
         conflicts: _Conflicts = "reconcile",
         fill_rule: _FillRule = "even-odd",
+        corners: _Corners = "rounded",
         quality: float = 1.0,
         solver: _Solver = "automatic",
         tolerance_mm: float | None = None,
@@ -459,6 +461,7 @@ class LiveEditor:
         smoothing: float | None = None,
         conflicts: _Conflicts = "reconcile",
         fill_rule: _FillRule = "even-odd",
+        corners: _Corners = "rounded",
         quality: float = 1.0,
         solver: _Solver = "automatic",
         tolerance_mm: float | None = None,
@@ -633,6 +636,8 @@ class SegmentReport:
     def smoothing(self) -> float: ...
     @property
     def conflicts(self) -> str: ...
+    @property
+    def corners(self) -> str: ...
     @property
     def fill_rule(self) -> str: ...
     @property
@@ -1069,6 +1074,7 @@ def segment(
     smoothing: float | None = None,
     conflicts: _Conflicts = "reconcile",
     fill_rule: _FillRule = "even-odd",
+    corners: _Corners = "rounded",
     quality: float = 1.0,
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,

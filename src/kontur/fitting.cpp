@@ -37,7 +37,10 @@ FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
 PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
     PrepareOptions prepare{
         .quality = options.quality, .fill_rule = options.fill_rule, .click_margin_mm = fitting.place.normal_offset_mm};
+    prepare.corners = options.corners;
+    prepare.corner_spacing_mm = 2 * fitting.place.merge_distance_mm;
     if (options.normals == Normals::in_plane) {
+        prepare.corners = Corners::rounded;
         prepare.least_segments = 0;
         prepare.caps = false;
         prepare.gaps = false;

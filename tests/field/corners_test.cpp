@@ -9,13 +9,14 @@
 #include "kontur/field/prepare.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"
+#include "support/polygons.h"
 
 namespace kontur {
 namespace {
 
 const Plane kAxial = make_plane({0, 0, 3}, {0, 0, 1});
 
-Contour square() { return test::contour_in(kAxial, std::vector<Point2>{{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}); }
+Contour square() { return test::contour_in(kAxial, std::vector<test::Point2>{{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}); }
 
 /// Largest distance of points on the drawn line from the surface within the contour's plane, to first order.
 double farthest_from_surface(const ImplicitFunction& function, const Contour& contour) {
@@ -36,7 +37,7 @@ TEST(Corners, AreWhereTheLineTurnsByThirtyDegrees) {
     Contour open = square();
     open.closed = false;
     EXPECT_EQ(find_corners(open), std::vector<bool>(4, false));
-    const Contour bent = test::contour_in(kAxial, std::vector<Point2>{{0, 0}, {10, -1}, {20, 0}, {10, 30}});
+    const Contour bent = test::contour_in(kAxial, std::vector<test::Point2>{{0, 0}, {10, -1}, {20, 0}, {10, 30}});
     EXPECT_EQ(find_corners(bent), (std::vector<bool>{true, false, true, true})) << "11 degrees are no corner";
 }
 
@@ -76,7 +77,7 @@ TEST(Corners, TheirPointsHaveNoNormalAndThoseBesideThemTheirEdges) {
 
 TEST(Corners, ASquareStaysASquareAndANotchANotch) {
     const Contour notched =
-        test::contour_in(kAxial, std::vector<Point2>{{-20, -20}, {20, -20}, {20, 0}, {0, 0}, {0, 20}, {-20, 20}});
+        test::contour_in(kAxial, std::vector<test::Point2>{{-20, -20}, {20, -20}, {20, 0}, {0, 0}, {0, 20}, {-20, 20}});
     const Grid grid{{60, 60, 60}, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {-30, -30, -27}}};
     for (const Contour& contour : {square(), notched}) {
         SegmentOptions options;

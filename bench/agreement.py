@@ -17,7 +17,7 @@ METRICS = {
     "hd95": ("HD95, mm", [0.1, 1, 10, 100], lambda c: c.get("hausdorff95_mm")),
     "mean": ("mean distance, mm", [0.01, 0.1, 1, 10, 100], lambda c: c.get("mean_surface_distance_mm")),
 }
-WIDTH, HEIGHT, LEFT, TOP, ACROSS, DOWN = 190, 150, 52, 50, 216, 182
+WIDTH, HEIGHT, LEFT, TOP, ACROSS, DOWN = 184, 150, 46, 34, 236, 194
 FEWEST, MOST = 3, 20
 
 

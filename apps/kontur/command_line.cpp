@@ -113,6 +113,8 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
     add_choice<FillRule>(sub, "--fill-rule", o.fill_rule,
                          {{"even-odd", FillRule::even_odd}, {"declared", FillRule::declared}},
                          "Contours inside others: every other one is a hole, or only those declared to be one");
+    add_choice<Corners>(sub, "--corners", o.corners, {{"rounded", Corners::rounded}, {"faithful", Corners::faithful}},
+                        "Points at which a contour turns by 30 degrees or more: passed in a narrow bend, or followed into");
     sub.add_option("--quality", o.quality, "Fraction of each contour's points to fit, above 0 up to 1")
         ->type_name("Q")
         ->capture_default_str();

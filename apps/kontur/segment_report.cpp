@@ -62,6 +62,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"normal_offset_mm", report.normal_offset_mm},
         {"smoothing", report.smoothing},
         {"conflicts", name(report.conflicts)},
+        {"corners", name(report.corners)},
         {"quality", report.quality},
         {"solver", name(report.solver)},
         {"solves", report.solves},

@@ -13,6 +13,7 @@ _Progress = Callable[[str, float], object]
 _Kernel = Literal["triharmonic", "biharmonic"]
 _Normals = Literal["surface", "in-plane"]
 _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
+_Corners = Literal["rounded", "faithful"]
 _Conflicts = Literal["reconcile", "newest-wins", "exact"]
 _FillRule = Literal["even-odd", "declared"]
 _Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
@@ -95,6 +96,7 @@ class Contour:
         hole: bool = False,
         end: Literal["automatic", "flat", "round"] = "automatic",
         inside: Literal["left", "right"] | None = None,
+        weight: float = 1.0,
     ) -> None: ...
     @property
     def plane(self) -> Plane: ...
@@ -108,6 +110,8 @@ class Contour:
     def end(self) -> str: ...
     @property
     def inside(self) -> str | None: ...
+    @property
+    def weight(self) -> float: ...
     def __len__(self) -> int: ...
     def __eq__(self, other: object) -> bool: ...
 
@@ -279,6 +283,7 @@ class Editor:
         smoothing: float | None = None,
         conflicts: _Conflicts = "reconcile",
         fill_rule: _FillRule = "even-odd",
+        corners: _Corners = "rounded",
         quality: float = 1.0,
         solver: _Solver = "automatic",
         tolerance_mm: float | None = None,
@@ -456,6 +461,7 @@ class LiveEditor:
         smoothing: float | None = None,
         conflicts: _Conflicts = "reconcile",
         fill_rule: _FillRule = "even-odd",
+        corners: _Corners = "rounded",
         quality: float = 1.0,
         solver: _Solver = "automatic",
         tolerance_mm: float | None = None,
@@ -630,6 +636,8 @@ class SegmentReport:
     def smoothing(self) -> float: ...
     @property
     def conflicts(self) -> str: ...
+    @property
+    def corners(self) -> str: ...
     @property
     def fill_rule(self) -> str: ...
     @property
@@ -1066,6 +1074,7 @@ def segment(
     smoothing: float | None = None,
     conflicts: _Conflicts = "reconcile",
     fill_rule: _FillRule = "even-odd",
+    corners: _Corners = "rounded",
     quality: float = 1.0,
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,

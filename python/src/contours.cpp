@@ -6,7 +6,7 @@ namespace kontur::python {
 namespace {
 
 Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane, bool closed, bool hole, ContourEnd end,
-                     std::optional<Hand> inside) {
+                     std::optional<Hand> inside, double weight) {
     const std::optional<Plane> its_plane = plane ? plane : fit_plane(points);
     if (!its_plane)
         throw Error(ErrorKind::invalid_input,
@@ -19,12 +19,13 @@ Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane
     contour.hole = hole;
     contour.end = end;
     contour.inside = inside;
+    contour.weight = weight;
     return contour;
 }
 
 bool equal(const Contour& a, const Contour& b) {
     return a.plane == b.plane && a.points == b.points && a.closed == b.closed && a.hole == b.hole && a.end == b.end &&
-           a.inside == b.inside;
+           a.inside == b.inside && a.weight == b.weight;
 }
 
 bool equal(const ContourSet& a, const ContourSet& b) {
@@ -70,6 +71,8 @@ end : {'automatic', 'flat', 'round'}
 inside : {'left', 'right'}, optional
     Open contours only: where the object lies for someone who walks along the contour, upright on the side to which the plane's
     normal points; to be found out when left out.
+weight : float
+    How far it is trusted, against smoothness and the contours that it contradicts; from 0.001 to 1000.
 
 Examples
 --------
@@ -78,7 +81,8 @@ Examples
 ((4, 3), [0.0, 0.0, 1.0])
 )");
     constructor(contour, &contour_from, py::arg("points"), py::arg("plane") = py::none(), py::arg("closed") = true,
-                py::arg("hole") = false, py::arg("end") = ContourEnd{}, py::arg("inside") = py::none());
+                py::arg("hole") = false, py::arg("end") = ContourEnd{}, py::arg("inside") = py::none(),
+                py::arg("weight") = 1.0);
     contour.def_readonly("plane", &Contour::plane, "Plane: where it was drawn.");
     contour.def_property_readonly(
         "points", [](const py::object& self) { return points_view(self, self.cast<const Contour&>().points); },
@@ -87,6 +91,7 @@ Examples
     contour.def_readonly("hole", &Contour::hole, "bool: the object lies outside of this contour.");
     contour.def_readonly("end", &Contour::end, "str: 'automatic', 'flat' or 'round'.");
     contour.def_readonly("inside", &Contour::inside, "str or None: 'left', 'right' or to be found out.");
+    contour.def_readonly("weight", &Contour::weight, "float: how far it is trusted.");
     contour.def("__len__", [](const Contour& c) { return c.points.size(); });
     contour.def(
         "__eq__", [](const Contour& a, const Contour& b) { return equal(a, b); }, py::is_operator());
@@ -95,7 +100,7 @@ Examples
             .format(c.points.size(), c.closed ? "" : ", open", c.hole ? ", hole" : "");
     });
     picklable(contour,
-              [](const Contour& c) { return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside); });
+              [](const Contour& c) { return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside, c.weight); });
 }
 
 void bind_surface_point(py::module_& m) {

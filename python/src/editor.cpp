@@ -25,6 +25,7 @@ Keywords<EditorOptions> editor_keywords() {
         .field("smoothing", segment(&SegmentOptions::smoothing), "")
         .field("conflicts", segment(&SegmentOptions::conflicts), "")
         .field("fill_rule", segment(&SegmentOptions::fill_rule), "")
+        .field("corners", segment(&SegmentOptions::corners), "")
         .field("quality", segment(&SegmentOptions::quality), "")
         .field("solver", segment(&SegmentOptions::solver), "")
         .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "")

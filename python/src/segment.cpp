@@ -19,6 +19,8 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("conflicts", &SegmentOptions::conflicts,
                "Where contours of different planes contradict each other: both yield, the earlier one, or none.")
         .field("fill_rule", &SegmentOptions::fill_rule, "What contours inside others of their plane mean.")
+        .field("corners", &SegmentOptions::corners,
+               "Points at which a contour turns by 30 degrees or more: passed in a narrow bend, or followed into.")
         .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
         .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
         .field("tolerance_mm", &SegmentOptions::tolerance_mm,
@@ -64,6 +66,7 @@ void bind_report(py::module_& m) {
         .field("normal_offset_mm", &Report::normal_offset_mm, "float: as used.")
         .field("smoothing", &Report::smoothing, "float: as used.")
         .field("conflicts", &Report::conflicts, "str")
+        .field("corners", &Report::corners, "str")
         .field("fill_rule", &Report::fill_rule, "str")
         .field("quality", &Report::quality, "float")
         .field("solver", &Report::solver, "str: the one that ran.")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "casters.h"
+#include "kontur/field/corners.h"
 #include "kontur/field/reconcile.h"
 #include "kontur/shape/contour_nesting.h"
 
@@ -10,6 +11,11 @@ namespace kontur::python {
 template <>
 struct Words<Conflicts> {
     static constexpr std::array values{Conflicts::reconcile, Conflicts::newest_wins, Conflicts::exact};
+};
+
+template <>
+struct Words<Corners> {
+    static constexpr std::array values{Corners::rounded, Corners::faithful};
 };
 
 template <>
@@ -23,6 +29,9 @@ namespace pybind11::detail {
 
 template <>
 struct type_caster<kontur::Conflicts> : word_caster<kontur::Conflicts> {};
+
+template <>
+struct type_caster<kontur::Corners> : word_caster<kontur::Corners> {};
 
 template <>
 struct type_caster<kontur::FillRule> : word_caster<kontur::FillRule> {};

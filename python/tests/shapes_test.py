@@ -35,7 +35,8 @@ def test_a_grid_that_is_none_is_refused(size, affine):
 def test_a_contour_finds_its_plane_and_does_not_change():
     contour = kontur.Contour(SQUARE, hole=True)
     assert contour.points.tolist() == SQUARE
-    assert (contour.closed, contour.hole, len(contour)) == (True, True, 4)
+    assert (contour.closed, contour.hole, len(contour), contour.weight) == (True, True, 4, 1)
+    assert kontur.Contour(SQUARE, weight=2) != kontur.Contour(SQUARE)
     assert abs(contour.plane.distance_to(SQUARE)).max() < 1e-12
     with pytest.raises(ValueError):
         contour.points[0] = 1

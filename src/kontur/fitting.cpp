@@ -39,7 +39,10 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
                            .fill_rule = options.fill_rule,
                            .click_margin_mm = fitting.place.normal_offset_mm,
                            .threads = options.threads};
+    prepare.corners = options.corners;
+    prepare.corner_spacing_mm = 2 * fitting.place.merge_distance_mm;
     if (options.normals == Normals::in_plane) {
+        prepare.corners = Corners::rounded;
         prepare.least_segments = 0;
         prepare.caps = false;
         prepare.gaps = false;
@@ -48,13 +51,20 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
     return prepare;
 }
 
+std::vector<double> weights_of(const ContourSet& contours) {
+    std::vector<double> weights;
+    for (const Contour& contour : contours.contours) weights.push_back(contour.weight);
+    return weights;
+}
+
 }  // namespace
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
     const FitOptions fit = fit_options(options, bounding_box(contours).diagonal());
     const ReconcileOptions reconcile{
         .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
-        .offset_mm = kOffsetFraction * bounding_box(contours).diagonal()};
+        .offset_mm = kOffsetFraction * bounding_box(contours).diagonal(),
+        .weights = weights_of(contours)};
     return {prepare_options(options, fit), reconcile, fit};
 }
 

@@ -38,6 +38,7 @@
 // Contours become a function.
 #include "kontur/field/caps.h"
 #include "kontur/field/constraints.h"
+#include "kontur/field/corners.h"
 #include "kontur/field/fast_function.h"
 #include "kontur/field/fit.h"
 #include "kontur/field/implicit_function.h"

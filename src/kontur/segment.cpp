@@ -155,6 +155,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.voxelizer = options.voxelizer;
     report.fill_rule = options.fill_rule;
     report.conflicts = fitting.reconcile.conflicts;
+    report.corners = fitting.prepare.corners;
     append(report.warnings, prepared.notes);
     append(report.warnings, missed_clicks(contours, result.function));
     describe_fit(prepared, fitted, fitting.fit, report);
@@ -170,10 +171,10 @@ Provenance provenance(const ContourSet& contours, const Grid& grid, const Segmen
         {"contours_sha256", contours_sha256(contours)},
         {"grid_sha256", grid_sha256(grid)},
         {"version", KONTUR_VERSION},
-        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} normal_offset_mm={} smoothing={} quality={} "
+        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} quality={} "
                                 "solver={} voxelizer={}",
                                 name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
-                                report.normal_offset_mm, report.smoothing, report.quality, name(report.solver),
+                                name(report.corners), report.normal_offset_mm, report.smoothing, report.quality, name(report.solver),
                                 name(report.voxelizer))},
     };
 }

@@ -30,6 +30,7 @@ struct SegmentOptions {
     std::optional<double> smoothing{};  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
     Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
     FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
+    Corners corners = Corners::rounded;          ///< what becomes of the corners of closed contours; surface normals only
     double quality = 1.0;                        ///< fraction of each contour's points that the fit uses, in (0, 1]
     Solver solver = Solver::automatic;
     std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 1e-5 of the box diagonal
@@ -51,6 +52,7 @@ struct SegmentReport {
     double smoothing = 0;
     FillRule fill_rule = FillRule::even_odd;
     Conflicts conflicts = Conflicts::reconcile;
+    Corners corners = Corners::rounded;
     double quality = 1;
     Solver solver = Solver::automatic;
     Voxelizer voxelizer = Voxelizer::adaptive;

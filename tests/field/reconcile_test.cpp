@@ -66,14 +66,36 @@ TEST(Reconcile, TheNewestContourKeepsAllTrust) {
     EXPECT_LT(least_of_first, 0.02);
 }
 
+TEST(Reconcile, TheHeavierContourYieldsLess) {
+    const auto least_trust = [](double weight, std::int32_t contour) {
+        const ContourSet set = three_great_circles(1.5);
+        std::vector<BoundaryPoint> points = prepare(set).points;
+        reconcile(points, find_crossings(set), {.weights = {1, 1, weight}});
+        double least = 1;
+        for (const BoundaryPoint& p : points)
+            if (p.contour == contour) least = std::min(least, p.trust);
+        return least;
+    };
+    EXPECT_NEAR(least_trust(1, 2), least_trust(1, 0), 1e-3);
+    EXPECT_GT(least_trust(9, 2), 3 * least_trust(1, 2));
+    EXPECT_LT(least_trust(9, 0), least_trust(1, 0));
+}
+
+TEST(Reconcile, PointsStartWithTheWeightOfTheirContour) {
+    ContourSet set = three_great_circles(0);
+    set.contours[1].weight = 5;
+    for (const BoundaryPoint& p : prepare(set).points) EXPECT_EQ(p.trust, p.contour == 1 ? 5 : 1);
+}
+
 TEST(Reconcile, ExactContoursAllKeepTheirTrust) {
     for (const BoundaryPoint& p : reconciled(three_great_circles(1.5), Conflicts::exact)) EXPECT_EQ(p.trust, 1);
 }
 
 TEST(Reconcile, TheSurfacePassesBetweenContoursThatYieldAndThroughTheOneThatDoesNot) {
-    const ContourSet set = three_great_circles(1);
     const Grid grid = test::grid_about({0, 0, 0}, {30, 30, 30}, 2);
-    const auto radius_along_x = [&](Conflicts conflicts) {
+    const auto radius_along_x = [&](Conflicts conflicts, double weight = 1) {
+        ContourSet set = three_great_circles(1);
+        set.contours[2].weight = weight;
         SegmentOptions options;
         options.conflicts = conflicts;
         const ImplicitFunction f = segment(set, grid, options).function;
@@ -87,6 +109,8 @@ TEST(Reconcile, TheSurfacePassesBetweenContoursThatYieldAndThroughTheOneThatDoes
     EXPECT_GT(radius_along_x(Conflicts::reconcile), 20.2);
     EXPECT_LT(radius_along_x(Conflicts::reconcile), 20.8);
     EXPECT_NEAR(radius_along_x(Conflicts::newest_wins), 21, 0.1);
+    EXPECT_GT(radius_along_x(Conflicts::reconcile, 1000), 20.95);
+    EXPECT_LT(radius_along_x(Conflicts::reconcile, 0.001), 20.05);
 }
 
 TEST(Reconcile, HandDrawnContoursThatCrossAgreeBetterWithTheTruth) {

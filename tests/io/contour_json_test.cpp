@@ -79,6 +79,7 @@ void expect_same(const ContourSet& a, const ContourSet& b) {
         EXPECT_EQ(a.contours[i].hole, b.contours[i].hole);
         EXPECT_EQ(a.contours[i].end, b.contours[i].end);
         EXPECT_EQ(a.contours[i].inside, b.contours[i].inside);
+        EXPECT_EQ(a.contours[i].weight, b.contours[i].weight);
     }
 }
 
@@ -146,9 +147,17 @@ TEST_F(ContourJson, ReadsEndsAndSurfacePoints) {
     EXPECT_LT(distance(set.surface[1].outward.value(), {0, 0.6, 0.8}), 1e-15);
 }
 
+TEST_F(ContourJson, ContoursWeighOneUnlessTheFileSaysOtherwise) {
+    const ContourSet set = read(replaced(R"("hole": true)", R"("hole": true, "weight": 0.25)"));
+    EXPECT_EQ(set.contours[0].weight, 1);
+    EXPECT_EQ(set.contours[1].weight, 0.25);
+}
+
 TEST_F(ContourJson, RefusesMeaningsThatItDoesNotKnow) {
     EXPECT_NE(refusal(replaced(R"("hole": true)", R"("end": "pointed")"))
                   .find(R"(contour 2: 'end' is "pointed"; "flat" or "round" is expected)"),
+              std::string::npos);
+    EXPECT_NE(refusal(replaced(R"("hole": true)", R"("weight": "much")")).find("'weight' is text, not a number"),
               std::string::npos);
     EXPECT_NE(refusal(replaced(R"("hole": true)", R"("inside": "up")")).find(R"('inside' is "up"; "left" or "right")"),
               std::string::npos);
@@ -232,6 +241,7 @@ TEST_F(ContourJson, WritingAndReadingGivesTheSameDoubles) {
         for (int p = 0; p < i; ++p) contour.points.push_back(vector());
         if (contour.closed) contour.end = std::array{ContourEnd::automatic, ContourEnd::flat, ContourEnd::round}[i % 3];
         else if (i % 2) contour.inside = i % 3 ? Hand::left : Hand::right;
+        if (i % 7 == 0) contour.weight = 0.001 + 0.1 * i;
         set.contours.push_back(contour);
     }
     set.contours[5].points[0] = {1e-300, 0.1 + 0.2, std::numeric_limits<double>::max()};
@@ -280,6 +290,7 @@ TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
     set.contours[0].end = ContourEnd::flat;
     set.contours[2].closed = false;
     set.contours[2].inside = Hand::left;
+    set.contours[2].weight = 2.5;
     write_contour_json(folder_ / "points.json", set);
     const std::string schema = std::string(KONTUR_TEST_SUPPORT) + "/../../docs/contours.schema.json";
     const auto valid = test::run_python(

@@ -90,11 +90,67 @@ TEST_F(Markups, LeavesOutPointsWithoutAPosition) {
 }
 
 TEST_F(Markups, OtherTypesAreRefusedByName) {
-    for (const char* type : {"Fiducial", "Line", "Angle", "Curve", "Plane", "ROI"})
+    for (const char* type : {"Line", "Angle", "Plane", "ROI", "curve", ""})
         EXPECT_NE(refusal(replaced("ClosedCurve", type), ErrorKind::unsupported).find(std::string("type \"") + type + "\""),
                   std::string::npos);
     EXPECT_NE(refusal(replaced("schema-v1.0.3", "schema-v2.0.0"), ErrorKind::unsupported).find("schema-v2.0.0"),
               std::string::npos);
+}
+
+TEST_F(Markups, OpenCurvesAreStretchesOfTheBoundary) {
+    const ContourSet set = read(replaced("ClosedCurve", "Curve"));
+    ASSERT_EQ(set.contours.size(), 1u);
+    EXPECT_FALSE(set.contours[0].closed);
+    EXPECT_EQ(set.contours[0].points.size(), 3u);
+    EXPECT_NO_THROW(check_contours(set));
+}
+
+TEST_F(Markups, AStraightOpenCurveLiesInAPlaneParallelToAnothers) {
+    const std::string curves = replaced(R"("positionStatus": "defined"},)"
+                                        R"({"id": "3", "position": [-3.0, -11.0, 112.5]}]}]})",
+                                        R"("positionStatus": "defined"},)"
+                                        R"({"id": "3", "position": [-3.0, -11.0, 112.5]}]},)"
+                                        R"({"type": "Curve", "name": "Lesion 2", "controlPoints": [)"
+                                        R"({"position": [0.0, 0.0, 120.0]}, {"position": [9.0, 4.0, 120.0]}]}]})");
+    const ContourSet set = read(curves);
+    ASSERT_EQ(set.contours.size(), 2u);
+    EXPECT_NEAR(std::abs(set.contours[1].plane.normal.z), 1, 1e-12);
+    EXPECT_EQ(set.contours[1].plane.distance_to({3, 3, 120}), 0);
+    EXPECT_NO_THROW(check_contours(set));
+    std::string across = curves;
+    across.replace(across.find("9.0, 4.0, 120.0"), 15, "9.0, 4.0, 121.0");
+    EXPECT_NE(refusal(across, ErrorKind::invalid_input).find("no other curve tells in which plane"), std::string::npos);
+}
+
+TEST_F(Markups, PointListsAreSinglePoints) {
+    const ContourSet set = read(
+        replaced(R"("markups": [)", R"("markups": [{"type": "Fiducial", "coordinateSystem": "RAS", "controlPoints": [)"
+                                    R"({"position": [1.0, 2.0, 3.0]}, {"position": [4.0, 5.0, 6.0], "description": "inside"},)"
+                                    R"({"position": [7.0, 8.0, 9.0], "description": "outside"}]}, )"));
+    EXPECT_EQ(set.name, "Lesion") << "after the curves";
+    ASSERT_EQ(set.contours.size(), 1u);
+    EXPECT_EQ(set.surface, (std::vector<SurfacePoint>{{{-1, -2, 3}, {}}}));
+    EXPECT_EQ(set.interior, (std::vector<Vec3>{{-4, -5, 6}}));
+    EXPECT_EQ(set.exterior, (std::vector<Vec3>{{-7, -8, 9}}));
+}
+
+TEST_F(Markups, WritesOpenCurvesAndSinglePoints) {
+    ContourSet set = test::three_circles();
+    set.name = "liver";
+    set.contours[1].closed = false;
+    set.interior = {{0, 0, 0.5}};
+    set.exterior = {{90, 0, 0}, {0, 90, 0}};
+    set.surface = {{{1, 2, 3}, {}}};
+    const ContourSet again = written_and_read(set);
+    EXPECT_EQ(again.name, "liver");
+    ASSERT_EQ(again.contours.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(again.contours[i].points, set.contours[i].points);
+        EXPECT_EQ(again.contours[i].closed, i != 1);
+    }
+    EXPECT_EQ(again.interior, set.interior);
+    EXPECT_EQ(again.exterior, set.exterior);
+    EXPECT_EQ(again.surface, set.surface);
 }
 
 TEST_F(Markups, RefusalsNameMarkupPointNumberAndLimit) {
@@ -163,12 +219,11 @@ TEST_F(Markups, WholeNumbersKeepTheirDecimalPoint) {
     EXPECT_EQ(read_markups(folder_ / "out.mrk.json").contours[0].points, set.contours[0].points);
 }
 
-TEST_F(Markups, RefusesToWriteWhatTheFormatCannotHold) {
-    ContourSet open = test::three_circles(), points = open, broken = open;
-    open.contours[1].closed = false;
-    points.interior = {{0, 0, 0}};
+TEST_F(Markups, RefusesToWriteWhatIsNoNumber) {
+    ContourSet broken = test::three_circles(), points = broken;
+    points.surface = {{{0, std::numeric_limits<double>::quiet_NaN(), 0}, {}}};
     broken.contours[2].points[0].x = std::numeric_limits<double>::infinity();
-    for (const ContourSet& set : {open, points, broken}) EXPECT_THROW(write_markups(folder_ / "out.mrk.json", set), Error);
+    for (const ContourSet& set : {points, broken}) EXPECT_THROW(write_markups(folder_ / "out.mrk.json", set), Error);
     EXPECT_FALSE(fs::exists(folder_ / "out.mrk.json"));
 }
 

@@ -102,12 +102,28 @@ TEST_F(RtstructTest, SaysWhatItLeftOutAndWhatIsAmbiguous) {
         EXPECT_EQ(select_roi(set, roi).contours.contours.size(), contours) << roi;
         EXPECT_EQ(select_roi(set, roi).notes, notes) << roi;
     };
-    expect("other types", 1, {"left out 1 contour of type OPEN_PLANAR", "left out 1 contour of type POINT"});
+    expect("other types", 3,
+           {"left out 1 contour of type OPEN_NONPLANAR", "left out 1 contour without area",
+            "read as stretches of the object's boundary: 2 open contours",
+            "read as points on the object's surface: 1 single point"});
     expect("without area", 1, {"left out 2 contours without area"});
     expect("repeated", 1, {"left out 1 repetition of another contour"});
     expect("closing point", 1, {"left out 1 repetition of a neighbouring point"});
     expect("overlapping", 2, {"contours 1 and 2 overlap in part; even-odd filling leaves the overlap out"});
     EXPECT_EQ(point_count(select_roi(set, "closing point").contours), 4u);
+}
+
+TEST_F(RtstructTest, OpenContoursAndPointsBelongToTheBoundary) {
+    const ContourSet set = select_roi(read_rtstruct(make("good")), "other types").contours;
+    ASSERT_EQ(set.contours.size(), 3u);
+    EXPECT_FALSE(set.contours[0].closed);
+    EXPECT_EQ(set.contours[0].points, (std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}));
+    EXPECT_TRUE(set.contours[1].closed);
+    EXPECT_FALSE(set.contours[1].hole) << "open contours enclose nothing";
+    EXPECT_FALSE(set.contours[2].closed);
+    EXPECT_EQ(set.contours[2].plane.normal, (Vec3{0, 0, 1})) << "a straight one lies on a slice like the others";
+    EXPECT_EQ(set.surface, (std::vector<SurfacePoint>{{{1, 2, 3}, {}}}));
+    EXPECT_NO_THROW(check_contours(set));
 }
 
 TEST_F(RtstructTest, GivesContoursOfOneSliceOnePlane) {

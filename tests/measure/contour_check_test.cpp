@@ -181,6 +181,7 @@ TEST(ContourCheck, HolesAndOverlaps) {
     const Finding unmarked = only(ball_and(inner), Kind::unmarked_hole);
     EXPECT_EQ(unmarked.contour, 3u);
     EXPECT_EQ(unmarked.other, 1u);
+    EXPECT_EQ(unmarked.severity, Severity::note) << "it becomes a hole";
     inner.hole = true;
     EXPECT_TRUE(check_contour_set(ball_and(inner)).empty());
 

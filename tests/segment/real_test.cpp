@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/extract/rasterize.h"
 #include "kontur/io/contour_json.h"
 #include "kontur/io/image.h"
+#include "kontur/io/rtstruct.h"
 #include "kontur/segment.h"
 #include "support/coarse_grid.h"
 #include "support/test_data.h"
@@ -21,7 +26,7 @@ constexpr const char* kPlanes[] = {"ortho3x3", "ortho3x3_handdrawn", "radial6", 
 constexpr RealSet kSets[] = {
     {"hippocampus_label5", {0.937, 0.870, 0.970, 0.901, 0.960}},
     {"kidney_right_5mm", {0.964, 0.950, 0.967, 0.949, 0.953}},
-    {"lateral_ventricles", {0.845, 0.814, 0.823, 0.845, 0.795}},
+    {"lateral_ventricles", {0.845, 0.822, 0.827, 0.845, 0.795}},
     {"liver_5mm", {0.955, 0.935, 0.961, 0.932, 0.933}},
     {"sarcoma_STS_040_CT", {0.967, 0.962, 0.969, 0.961, 0.956}},
     {"vertebral_body_L5label", {0.971, 0.943, 0.943, 0.961, 0.951}},
@@ -42,6 +47,43 @@ TEST_P(RealContours, DefaultOptionsReachTheKnownAgreementFromEverySetOfPlanes) {
         EXPECT_LT(result.report.residual.rms_mm, 0.5) << kPlanes[p];
         EXPECT_LT(result.report.iterations, 25 * result.report.solves) << kPlanes[p];
     }
+}
+
+/// A quarter of the points, so that it takes seconds; all of them: docs/accuracy.md.
+Segmentation of_a_quarter(const ContourSet& contours, const Grid& grid) {
+    SegmentOptions options;
+    options.quality = 0.25;
+    return segment(contours, grid, options);
+}
+
+TEST(RealBranches, ATumourOfSeveralContoursASliceIsOnePieceWithItsHoles) {
+    KONTUR_REQUIRE_DATA("04_sarcoma_STS_040");
+    const std::filesystem::path folder = test::data_dir() / "04_sarcoma_STS_040/CT";
+    const ContourSet contours = select_roi(read_rtstruct(folder / "RTSTRUCT_RS.dcm")).contours;
+    ASSERT_EQ(point_count(contours), 25540u);
+    const Mask truth = read_mask(folder / "CT_mask.nii.gz");
+    const Segmentation result = of_a_quarter(contours, truth.grid);
+    EXPECT_GT(test::dice(result.mask.values, truth.values), 0.997);
+    EXPECT_EQ(result.report.mask_components, 1);
+    EXPECT_LT(result.report.iterations, 25 * result.report.solves);
+}
+
+TEST(RealBranches, ALungKeepsTheHolesOfItsVessels) {
+    KONTUR_REQUIRE_DATA("09_rtstruct_breast_dicompyler");
+    const std::filesystem::path file = test::data_dir() / "09_rtstruct_breast_dicompyler/rtss.dcm";
+    const ContourSet contours = select_roi(read_rtstruct(file), "Lt Lung").contours;
+    const auto holes = std::ranges::count_if(contours.contours, [](const Contour& c) { return c.hole; });
+    EXPECT_GE(holes, 70);
+    const Box3 box = bounding_box(contours);
+    Grid grid;
+    grid.size = {static_cast<std::int64_t>(box.size().x / 2) + 12, static_cast<std::int64_t>(box.size().y / 2) + 12,
+                 std::lround(box.size().z / 3) + 5};
+    grid.index_to_mm.linear = {{{2, 0, 0}, {0, 2, 0}, {0, 0, 3}}};
+    grid.index_to_mm.translation = box.min - Vec3{12, 12, 6};
+    const Mask truth = rasterize(contours, grid);
+    const Segmentation result = of_a_quarter(contours, grid);
+    EXPECT_GT(test::dice(result.mask.values, truth.values), 0.98);
+    EXPECT_LT(result.report.iterations, 25 * result.report.solves);
 }
 
 INSTANTIATE_TEST_SUITE_P(, RealContours, testing::ValuesIn(kSets),

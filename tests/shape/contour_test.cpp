@@ -75,6 +75,9 @@ TEST(CheckContours, RefusesMeaningsThatContradictEachOther) {
               "contour 1 is closed and says on which hand the object lies; only open contours need that");
     EXPECT_EQ(refused([](Contour& c) { c.closed = false, c.inside = Hand::left; }), "");
     EXPECT_EQ(refused([](Contour& c) { c.end = ContourEnd::flat; }), "");
+    EXPECT_EQ(refused([](Contour& c) { c.weight = 0; }), "contour 1 has the weight 0; it must be from 0.001 to 1000");
+    EXPECT_NE(refused([](Contour& c) { c.weight = std::numeric_limits<double>::quiet_NaN(); }), "");
+    EXPECT_EQ(refused([](Contour& c) { c.weight = 1000; }), "");
 }
 
 TEST(CheckContours, SurfacePointsAreFiniteAndTheirDirectionsUnit) {

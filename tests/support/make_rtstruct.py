@@ -49,7 +49,14 @@ ROIS = {
     "exclusive": [(XOR, square(0, 9)), (XOR, square(3, 6))],
     "nested": [(PLANAR, square(3, 6)), (PLANAR, square(0, 9)), (PLANAR, square(4, 5)), (PLANAR, square(3, 6, 3.0))],
     "overlapping": [(PLANAR, square(0, 6)), (PLANAR, square(3, 9))],
-    "other types": [("POINT", [(1, 2, 3)]), ("OPEN_PLANAR", square(0, 4)), (PLANAR, square(0, 4))],
+    "other types": [
+        ("POINT", [(1, 2, 3)]),
+        ("OPEN_PLANAR", square(0, 4)),
+        (PLANAR, square(0, 4)),
+        ("OPEN_NONPLANAR", square(0, 4)),
+        ("OPEN_PLANAR", [(0, 0, 5), (3, 0, 5)]),
+        ("OPEN_PLANAR", [(0, 0, 5), (0, 0, 5)]),
+    ],
     "without area": [
         (PLANAR, [(0, 0, 0), (1, 0, 0)]),
         (PLANAR, [(0, 0, 0), (1, 0, 0), (2, 0, 0)]),

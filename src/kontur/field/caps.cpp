@@ -128,6 +128,9 @@ bool has_open_contour(const ContourSet& set, const Plane& plane, double toleranc
                        [&](const Contour& c) { return !c.closed && coincide(c.plane, plane, tolerance); });
 }
 
+// Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
+constexpr double kProbeTrust = 0.05;
+
 void append_leak_probes(const Section& section, const Box3& box, double step, int threads, std::vector<Cap>& probes) {
     const Point2 center = section.plane.to_uv(box.center());
     const int reach = static_cast<int>(std::ceil(box.diagonal() / 2 / step));
@@ -139,7 +142,8 @@ void append_leak_probes(const Section& section, const Box3& box, double step, in
                 const Vec3 position = section.plane.from_uv(at[0], at[1]);
                 if (!box.contains(position) || section.contains(at)) continue;
                 const double clear = section.clearance(at);
-                if (clear > step) rows[static_cast<std::size_t>(begin)].push_back({position, 0, -clear / 2});
+                if (clear > step) rows[static_cast<std::size_t>(begin)].push_back(
+                        {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kProbeTrust});
             }
     });
     for (const std::vector<Cap>& row : rows) probes.insert(probes.end(), row.begin(), row.end());

@@ -17,6 +17,7 @@ struct Cap {
     double least_mm = -std::numeric_limits<double>::infinity();
     bool from_start = false;  ///< prescribed whether or not it does
     ConstraintKind kind = ConstraintKind::cap;
+    double trust = 1;  ///< of that constraint
 
     bool allows(double f) const { return f >= least_mm && f <= most_mm; }
 };

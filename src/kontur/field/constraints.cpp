@@ -78,7 +78,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal,
               points[i].trust);
     }
-    for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind);
+    for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind, p.trust);
     return result;
 }
 

@@ -35,6 +35,7 @@ struct PointConstraint {
     Vec3 position;
     double value;
     ConstraintKind kind;
+    double trust = 1;  ///< > 0: how closely f is to follow, against smoothness
 };
 
 /// Where the implicit function is prescribed, and its value there. Values are in mm, so that |f| near the surface is about

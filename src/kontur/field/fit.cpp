@@ -96,7 +96,7 @@ public:
 
     void append_to(std::vector<PointConstraint>& points) const {
         for (std::size_t i = 0; i < caps_.size(); ++i)
-            if (active_[i]) points.push_back({caps_[i].position, caps_[i].value_mm, caps_[i].kind});
+            if (active_[i]) points.push_back({caps_[i].position, caps_[i].value_mm, caps_[i].kind, caps_[i].trust});
     }
     std::size_t count() const { return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true)); }
 

@@ -43,10 +43,14 @@ void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
                         tidied.thinned_contours, tidied.thinned_points, tidied.thinned_mm));
 }
 
-void append_closed(const Contour& contour, std::int32_t index, PreparedContours& prepared) {
+void append_closed(const Contour& contour, std::int32_t index, Corners corners, PreparedContours& prepared) {
     const ContourOrientation orientation = orient(contour);
+    // At a corner the surface has no one direction: its edges' points beside it have theirs.
+    const std::vector<bool> is_corner =
+        corners == Corners::faithful ? find_corners(contour) : std::vector<bool>(contour.points.size(), false);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
-        prepared.points.push_back({contour.points[i], orientation.normals[i], contour.plane.normal, index});
+        prepared.points.push_back({contour.points[i], is_corner[i] ? Vec3{} : orientation.normals[i], contour.plane.normal,
+                                   index, contour.weight});
     const auto append_to = [](std::vector<Vec3>& to, const std::vector<Vec3>& from) {
         to.insert(to.end(), from.begin(), from.end());
     };
@@ -58,7 +62,7 @@ void append_open(const Contour& contour, std::int32_t index, PreparedContours& p
     const std::vector<Vec3> left = left_normals(contour);
     const double outward = contour.inside == Hand::left ? -1 : 1;
     for (std::size_t i = 0; i < contour.points.size(); ++i)
-        prepared.points.push_back({contour.points[i], outward * left[i], contour.plane.normal, index});
+        prepared.points.push_back({contour.points[i], outward * left[i], contour.plane.normal, index, contour.weight});
 }
 
 void append_surface_points(const ContourSet& set, PreparedContours& prepared) {
@@ -68,10 +72,10 @@ void append_surface_points(const ContourSet& set, PreparedContours& prepared) {
 }
 
 /// Contours beyond the drawn ones are copies of the first.
-void append_boundary(ContourSet& set, std::size_t drawn, PreparedContours& prepared) {
+void append_boundary(ContourSet& set, std::size_t drawn, Corners corners, PreparedContours& prepared) {
     const auto index = [&](std::size_t c) { return static_cast<std::int32_t>(c < drawn ? c : 0); };
     for (std::size_t c = 0; c < set.contours.size(); ++c)
-        if (set.contours[c].closed) append_closed(set.contours[c], index(c), prepared);
+        if (set.contours[c].closed) append_closed(set.contours[c], index(c), corners, prepared);
     append_surface_points(set, prepared);
     const std::vector<std::string> notes = find_sides(set, prepared.points);
     prepared.notes.insert(prepared.notes.end(), notes.begin(), notes.end());
@@ -94,6 +98,14 @@ void append_limits(const ContourSet& set, const PrepareOptions& options, Prepare
     prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
 }
 
+Contour refined(const Contour& contour, const PrepareOptions& options) {
+    const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
+    if (options.corners == Corners::rounded || !contour.closed) return refine(contour, least_segments);
+    double perimeter = distance(contour.points.back(), contour.points.front());
+    for (std::size_t i = 1; i < contour.points.size(); ++i) perimeter += distance(contour.points[i - 1], contour.points[i]);
+    return refine_to_corners(contour, options.corner_spacing_mm, perimeter / std::max(least_segments, 1));
+}
+
 }  // namespace
 
 PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options) {
@@ -106,13 +118,12 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
     prepared.coplanar = is_coplanar(set);
 
     ContourSet fitted = set;
-    const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
-    for (Contour& contour : fitted.contours) contour = refine(reduce(contour, {options.quality}), least_segments);
+    for (Contour& contour : fitted.contours) contour = refined(reduce(contour, {options.quality}), options);
     if (prepared.coplanar && options.copy_shift_mm > 0) {
         const Contour& first = fitted.contours.front();
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
-    append_boundary(fitted, set.contours.size(), prepared);
+    append_boundary(fitted, set.contours.size(), options.corners, prepared);
     if (options.gaps) find_gaps(fitted, 0.1 * diagonal, 1e-3 * diagonal, prepared.points, options.threads);
     append_limits(set, options, prepared);
     return prepared;

@@ -6,6 +6,7 @@
 
 #include "kontur/field/caps.h"
 #include "kontur/field/constraints.h"
+#include "kontur/field/corners.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
@@ -19,6 +20,8 @@ struct PrepareOptions {
     bool gaps = true;                         ///< keep normal constraints clear of the opposite wall (find_gaps)
     double click_margin_mm = 1.0;             ///< how far f must be from 0 at interior and exterior points
     int threads = 0;                          ///< 0: the machine's
+    Corners corners = Corners::rounded;       ///< what becomes of the corners of closed contours
+    double corner_spacing_mm = 0.05;          ///< faithful corners: from a corner to the point beside it
 };
 
 /// The contours as the fit sees them.

@@ -19,13 +19,24 @@ std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> cros
         if (doubts.size() <= contour) doubts.resize(contour + 1);
         doubts[contour].push_back(doubt);
     };
+    const auto weight = [&](std::size_t contour) {
+        return contour < options.weights.size() ? options.weights[contour] : 1.0;
+    };
     for (const Crossing& crossing : crossings) {
         if (!crossing.matched || !(crossing.disagreement_mm > 0)) continue;
         const double relative = crossing.disagreement_mm / options.offset_mm;
-        const Doubt doubt{crossing.position, crossing.other_position, options.reach * crossing.disagreement_mm,
-                          options.strength * relative * relative};
-        add(std::min(crossing.contour, crossing.other), doubt);
-        if (options.conflicts == Conflicts::reconcile) add(std::max(crossing.contour, crossing.other), doubt);
+        const auto doubt = [&](double share) {
+            return Doubt{crossing.position, crossing.other_position, options.reach * crossing.disagreement_mm,
+                         share * options.strength * relative * relative};
+        };
+        const auto [older, newer] = std::minmax({crossing.contour, crossing.other});
+        if (options.conflicts == Conflicts::newest_wins) {
+            add(older, doubt(1));
+            continue;
+        }
+        const double both = weight(older) + weight(newer);
+        add(older, doubt(2 * weight(newer) / both));
+        add(newer, doubt(2 * weight(older) / both));
     }
     return doubts;
 }

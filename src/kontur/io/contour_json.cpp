@@ -2,6 +2,7 @@
 #include "kontur/io/contour_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -96,6 +97,7 @@ Contour read_contour(const json& item, const Plane& plane, PatientFrame frame) {
                     flag_member(item, "hole", false)};
     contour.end = named_member(item, "end", {ContourEnd::flat, ContourEnd::round}).value_or(ContourEnd::automatic);
     contour.inside = named_member(item, "inside", {Hand::left, Hand::right});
+    contour.weight = number_member(item, "weight", 1);
     std::vector<Vec3>& points = contour.points;
     if (contour.closed && points.size() > 1 && points.back() == points.front()) points.pop_back();
     return contour;
@@ -173,6 +175,8 @@ std::string to_text(const Contour& contour) {
     std::string text = fmt::format("    {{\"closed\": {}, \"hole\": {}, ", contour.closed, contour.hole);
     if (contour.end != ContourEnd::automatic) text += fmt::format("\"end\": \"{}\", ", name(contour.end));
     if (contour.inside) text += fmt::format("\"inside\": \"{}\", ", name(*contour.inside));
+    if (!std::isfinite(contour.weight)) throw Error(ErrorKind::invalid_input, "a contour's weight is NaN or infinite");
+    if (contour.weight != 1) text += fmt::format("\"weight\": {}, ", contour.weight);
     return text + fmt::format("\"points\": {}}}", to_text(contour.points));
 }
 

@@ -153,6 +153,10 @@ std::string text_member(const json& object, const char* key, const std::string& 
     return value.get<std::string>();
 }
 
+double number_member(const json& object, const char* key, double fallback) {
+    return object.contains(key) ? to_number(object[key], fmt::format("'{}'", key)) : fallback;
+}
+
 bool flag_member(const json& object, const char* key, bool fallback) {
     if (!object.contains(key)) return fallback;
     const json& value = member(object, key);

@@ -25,8 +25,9 @@ const nlohmann::json& member(const nlohmann::json& object, const char* key);
 /// The member `key`, which must be an array.
 const nlohmann::json& array_member(const nlohmann::json& object, const char* key);
 
-/// The member `key` as text or truth value, or `fallback` when it is absent. Another type is an Error(corrupt_file).
+/// The member `key` as text, truth value or number, or `fallback` when it is absent. Another type is an Error(corrupt_file).
 std::string text_member(const nlohmann::json& object, const char* key, const std::string& fallback);
+double number_member(const nlohmann::json& object, const char* key, double fallback);
 bool flag_member(const nlohmann::json& object, const char* key, bool fallback);
 
 /// The value as a message quotes it: itself when it is no array and no object, whose depth has no limit, else what it is.

@@ -16,7 +16,7 @@ using nlohmann::json;
 constexpr std::string_view kSchema =
     "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
     "markups-schema-v1.0.3.json#";
-constexpr std::string_view kHole = "hole";
+constexpr std::string_view kHole = "hole", kInside = "inside", kOutside = "outside";
 
 [[noreturn]] void refuse(ErrorKind kind, const std::string& message) { throw Error(kind, message); }
 
@@ -49,44 +49,89 @@ bool has_position(const json& control_point) {
     return text_member(control_point, "positionStatus", "defined") == "defined" && control_point.contains("position");
 }
 
-std::vector<Vec3> read_points(const json& markup) {
+struct ControlPoint {
+    Vec3 position;  ///< mm, LPS
+    std::string description;
+};
+
+std::vector<ControlPoint> read_control_points(const json& markup) {
     const PatientFrame frame = read_frame(markup);
     const double unit_mm = read_unit_mm(markup);
-    std::vector<Vec3> points;
+    std::vector<ControlPoint> points;
     for_each_item(array_member(markup, "controlPoints"), "control point", [&](const json& item) {
-        if (has_position(item)) points.push_back(unit_mm * to_lps(frame, to_vec3(member(item, "position"))));
+        if (has_position(item))
+            points.push_back({unit_mm * to_lps(frame, to_vec3(member(item, "position"))), text_member(item, "description", "")});
     });
-    if (points.size() > 1 && points.back() == points.front()) points.pop_back();
     return points;
 }
 
-bool is_hole(const json& markup) {
-    const json& points = array_member(markup, "controlPoints");
-    return std::any_of(points.begin(), points.end(),
-                       [](const json& p) { return text_member(p, "description", "") == kHole; });
-}
-
-Plane plane_of(const std::vector<Vec3>& points, double tolerance_mm) {
-    if (points.size() < 3)
-        refuse(ErrorKind::invalid_input, fmt::format("has {} points with a position; at least 3 are needed", points.size()));
-    const std::optional<Plane> plane = fit_plane(points);
-    if (!plane) refuse(ErrorKind::invalid_input, fmt::format("its {} points lie on one line", points.size()));
+void check_planar(const std::vector<Vec3>& points, const Plane& plane, double tolerance_mm) {
     double off_plane = 0;
-    for (const Vec3& p : points) off_plane = std::max(off_plane, std::abs(plane->distance_to(p)));
+    for (const Vec3& p : points) off_plane = std::max(off_plane, std::abs(plane.distance_to(p)));
     if (!(off_plane <= tolerance_mm))
         refuse(ErrorKind::invalid_input,
                fmt::format("is not planar: points lie up to {:.6g} mm off the plane fitted to it; the "
                            "limit is {:g} mm",
                            off_plane, tolerance_mm));
-    return *plane;
 }
 
-Contour read_curve(const json& markup, const ReadMarkupsOptions& options) {
+Contour read_curve(const json& markup, bool closed, double tolerance_mm) {
+    const std::vector<ControlPoint> controls = read_control_points(markup);
+    Contour contour;
+    contour.closed = closed;
+    for (const ControlPoint& control : controls) {
+        contour.points.push_back(control.position);
+        contour.hole = contour.hole || (closed && control.description == kHole);
+    }
+    std::vector<Vec3>& points = contour.points;
+    if (closed && points.size() > 1 && points.back() == points.front()) points.pop_back();
+    const std::size_t least = closed ? 3 : 2;
+    if (points.size() < least)
+        refuse(ErrorKind::invalid_input,
+               fmt::format("has {} points with a position; at least {} are needed", points.size(), least));
+    if (const std::optional<Plane> plane = fit_plane(points)) {
+        check_planar(points, *plane, tolerance_mm);
+        contour.plane = *plane;
+    } else if (closed) {
+        refuse(ErrorKind::invalid_input, fmt::format("its {} points lie on one line", points.size()));
+    } else {
+        contour.plane.normal = {};  // to be taken from another curve
+    }
+    return contour;
+}
+
+/// Gives a straight curve a plane parallel to another curve's.
+void find_plane(Contour& straight, const std::vector<Contour>& contours, double tolerance_mm) {
+    for (const Contour& other : contours) {
+        if (other.plane.normal == Vec3{}) continue;
+        Plane plane = other.plane;
+        plane.origin = straight.points.front();
+        if (std::ranges::all_of(straight.points,
+                                [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= tolerance_mm; })) {
+            straight.plane = plane;
+            return;
+        }
+    }
+    refuse(ErrorKind::invalid_input, fmt::format("its {} points lie on one line, and no other curve tells in which plane",
+                                                 straight.points.size()));
+}
+
+void append_points(const json& markup, ContourSet& set) {
+    for (const ControlPoint& control : read_control_points(markup)) {
+        if (control.description == kInside) set.interior.push_back(control.position);
+        else if (control.description == kOutside) set.exterior.push_back(control.position);
+        else set.surface.push_back({control.position});
+    }
+}
+
+void append_markup(const json& markup, const ReadMarkupsOptions& options, ContourSet& set) {
     const std::string type = text_member(markup, "type", "");
-    if (type != "ClosedCurve")
-        refuse(ErrorKind::unsupported, "is a markup of type \"" + type + "\"; only ClosedCurve is a contour");
-    const std::vector<Vec3> points = read_points(markup);
-    return {plane_of(points, options.plane_tolerance_mm), points, true, is_hole(markup)};
+    if (type == "Fiducial") append_points(markup, set);
+    else if (type == "ClosedCurve" || type == "Curve")
+        set.contours.push_back(read_curve(markup, type == "ClosedCurve", options.plane_tolerance_mm));
+    else
+        refuse(ErrorKind::unsupported,
+               "is a markup of type \"" + type + "\"; closed and open curves and point lists are supported");
 }
 
 /// What several numbered names have in common: "liver 1", "liver 12" give "liver".
@@ -108,53 +153,76 @@ ContourSet read_set(const json& document, const ReadMarkupsOptions& options) {
     ContourSet set;
     std::vector<std::string> names;
     for_each_item(markups, "markup", [&](const json& markup) {
-        set.contours.push_back(read_curve(markup, options));
-        names.push_back(text_member(markup, "name", ""));
+        const std::size_t before = set.contours.size();
+        append_markup(markup, options, set);
+        if (set.contours.size() > before) names.push_back(text_member(markup, "name", ""));
     });
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (set.contours[c].plane.normal == Vec3{})
+            in_context(fmt::format("curve {}", c + 1),
+                       [&] { find_plane(set.contours[c], set.contours, options.plane_tolerance_mm); });
     set.name = common_name(names);
     return set;
 }
 
 void check_writable(const ContourSet& set) {
-    if (!set.interior.empty() || !set.exterior.empty())
-        refuse(ErrorKind::unsupported, "3D Slicer markups hold no interior and exterior points");
-    for (std::size_t i = 0; i < set.contours.size(); ++i) {
-        if (!set.contours[i].closed)
-            refuse(ErrorKind::unsupported,
-                   fmt::format("contour {} is open; 3D Slicer markups are written as closed curves", i + 1));
-        for (const Vec3& p : set.contours[i].points)
-            if (!is_finite(p))
-                refuse(ErrorKind::invalid_input, fmt::format("contour {} has a NaN or infinite coordinate", i + 1));
-    }
+    const auto is_written = [](const std::vector<Vec3>& points) { return std::ranges::all_of(points, is_finite); };
+    for (std::size_t i = 0; i < set.contours.size(); ++i)
+        if (!is_written(set.contours[i].points))
+            refuse(ErrorKind::invalid_input, fmt::format("contour {} has a NaN or infinite coordinate", i + 1));
+    if (!is_written(set.interior) || !is_written(set.exterior) ||
+        !std::ranges::all_of(set.surface, [](const SurfacePoint& p) { return is_finite(p.position); }))
+        refuse(ErrorKind::invalid_input, "a single point has a NaN or infinite coordinate");
 }
 
 /// 3D Slicer refuses whole numbers without a decimal point in positions; the JSON library always writes it for doubles.
-std::string to_text(const Contour& contour) {
+std::string to_text(const std::vector<ControlPoint>& points) {
     std::string text;
-    for (std::size_t i = 0; i < contour.points.size(); ++i) {
-        const Vec3& p = contour.points[i];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3& p = points[i].position;
         text += fmt::format(
             "{}\n    {{\"id\": \"{}\", \"label\": \"\", \"description\": \"{}\", \"position\": {}, "
             "\"positionStatus\": \"defined\"}}",
-            i == 0 ? "" : ",", i + 1, contour.hole ? kHole : "", json::array({p.x, p.y, p.z}).dump());
+            i == 0 ? "" : ",", i + 1, points[i].description, json::array({p.x, p.y, p.z}).dump());
     }
     return text;
 }
 
-std::string name_member(const ContourSet& set, std::size_t index) {
-    if (set.name.empty()) return {};
-    const std::string name = set.contours.size() == 1 ? set.name : fmt::format("{} {}", set.name, index + 1);
-    return "\"name\": " + json(name).dump(-1, ' ', false, json::error_handler_t::replace) + ", ";
+std::vector<ControlPoint> controls_of(const Contour& contour) {
+    std::vector<ControlPoint> controls;
+    for (const Vec3& p : contour.points) controls.push_back({p, std::string(contour.hole ? kHole : "")});
+    return controls;
+}
+
+std::vector<ControlPoint> single_points_of(const ContourSet& set) {
+    std::vector<ControlPoint> controls;
+    for (const SurfacePoint& p : set.surface) controls.push_back({p.position, ""});
+    for (const Vec3& p : set.interior) controls.push_back({p, std::string(kInside)});
+    for (const Vec3& p : set.exterior) controls.push_back({p, std::string(kOutside)});
+    return controls;
+}
+
+std::string name_member(const std::string& name) {
+    return name.empty() ? "" : "\"name\": " + json(name).dump(-1, ' ', false, json::error_handler_t::replace) + ", ";
+}
+
+std::string to_text(std::string_view type, const std::string& name, const std::vector<ControlPoint>& controls) {
+    return fmt::format(
+        "\n  {{\"type\": \"{}\", {}\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", "
+        "\"controlPoints\": [{}]}}",
+        type, name_member(name), to_text(controls));
 }
 
 std::string to_document(const ContourSet& set) {
-    std::string curves;
-    for (std::size_t i = 0; i < set.contours.size(); ++i)
-        curves += fmt::format(
-            "{}\n  {{\"type\": \"ClosedCurve\", {}\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", "
-            "\"controlPoints\": [{}]}}",
-            i == 0 ? "" : ",", name_member(set, i), to_text(set.contours[i]));
-    return fmt::format("{{\"@schema\": \"{}\",\n \"markups\": [{}]}}\n", kSchema, curves);
+    std::vector<std::string> markups;
+    for (std::size_t i = 0; i < set.contours.size(); ++i) {
+        const bool alone = set.name.empty() || set.contours.size() == 1;
+        markups.push_back(to_text(set.contours[i].closed ? "ClosedCurve" : "Curve",
+                                  alone ? set.name : fmt::format("{} {}", set.name, i + 1), controls_of(set.contours[i])));
+    }
+    if (const auto points = single_points_of(set); !points.empty())
+        markups.push_back(to_text("Fiducial", set.name.empty() ? "" : set.name + " points", points));
+    return fmt::format("{{\"@schema\": \"{}\",\n \"markups\": [{}]}}\n", kSchema, fmt::join(markups, ","));
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct Interpretation {
     std::size_t without_area = 0;
     std::size_t repeated = 0;
     std::size_t keyholes = 0;
+    std::size_t open = 0;
     bool declared_xor = false;
 
     void note(const std::string& text) { result.notes.push_back(text); }
@@ -48,7 +49,29 @@ void add_ring(Interpretation& interpretation, std::vector<Vec3> ring) {
     interpretation.result.contours.push_back(std::move(contour));
 }
 
+bool has_length(const std::vector<Vec3>& points) {
+    return std::any_of(points.begin(), points.end(), [&](const Vec3& p) { return p != points.front(); });
+}
+
+void add_open(Interpretation& interpretation, const StoredContour& stored) {
+    if (!has_length(stored.points)) {
+        ++interpretation.without_area;
+        return;
+    }
+    Contour contour;
+    contour.points = stored.points;
+    contour.closed = false;
+    interpretation.result.contours.push_back(std::move(contour));
+    ++interpretation.open;
+}
+
+void add_points(Interpretation& interpretation, const StoredContour& stored) {
+    for (const Vec3& p : stored.points) interpretation.result.surface.push_back({p});
+}
+
 void add_stored(Interpretation& interpretation, const StoredContour& stored) {
+    if (stored.type == "OPEN_PLANAR") return add_open(interpretation, stored);
+    if (stored.type == "POINT") return add_points(interpretation, stored);
     const bool exclusive = stored.type == "CLOSEDPLANAR_XOR";
     if (!exclusive && stored.type != "CLOSED_PLANAR") {
         ++interpretation.other_types[stored.type.empty() ? "unknown" : stored.type];
@@ -84,6 +107,11 @@ void note_omissions(Interpretation& interpretation) {
     if (interpretation.keyholes > 0)
         interpretation.note(
             fmt::format("split into outer contours and holes: {}", counted(interpretation.keyholes, "keyhole contour")));
+    if (interpretation.open > 0)
+        interpretation.note(
+            fmt::format("read as stretches of the object's boundary: {}", counted(interpretation.open, "open contour")));
+    if (const std::size_t points = interpretation.result.surface.size(); points > 0)
+        interpretation.note(fmt::format("read as points on the object's surface: {}", counted(points, "single point")));
 }
 
 void mark_holes(Interpretation& interpretation) {

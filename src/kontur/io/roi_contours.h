@@ -18,6 +18,7 @@ struct StoredContour {
 
 struct InterpretedContours {
     std::vector<Contour> contours;
+    std::vector<SurfacePoint> surface;
     std::vector<std::string> notes;
 };
 

@@ -98,6 +98,7 @@ void read_roi_contours(Roi& roi, DcmItem& roi_contour) {
         roi.color = read_color(roi_contour);
         InterpretedContours interpreted = interpret_contours(read_contours(roi_contour));
         roi.contours.contours = std::move(interpreted.contours);
+        roi.contours.surface = std::move(interpreted.surface);
         roi.notes = std::move(interpreted.notes);
         if (const std::size_t dropped = drop_duplicate_points(roi.contours); dropped > 0)
             roi.notes.push_back(

@@ -35,7 +35,7 @@ enum class FindingKind {
     tiny,             ///< small beside the whole set
     duplicate,        ///< the same outline twice in one plane
     overlap,          ///< two outlines of one plane cross each other
-    unmarked_hole,    ///< inside of another contour of its plane, without saying that it is a hole
+    unmarked_hole,    ///< inside of another contour of its plane, not marked: with FillRule::even_odd it is a hole
     stray_hole,       ///< a hole that no contour surrounds
     contradiction,    ///< contours of different planes disagree where they meet
     misplaced_point,  ///< an interior or exterior point on the wrong side of the contours drawn in its plane

@@ -123,8 +123,9 @@ private:
             std::erase_if(around, [&](std::size_t other) { return is_duplicate(c, other); });
             const bool nested = around.size() % 2 != 0;
             if (nested && !contour(c).hole)
-                add(FindingKind::unmarked_hole, Severity::warning, c,
-                    "lies inside of " + title(around.front()) + " and is not marked as a hole")
+                add(FindingKind::unmarked_hole, Severity::note, c,
+                    "lies inside of " + title(around.front()) +
+                        " and is not marked as a hole; it counts as one unless only declared holes do")
                     .other = index_[around.front()];
             if (!nested && contour(c).hole)
                 add(FindingKind::stray_hole, Severity::warning, c,

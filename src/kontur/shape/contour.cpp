@@ -61,6 +61,9 @@ void check_meaning(const Contour& contour, const std::string& owner) {
         refuse(owner + " is a hole and ends the object; only an outer contour can");
     if (contour.closed && contour.inside)
         refuse(owner + " is closed and says on which hand the object lies; only open contours need that");
+    if (!(contour.weight >= kLeastWeight && contour.weight <= kMostWeight))
+        refuse(fmt::format("{} has the weight {:g}; it must be from {:g} to {:g}", owner, contour.weight, kLeastWeight,
+                           kMostWeight));
 }
 
 void check_contour(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {

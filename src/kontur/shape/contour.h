@@ -34,7 +34,11 @@ struct Contour {
     bool hole = false;  ///< true: the object lies outside of this contour (a cavity's wall); closed contours only
     ContourEnd end = ContourEnd::automatic;  ///< closed contours only
     std::optional<Hand> inside{};            ///< open contours only: where the object lies; unset: to be found out
+    double weight = 1;  ///< how far it is trusted, against smoothness and the contours that it contradicts
 };
+
+/// The range of Contour::weight.
+inline constexpr double kLeastWeight = 1e-3, kMostWeight = 1e3;
 
 /// A single point on the object's surface.
 struct SurfacePoint {
@@ -76,8 +80,8 @@ struct ContourCheckOptions {
 /// Throws Error(invalid_input), naming the contour (counted from 1), the number and the limit, when the set cannot be
 /// segmented: no contour, a closed contour with fewer than 3 points or an open one with fewer than 2, a NaN or infinite
 /// coordinate, a point off its plane by more than the tolerance, a closed contour whose points lie on one line (zero area),
-/// `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole. Interior, exterior and surface points must
-/// be finite, outward directions of length 1.
+/// `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole, a weight out of its range. Interior,
+/// exterior and surface points must be finite, outward directions of length 1.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
 
 /// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.

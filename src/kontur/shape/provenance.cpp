@@ -45,6 +45,7 @@ std::string contours_sha256(const ContourSet& set) {
         for (const bool mark : {contour.closed, contour.hole}) digest.add(std::uint64_t{mark});
         digest.add(static_cast<std::uint64_t>(contour.end));
         digest.add(contour.inside ? 1 + static_cast<std::uint64_t>(*contour.inside) : std::uint64_t{0});
+        if (contour.weight != 1) digest.add(contour.weight);  // digests from before there were weights stay valid
     }
     digest.add(set.interior);
     digest.add(set.exterior);

@@ -44,7 +44,7 @@ torture-short: fuzzer ## fuzz every parser and the pipeline for 30 s each (needs
 	@tools/torture 30
 
 torture: build fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads
-	@KONTUR_MALFORMED_ALL=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 ctest --preset release -R '^(malformed|determinism)\.'
+	@KONTUR_MALFORMED_ALL=1 KONTUR_BIG=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 ctest --preset release -R '^(malformed|determinism|big)\.'
 	@tools/torture 3600
 
 tidy: setup ## clang-tidy over the library and the programs (needs clang-tidy)

@@ -5,10 +5,10 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test asan tsan bench docs format install clean
+.PHONY: fuzzer help setup build demo test asan tsan torture-short torture tidy bench docs format install clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: ## install missing Debian packages (as root or with sudo)
 	@tools/setup
@@ -35,6 +35,21 @@ tsan: setup ## run every test under ThreadSanitizer
 	@cmake --preset tsan >/dev/null
 	@cmake --build --preset tsan -j $(JOBS)
 	@ctest --preset tsan -j $(JOBS)
+
+fuzzer: setup
+	@cmake --preset fuzz >/dev/null
+	@cmake --build --preset fuzz -j $(JOBS) --target kontur_fuzz
+
+torture-short: fuzzer ## fuzz every parser and the pipeline for 30 s each (needs clang)
+	@tools/torture 30
+
+torture: build fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads
+	@KONTUR_MALFORMED_ALL=1 KONTUR_BIG=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 ctest --preset release -R '^(malformed|determinism|big)\.'
+	@tools/torture 3600
+
+tidy: setup ## clang-tidy over the library and the programs (needs clang-tidy)
+	@cmake --preset dev >/dev/null
+	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -n 1 -P $(JOBS) clang-tidy -p build/dev --quiet
 
 bench: build ## time the paper's cases and show the tables (some minutes)
 	@build/release/bin/kontur_bench --json build/bench.json

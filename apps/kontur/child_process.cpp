@@ -25,6 +25,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::fil
     std::vector<std::string> all{"kontur"};
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> argv;
+    argv.reserve(all.size() + 1);
     for (std::string& word : all) argv.push_back(word.data());
     argv.push_back(nullptr);
 

@@ -139,6 +139,9 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
         {{"adaptive", Voxelizer::adaptive}, {"tracked", Voxelizer::tracked}, {"exhaustive", Voxelizer::exhaustive}},
         "Follow the surface from the contours, computing values where needed or at every voxel it "
         "passes; or compute all voxels");
+    sub.add_option("--max-memory-mb", o.max_memory_mb,
+                   "Refuse a run that would take more, with the estimate [what the machine has]")
+        ->type_name("MB");
     sub.add_option("--threads", o.threads, "Threads; 0: as many as the machine has")->type_name("N")->capture_default_str();
 }
 

@@ -4,7 +4,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <span>
+#include <string>
 
 namespace kontur::app {
 namespace {
@@ -74,6 +77,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"surface_voxels", report.surface_voxels},
         {"seconds", seconds_json(report)},
         {"peak_memory_mb", peak_memory_mb()},
+        {"estimated_memory_mb", report.estimated_memory_mb},
         {"mask",
          {{"voxels", report.mask_voxels}, {"volume_ml", report.mask_volume_ml}, {"components", report.mask_components}}},
         {"warnings", report.warnings},
@@ -87,6 +91,10 @@ double total_seconds(const SegmentReport& report) {
 }
 
 double peak_memory_mb() {
+    // The highest mark of this program alone; getrusage's includes that of the program that started it.
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:")) return std::strtod(line.c_str() + 6, nullptr) * 1024 / 1e6;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;  // Linux counts kibibytes

@@ -1081,6 +1081,7 @@ def segment(
     voxelizer: _Voxelizer = "adaptive",
     mesh: bool = False,
     threads: int = 0,
+    max_memory_mb: float | None = None,
 ) -> Segmentation: ...
 
 def select_label(image: Image, label: float) -> Mask: ...

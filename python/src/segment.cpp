@@ -29,7 +29,9 @@ Keywords<SegmentOptions> segment_keywords() {
                "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
                "all voxels.")
         .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
-        .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.");
+        .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.")
+        .field("max_memory_mb", &SegmentOptions::max_memory_mb,
+               "Refuse a run of which the process would hold more; None: the machine's memory.");
 }
 
 /// A report's fields under their C++ names, as the command line's report has them.

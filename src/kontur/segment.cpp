@@ -14,6 +14,7 @@
 #include "kontur/field/clicks.h"
 #include "kontur/fitting.h"
 #include "kontur/measure/components.h"
+#include "kontur/memory_estimate.h"
 
 namespace kontur {
 namespace {
@@ -80,6 +81,9 @@ void describe_crossings(const ContourSet& contours, const Grid& grid, SegmentRep
     if (worst.disagreement_mm > limit_mm) report.warnings.push_back("contours contradict each other: " + sentence(worst));
 }
 
+/// A value on the surface and one beside it for each point, and what ends the object; fewer where some nearly repeat others.
+std::size_t expected_centres(const PreparedContours& prepared) { return 2 * prepared.points.size() + prepared.caps.size(); }
+
 bool reaches_border(const Mask& mask) {
     const Index3& n = mask.grid.size;
     for (std::int64_t k = 0; k < n.k; ++k)
@@ -137,6 +141,8 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     const ContourSet contours = cleaned(drawn, grid, options.fill_rule, report.warnings);
     const Fitting fitting = fitting_for(contours, options);
     const PreparedContours prepared = prepare(contours, fitting);
+    report.estimated_memory_mb = estimated_memory_mb(contours, expected_centres(prepared), grid, options);
+    check_memory(report.estimated_memory_mb, options);
     watch.lap("prepare");
     const Fit fitted = fit(prepared, fitting.fit, progress);
     result.function = fitted.function;

@@ -37,6 +37,8 @@ struct SegmentOptions {
     Voxelizer voxelizer = Voxelizer::adaptive;
     bool mesh = false;  ///< also make the surface
     int threads = 0;    ///< 0: the machine's
+    /// A run of which the process would hold more is refused before it begins to solve; unset: the machine's memory.
+    std::optional<double> max_memory_mb{};
 };
 
 struct SegmentReport {
@@ -65,6 +67,7 @@ struct SegmentReport {
     std::int64_t mask_voxels = 0;
     double mask_volume_ml = 0;
     std::int64_t mask_components = 0;                     ///< face-connected
+    double estimated_memory_mb = 0;                       ///< before the fit, of the whole process
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
     std::vector<std::string> warnings;                    ///< choices made for the user and doubts, one sentence each
 };
@@ -76,7 +79,8 @@ struct Segmentation {
     SegmentReport report;
 };
 
-/// Contours to mask (and mesh) on a grid. Throws Error as check_contours, check_contours_inside, solve and check_grid do.
+/// Contours to mask (and mesh) on a grid. Throws Error as check_contours, check_contours_inside, solve and check_grid do, and
+/// Error(too_large) with the estimate for a run beyond `max_memory_mb`.
 /// The same bytes for any number of threads.
 Segmentation segment(const ContourSet& contours, const Grid& grid, const SegmentOptions& options = {},
                      const Progress& progress = {});

@@ -14,7 +14,7 @@ KONTUR = os.environ["KONTUR_CLI"]
 SANITIZED = bool(os.environ.get("KONTUR_SANITIZED"))  # needs several times the memory and time
 REFUSALS = {1, 65, 66, 69, 74, 77}  # 1: a batch with failed cases
 MAX_CPU_S, MAX_WALL_S, MAX_MB, MAX_SENTENCE = 2.0, 120.0, 256, 2000
-STEP = int(os.environ.get("KONTUR_MALFORMED_STEP", "1"))  # run only every so many-th case
+STEP = 1 if os.environ.get("KONTUR_MALFORMED_ALL") else int(os.environ.get("KONTUR_MALFORMED_STEP", "1"))  # every so many-th case
 
 
 def limit_memory():

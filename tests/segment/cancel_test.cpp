@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "kontur/base/error.h"
+#include "kontur/segment.h"
+#include "support/contour_sets.h"
+#include "support/random.h"
+
+namespace kontur {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+/// Circles of a ball, enough of them that every stage takes its time.
+ContourSet ball() {
+    ContourSet set;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int n = -3; n <= 3; ++n) {
+            Vec3 normal;
+            normal[axis] = 1;
+            set.contours.push_back(
+                test::circle(make_plane(10.0 * n * normal, normal), std::sqrt(1600.0 - 100.0 * n * n), 120));
+        }
+    return set;
+}
+
+/// Seconds from the request to stop to the return; 0 when the call was done before.
+double stop_after(Seconds delay, const ContourSet& set, const Grid& grid, const SegmentOptions& options) {
+    std::stop_source source;
+    Clock::time_point asked{};
+    std::jthread stopper([&] {
+        std::this_thread::sleep_for(delay);
+        asked = Clock::now();
+        source.request_stop();
+    });
+    try {
+        segment(set, grid, options, {{}, source.get_token()});
+    } catch (const Error& error) {
+        const Clock::time_point ended = Clock::now();
+        EXPECT_EQ(name(error.kind()), name(ErrorKind::cancelled)) << error.what();
+        stopper.join();
+        return Seconds(ended - asked).count();
+    }
+    return 0;
+}
+
+/// Leaks show under AddressSanitizer. Times depend on what else the machine does, so they count only with KONTUR_TIMED=1.
+TEST(Cancellation, AtRandomMomentsEndsTheCall) {
+    const ContourSet set = ball();
+    const Grid grid = grid_around(bounding_box(set), {0.6, 0.6, 0.6}, 10);
+    const SegmentOptions options{.mesh = true};
+    const Clock::time_point start = Clock::now();
+    const Segmentation whole = segment(set, grid, options);
+    const double all = Seconds(Clock::now() - start).count();
+
+    std::mt19937 random = test::random_of_this_test();
+    const char* rounds = std::getenv("KONTUR_CANCEL_ROUNDS");
+    double longest = 0;
+    for (int n = rounds ? std::atoi(rounds) : 12; n > 0; --n) {
+        const Seconds delay{std::uniform_real_distribution(0.0, all)(random)};
+        longest = std::max(longest, stop_after(delay, set, grid, options));
+    }
+    std::printf("a call of %.2f s ended at most %.3f s after it was asked to\n", all, longest);
+    if (std::getenv("KONTUR_TIMED")) EXPECT_LT(longest, 0.1);
+    EXPECT_EQ(segment(set, grid, options).mask.values, whole.mask.values);
+}
+
+}  // namespace
+}  // namespace kontur

@@ -147,14 +147,15 @@ std::string name_member(const ContourSet& set, std::size_t index) {
     return "\"name\": " + json(name).dump(-1, ' ', false, json::error_handler_t::replace) + ", ";
 }
 
-std::string to_document(const ContourSet& set) {
+std::string to_document(const ContourSet& set, const Provenance& provenance) {
     std::string curves;
     for (std::size_t i = 0; i < set.contours.size(); ++i)
         curves += fmt::format(
             "{}\n  {{\"type\": \"ClosedCurve\", {}\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", "
             "\"controlPoints\": [{}]}}",
             i == 0 ? "" : ",", name_member(set, i), to_text(set.contours[i]));
-    return fmt::format("{{\"@schema\": \"{}\",\n \"markups\": [{}]}}\n", kSchema, curves);
+    const std::string made = provenance.empty() ? "" : fmt::format(" \"kontur\": {},\n", to_json(provenance));
+    return fmt::format("{{\"@schema\": \"{}\",\n{} \"markups\": [{}]}}\n", kSchema, made, curves);
 }
 
 }  // namespace
@@ -164,9 +165,9 @@ ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOpti
     return in_context(path.string(), [&] { return read_set(document, options); });
 }
 
-void write_markups(const std::filesystem::path& path, const ContourSet& set) {
+void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {
     check_writable(set);
-    write_file_atomically(path, to_document(set));
+    write_file_atomically(path, to_document(set, provenance));
 }
 
 }  // namespace kontur

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kontur/shape/contour.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 
@@ -20,8 +21,8 @@ struct ReadMarkupsOptions {
 ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOptions& options = {});
 
 /// Writes one closed curve per contour, in LPS and mm, whole or not at all. 3D Slicer draws a spline through the points, so
-/// contours should be drawn finely. Throws Error(unsupported) for what the format cannot hold: open contours, interior and
-/// exterior points.
-void write_markups(const std::filesystem::path& path, const ContourSet& set);
+/// contours should be drawn finely. `provenance` goes into the key "kontur", which 3D Slicer passes over. Throws
+/// Error(unsupported) for what the format cannot hold: open contours, interior and exterior points.
+void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

@@ -65,6 +65,23 @@ std::string grid_sha256(const Grid& grid) {
     return digest.hex();
 }
 
+std::string to_json(const Provenance& provenance) {
+    const auto quoted = [](const std::string& text) {
+        std::string result = "\"";
+        for (const char c : text) {
+            if (c == '"' || c == '\\') result += '\\';
+            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        }
+        return result + "\"";
+    };
+    std::string text = "{";
+    for (const auto& [name, value] : provenance) {
+        if (text.size() > 1) text += ", ";
+        text += quoted(name) + ": " + quoted(value);
+    }
+    return text + "}";
+}
+
 std::string short_text(const Provenance& provenance, std::size_t most_bytes) {
     constexpr std::size_t kDigits = 12;
     std::string text;

@@ -38,7 +38,7 @@ def declared(header):
     text = re.sub(r"//[^\n]*", "", (SOURCES / header).read_text())
     functions = re.findall(r"^(?! |using|template|#|friend|\})[\w:<>,&\*\[\] ]+?[ &\*](\w+)\(", text, re.MULTILINE)
     types = re.findall(r"^(?:class|struct) (\w+)", text, re.MULTILINE)
-    return {name for name in functions + types if not name.endswith("Options") and not name.startswith("operator")}
+    return {name for name in functions + types if not name.endswith("Options") and not name.startswith("operator") and name != "name"}
 
 
 def left_out():

@@ -17,7 +17,7 @@ public:
         for (std::size_t n = 0; n < 8; ++n) bytes[n] = static_cast<std::byte>(number >> (8 * n));
         hash_.update(bytes);
     }
-    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number + 0.0)); }  // -0 is 0, as it is in files
     void add(const Vec3& v) {
         for (int axis = 0; axis < 3; ++axis) add(v[axis]);
     }

@@ -55,7 +55,8 @@ bench: build ## time the paper's cases and show the tables (some minutes)
 	@build/release/bin/kontur_bench --json build/bench.json
 	@bench/tables.py build/bench.json
 
-docs: setup ## write the C++ reference to build/release/reference/html
+docs: ## write the C++ reference to build/release/reference/html (installs doxygen)
+	@tools/setup doxygen
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --target kontur_reference
 

@@ -34,6 +34,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # A module is made for one version of Python.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${Python_NEXT_MINOR}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/python3-kontur/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}\nThe Python package.")
 include(CPack)

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "dicom_output.h"
+#include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/io/mesh.h"
 #include "outputs.h"
@@ -45,21 +46,30 @@ FileKind check_kinds(const ConvertCommand& command) {
                             words(*to), command.output.string(), advice(from, *to)));
 }
 
+/// A conversion changes the format alone, so the source says all.
+Provenance provenance_of(const ConvertCommand& command, const Progress& progress) {
+    return made_by("convert", {{"source", command.input.path}},
+                   command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "", progress);
+}
+
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
+    const Provenance made = provenance_of(command, console.progress());
     switch (kind) {
         case FileKind::image: {
             const ImageInput& input = command.input;
             const Image image = read_image(input.path, console.noting(input.options), console.progress());
-            return write_image(output, image, input.path, {command.image, input.options}, console.progress());
+            return write_image(output, image, input.path, {command.image, input.options}, made, console.progress());
         }
         case FileKind::contours: {
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
             const ImageInput images{command.image, command.input.options};
-            return console.note(write_contours(output, loaded.contours, images, command.write_rtstruct));
+            WriteRtstructOptions write = command.write_rtstruct;
+            write.provenance = made;
+            return console.note(write_contours(output, loaded.contours, images, write));
         }
         case FileKind::mesh:
-            return write_mesh(output, read_mesh(command.input.path));
+            return write_mesh(output, read_mesh(command.input.path), made);
     }
 }
 

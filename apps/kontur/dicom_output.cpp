@@ -28,12 +28,20 @@ Rgb8 to_rgb8(const std::array<double, 3>& color) {
     return result;
 }
 
-/// The options that make a fit reproducible.
-std::string parameters(const SegmentReport& report) {
-    return fmt::format(
-        "kernel={} normals={} normal_offset_mm={:.9g} smoothing={:g} quality={:g} solver={} contours={} points={}",
-        name(report.kernel), name(report.normals), report.normal_offset_mm, report.smoothing, report.quality,
-        name(report.solver), report.contours, report.points);
+/// What makes a fit reproducible.
+std::string parameters(const SegmentReport& report, const Provenance& provenance) {
+    std::string text = fmt::format("contours={} points={}", report.contours, report.points);
+    for (const auto& [name, value] : provenance) text += fmt::format("; {}: {}", name, value);
+    return text;
+}
+
+std::vector<LabelName> label_names(const std::vector<DicomSegment>& segments) {
+    std::vector<LabelName> names;
+    for (const DicomSegment& segment : segments) {
+        const Rgb8 color = segment.color.value_or(kColor);
+        names.push_back({segment.number, segment.label, {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0}});
+    }
+    return names;
 }
 
 /// What the source says about its segments; empty where it says nothing.
@@ -73,7 +81,7 @@ void check_dicom_images(const fs::path& output, const fs::path& images) {
 std::vector<std::string> write_contours(const fs::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options) {
     if (!is_dicom_name(path)) {
-        kontur::write_contours(path, set);
+        kontur::write_contours(path, set, options.provenance);
         return {};
     }
     Roi roi;
@@ -89,15 +97,20 @@ void write_mask(const fs::path& path, const Segmentation& result, const ImageInp
     if (!is_dicom_name(path)) return kontur::write_mask(path, result.mask, options);
     const DicomSegment segment{
         .label = options.segment_name, .algorithm_name = "kontur", .color = to_rgb8(options.segment_color)};
-    const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION, parameters(result.report)};
-    write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images), {.algorithm = algorithm},
-                    progress);
+    const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
+                                   parameters(result.report, options.provenance)};
+    write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images),
+                    {.algorithm = algorithm, .provenance = options.provenance}, progress);
 }
 
 void write_image(const fs::path& path, const Image& image, const fs::path& source, const ImageInput& images,
-                 const Progress& progress) {
-    if (!is_dicom_name(path)) return kontur::write_image(path, image);
-    write_dicom_seg(path, image, segments_of(image, source), series_of(images), {}, progress);
+                 const Provenance& provenance, const Progress& progress) {
+    if (!is_dicom_name(path)) {
+        const bool has_names = path.filename().string().ends_with(".seg.nrrd");
+        const std::vector<LabelName> names = has_names ? label_names(named_segments(source)) : std::vector<LabelName>{};
+        return kontur::write_image(path, image, {names, provenance});
+    }
+    write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, progress);
 }
 
 }  // namespace kontur::app

@@ -18,7 +18,8 @@ namespace kontur::app {
 /// Throws Error(invalid_input), before any work is done, when DICOM is to be written without DICOM images to refer to.
 void check_dicom_images(const std::filesystem::path& output, const std::filesystem::path& images);
 
-/// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm. Returns what the user should know.
+/// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm; how they were made is in
+/// `options.provenance`. Returns what the user should know.
 std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options);
 
@@ -26,9 +27,9 @@ std::vector<std::string> write_contours(const std::filesystem::path& path, const
 void write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
                 const WriteMaskOptions& options, const Progress& progress);
 
-/// Writes an image read from `source` in the format of the name; in .dcm with one segment for each label, named as in the
-/// source where that names them.
+/// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label, named
+/// as in the source where that names them.
 void write_image(const std::filesystem::path& path, const Image& image, const std::filesystem::path& source,
-                 const ImageInput& images, const Progress& progress);
+                 const ImageInput& images, const Provenance& provenance, const Progress& progress);
 
 }  // namespace kontur::app

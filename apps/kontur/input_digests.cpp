@@ -6,19 +6,40 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/file_digest.h"
+#include "kontur/io/rtstruct.h"
 
 namespace kontur::app {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A slice of a DICOM series stands for its folder.
+std::string image_sha256(const fs::path& image, const Progress& progress) {
+    const bool is_slice = !fs::is_directory(image) && looks_like_dicom(image) && !is_dicom_seg(image) && !is_rtstruct(image);
+    return file_sha256(is_slice ? fs::absolute(image).parent_path() : image, progress);
+}
+
+}  // namespace
+
 Provenance input_digests(const SegmentCommand& command, const Progress& progress) {
-    namespace fs = std::filesystem;
     Provenance digests{{"contour_files_sha256", files_sha256(command.contours, progress)}};
     const fs::path& image = command.image.path;
-    if (image.empty()) return digests;
-    const bool is_slice = !fs::is_directory(image) && looks_like_dicom(image);
-    digests.emplace_back("image_sha256", file_sha256(is_slice ? fs::absolute(image).parent_path() : image, progress));
+    if (!image.empty()) digests.emplace_back("image_sha256", image_sha256(image, progress));
     return digests;
+}
+
+Provenance made_by(const std::string& command, const std::vector<std::pair<std::string, fs::path>>& inputs,
+                   const std::string& options, const Progress& progress) {
+    Provenance made{{"made_by", "kontur " + command}};
+    for (const auto& [name, path] : inputs)
+        if (!path.empty()) made.emplace_back(name + "_sha256", image_sha256(path, progress));
+    made.emplace_back("version", KONTUR_VERSION);
+    if (!options.empty()) made.emplace_back("options", options);
+    return made;
 }
 
 std::string utc_date() {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "kontur/base/progress.h"
@@ -11,6 +14,11 @@ namespace kontur::app {
 
 /// Digests of the files that went in. An image of a DICOM series stands for all files of its folder.
 Provenance input_digests(const SegmentCommand& command, const Progress& progress);
+
+/// How a file was made by another command than `segment`: its name, digests of what went in (name and path; empty paths are
+/// left out), the version and the options as used.
+Provenance made_by(const std::string& command, const std::vector<std::pair<std::string, std::filesystem::path>>& inputs,
+                   const std::string& options, const Progress& progress);
 
 /// Such as "2026-11-21T09:30:00Z": SOURCE_DATE_EPOCH where it is set (reproducible-builds.org), else now.
 std::string utc_date();

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "facts.h"
+#include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/contours.h"
@@ -45,14 +46,14 @@ public:
         const Progress progress = console_.progress();
         const std::string ct = volume.name + "_ct.nii.gz";
         outputs.write(command_.folder / ct, [&](const fs::path& path) {
-            write_image(path, make_phantom_image(volume.grid, command_.options, progress));
+            write_image(path, make_phantom_image(volume.grid, command_.options, progress), {{}, made_});
         });
         Facts truths = Facts::object();
         for (const Body& body : volume.bodies) {
             progress.check();
             const std::string mask = fmt::format("{}_truth_{}.nii.gz", volume.name, body.name());
             outputs.write(command_.folder / mask, [&](const fs::path& path) {
-                write_mask(path, make_truth_mask(body, volume.grid, command_.options.threads));
+                write_mask(path, make_truth_mask(body, volume.grid, command_.options.threads), {.provenance = made_});
             });
             truths[body.name()] = mask;
         }
@@ -63,7 +64,7 @@ public:
         console_.progress().check();
         const PhantomCase found = phantom_case(name);
         const std::string file = name + ".json";
-        outputs.write(command_.folder / file, [&](const fs::path& path) { write_contours(path, found.contours); });
+        outputs.write(command_.folder / file, [&](const fs::path& path) { write_contours(path, found.contours, made_); });
         list_["contours"].push_back({{"file", file},
                                      {"note", found.note},
                                      {"body", found.body ? Facts(found.body->name()) : Facts(nullptr)},
@@ -88,6 +89,8 @@ public:
 private:
     const PhantomCommand& command_;
     Console& console_;
+    Provenance made_ =
+        made_by("phantom", {}, fmt::format("seed={} noise_hu={}", command_.options.seed, command_.options.noise_hu), {});
     Facts list_ = {{"volumes", Facts::array()}, {"contours", Facts::array()}};
 };
 

@@ -99,10 +99,12 @@ RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segm
 
 /// The surface on the image's slices. What there is to tell becomes a warning in the report.
 void write_structure_set(const fs::path& path, const SegmentCommand& command, const Inputs& inputs, Segmentation& result,
-                         const Progress& progress) {
+                         const Provenance& made, const Progress& progress) {
     ContourSet set = slice_contours(result.mask, result.function, command.options.threads, progress);
     set.name = inputs.contours.name;
-    for (std::string& note : write_contours(path, set, command.image, command.write_rtstruct))
+    WriteRtstructOptions write = command.write_rtstruct;
+    write.provenance = made;
+    for (std::string& note : write_contours(path, set, command.image, write))
         result.report.warnings.push_back(std::move(note));
 }
 
@@ -173,9 +175,12 @@ void run(const SegmentCommand& command, Console& console) {
         progress.check();
     };
     write(command.output, [&](const fs::path& path) { write_mask(path, result, command.image, mask, progress); });
-    write(command.rtstruct, [&](const fs::path& path) { write_structure_set(path, command, inputs, result, progress); });
+    write(command.rtstruct, [&](const fs::path& path) {
+        write_structure_set(path, command, inputs, result, mask.provenance, progress);
+    });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
-    write(command.picture, [&](const fs::path& path) { write_png(path, picture(command, inputs, result)); });
+    write(command.picture,
+          [&](const fs::path& path) { write_png(path, picture(command, inputs, result), mask.provenance); });
     report.seconds.emplace_back("write", laps.lap());
     write(command.report,
           [&](const fs::path& path) { write_file_atomically(path, to_json_text(report_json(report, mask.provenance))); });

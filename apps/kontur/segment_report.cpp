@@ -64,6 +64,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"normals", name(report.normals)},
         {"normal_offset_mm", report.normal_offset_mm},
         {"smoothing", report.smoothing},
+        {"tolerance_mm", report.tolerance_mm},
         {"conflicts", name(report.conflicts)},
         {"corners", name(report.corners)},
         {"quality", report.quality},

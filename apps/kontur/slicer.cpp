@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/io/file_digest.h"
 #include "kontur/io/mesh.h"
 #include "kontur/segment.h"
 #include "outputs.h"
@@ -80,24 +81,35 @@ void check(const SlicerCommand& command) {
     if (!command.output_model.empty()) check_output_kind(command.output_model, FileKind::mesh);
 }
 
-void write_outputs(const SlicerCommand& command, const Segmentation& result) {
+struct Made {
+    ContourSet contours;
+    Segmentation result;
+};
+
+void write_outputs(const SlicerCommand& command, const Made& made, const Progress& progress) {
+    const Segmentation& result = made.result;
+    Provenance how = provenance(made.contours, result.mask.grid, result.report);
+    how.emplace_back("contour_files_sha256", files_sha256(command.contours, progress));
+    how.emplace_back("image_sha256", file_sha256(command.reference, progress));
     Outputs outputs;
     if (!command.output_mask.empty())
-        outputs.write(command.output_mask, [&](const fs::path& path) { write_mask(path, result.mask); });
+        outputs.write(command.output_mask,
+                      [&](const fs::path& path) { write_mask(path, result.mask, {.provenance = how}); });
     if (!command.output_model.empty())
-        outputs.write(command.output_model, [&](const fs::path& path) { write_mesh(path, *result.mesh); });
+        outputs.write(command.output_model, [&](const fs::path& path) { write_mesh(path, *result.mesh, how); });
     if (!command.return_parameters.empty())
         outputs.write(command.return_parameters,
                       [&](const fs::path& path) { write_file_atomically(path, return_parameters(result.report)); });
     outputs.commit();
 }
 
-Segmentation fit(const SlicerCommand& command, const Progress& progress) {
-    const ReadContours contours = read_contours(command.contours);
+Made fit(const SlicerCommand& command, const Progress& progress) {
+    ReadContours contours = read_contours(command.contours);
     const Grid grid = read_grid(command.reference, {}, progress);
     SegmentOptions options = command.options;
     options.mesh = !command.output_model.empty();
-    return segment(contours.contours, grid, options, progress);
+    Segmentation result = segment(contours.contours, grid, options, progress);
+    return {std::move(contours.contours), std::move(result)};
 }
 
 }  // namespace
@@ -110,9 +122,9 @@ void run(const SlicerCommand& command, Console& console) {
         "<filter-start>\n<filter-name>{}</filter-name>\n<filter-comment>reading</filter-comment>\n</filter-start>\n",
         kName));
     TagProgress tags;
-    const Segmentation result = fit(command, tags.progress(console.stop_token()));
-    write_outputs(command, result);
-    for (const std::string& warning : result.report.warnings)
+    const Made made = fit(command, tags.progress(console.stop_token()));
+    write_outputs(command, made, Progress{{}, console.stop_token()});
+    for (const std::string& warning : made.result.report.warnings)
         tell(fmt::format("<filter-comment>{}</filter-comment>\nwarning: {}\n", escaped(warning), warning));
     tell(
         fmt::format("<filter-progress>1</filter-progress>\n<filter-end>\n<filter-name>{}</filter-name>\n"

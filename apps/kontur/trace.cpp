@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "dicom_output.h"
+#include "input_digests.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"
 
@@ -25,6 +26,15 @@ std::vector<Plane> read_planes(const TraceCommand& command, Console& console, co
     return slice_planes(read_grid(command.image.path, console.noting(command.image.options), progress));
 }
 
+Provenance provenance_of(const TraceCommand& command, const Progress& progress) {
+    const TraceOptions& o = command.options;
+    std::string options =
+        fmt::format("step_mm={} tolerance_mm={} min_area_mm2={}", o.step_mm, o.tolerance_mm, o.min_area_mm2);
+    if (command.label) options += fmt::format(" label={}", *command.label);
+    return made_by("trace", {{"mask", command.mask}, {"planes", command.planes}, {"image", command.image.path}}, options,
+                   progress);
+}
+
 /// Whatever can be refused before any work is done.
 void check(const TraceCommand& command) {
     check_output(command.output, std::array{command.mask, command.planes, command.image.path});
@@ -43,9 +53,11 @@ void run(const TraceCommand& command, Console& console) {
     if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));
     set.name = command.name;
 
+    WriteRtstructOptions write = command.write_rtstruct;
+    write.provenance = provenance_of(command, progress);
     Outputs outputs;
     outputs.write(command.output, [&](const std::filesystem::path& path) {
-        console.note(write_contours(path, set, command.image, command.write_rtstruct));
+        console.note(write_contours(path, set, command.image, write));
     });
     outputs.commit();
     console.print(fmt::format("{}: {} contours with {} points in {} planes\n", command.output.string(), set.contours.size(),

@@ -635,6 +635,8 @@ class SegmentReport:
     @property
     def smoothing(self) -> float: ...
     @property
+    def tolerance_mm(self) -> float: ...
+    @property
     def conflicts(self) -> str: ...
     @property
     def corners(self) -> str: ...
@@ -1161,9 +1163,9 @@ def track_surface_adaptively(
 
 def without_duplicate_points(contours: ContourSet) -> ContourSet: ...
 
-def write_contour_json(path: _Path, contours: ContourSet) -> None: ...
+def write_contour_json(path: _Path, contours: ContourSet, provenance: dict[str, str] | None = None) -> None: ...
 
-def write_contours(path: _Path, contours: ContourSet) -> None: ...
+def write_contours(path: _Path, contours: ContourSet, provenance: dict[str, str] | None = None) -> None: ...
 
 def write_dicom_seg(
     path: _Path,
@@ -1173,15 +1175,22 @@ def write_dicom_seg(
     *,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
+    provenance: dict[str, str] | None = None,
     series_description: str = "kontur segmentation",
     algorithm_name: str = "",
     algorithm_version: str = "",
     algorithm_parameters: str = "",
 ) -> None: ...
 
-def write_image(path: _Path, image: Image) -> None: ...
+def write_image(
+    path: _Path,
+    image: Image,
+    *,
+    provenance: dict[str, str] | None = None,
+    label_names: dict[int, str] = ...,
+) -> None: ...
 
-def write_markups(path: _Path, contours: ContourSet) -> None: ...
+def write_markups(path: _Path, contours: ContourSet, provenance: dict[str, str] | None = None) -> None: ...
 
 def write_mask(
     path: _Path,
@@ -1195,7 +1204,7 @@ def write_mask(
 
 def write_mesh(path: _Path, mesh: TriangleMesh, provenance: dict[str, str] | None = None) -> None: ...
 
-def write_png(path: _Path, pixels: ArrayLike) -> None: ...
+def write_png(path: _Path, pixels: ArrayLike, provenance: dict[str, str] | None = None) -> None: ...
 
 def write_rtstruct(
     path: _Path,
@@ -1203,6 +1212,7 @@ def write_rtstruct(
     images: DicomSeries,
     *,
     on_note: Callable[[str], object] | None = None,
+    provenance: dict[str, str] | None = None,
     holes: Literal["keyhole", "xor", "nested"] = "keyhole",
     series_description: str = "kontur contours",
 ) -> None: ...

@@ -3,6 +3,7 @@
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/rtstruct.h"
 #include "notes.h"
+#include "provenance.h"
 
 namespace kontur::python {
 namespace {
@@ -125,14 +126,18 @@ images : DicomSeries
     Such as one of `list_dicom_series`.
 on_note : callable, optional
     Called with each sentence on what you should know; when left out they are warnings of the logger 'kontur'.
+provenance : dict of str to str, optional
+    How they were made: the description of kontur's contribution.
 @options
 )",
         [keywords](const fs::path& path, const StructureSet& structures, const DicomSeries& images,
-                   const py::object& on_note, const py::kwargs& given) {
-            const WriteRtstructOptions options = keywords.parse("write_rtstruct", given);
+                   const py::object& on_note, const py::object& provenance, const py::kwargs& given) {
+            WriteRtstructOptions options = keywords.parse("write_rtstruct", given);
+            options.provenance = provenance_from(provenance);
             give_notes(unlocked([&] { return write_rtstruct(path, structures, images, options); }), on_note);
         },
-        py::arg("path"), py::arg("structures"), py::arg("images"), py::kw_only(), kOnNote, KeywordText(keywords));
+        py::arg("path"), py::arg("structures"), py::arg("images"), py::kw_only(), kOnNote,
+        py::arg("provenance") = py::none(), KeywordText(keywords));
 }
 
 }  // namespace

@@ -13,12 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A writer that runs without the interpreter's lock.
-template <class Value>
-auto writer(void (*write)(const fs::path&, const Value&)) {
-    return [write](const fs::path& path, const Value& value) {
+/// A writer of contours that runs without the interpreter's lock.
+auto writer(void (*write)(const fs::path&, const ContourSet&, const Provenance&)) {
+    return [write](const fs::path& path, const ContourSet& contours, const py::object& items) {
+        const Provenance provenance = provenance_from(items);
         const py::gil_scoped_release release;
-        write(path, value);
+        write(path, contours, provenance);
     };
 }
 
@@ -26,6 +26,7 @@ auto writer(void (*write)(const fs::path&, const Value&)) {
 
 void bind_files(py::module_& m) {
     const double tolerance = ReadContoursOptions{}.plane_tolerance_mm;
+    const py::arg_v made = py::arg("provenance") = py::none();  // a dict of how they were made, for the file's text
     define(
         m, "read_contours", R"(Contours of one object from kontur's JSON, 3D Slicer's markups or an RT structure set.
 
@@ -55,18 +56,18 @@ ContourSet
         py::arg("path"), py::kw_only(), py::arg("roi") = py::none(), py::arg("plane_tolerance_mm") = tolerance, kOnNote);
     define(m, "write_contours",
            "Writes 3D Slicer's markups to a name ending in .mrk.json, kontur's JSON to any other .json.",
-           writer(&write_contours), py::arg("path"), py::arg("contours"));
+           writer(&write_contours), py::arg("path"), py::arg("contours"), made);
     define(m, "read_contour_json", "The ContourSet of kontur's own contour file.", &read_contour_json, py::arg("path"));
     define(m, "read_planes_json", "The planes of kontur's contour file, with or without contours: list of Plane.",
            &read_planes_json, py::arg("path"));
     define(m, "write_contour_json", "Writes kontur's contour file; reading it gives the same numbers.",
-           writer(&write_contour_json), py::arg("path"), py::arg("contours"));
+           writer(&write_contour_json), py::arg("path"), py::arg("contours"), made);
     define(
         m, "read_markups", "The ContourSet of the closed curves in a 3D Slicer markups file.",
         [](const fs::path& path, double plane_tolerance_mm) { return read_markups(path, {plane_tolerance_mm}); },
         py::arg("path"), py::arg("plane_tolerance_mm") = ReadMarkupsOptions{}.plane_tolerance_mm);
     define(m, "write_markups", "Writes one closed curve for each contour, as 3D Slicer reads it.", writer(&write_markups),
-           py::arg("path"), py::arg("contours"));
+           py::arg("path"), py::arg("contours"), made);
     define(
         m, "read_mesh", "The TriangleMesh of an STL, PLY or OBJ file, turned to LPS where it declares RAS.",
         [](const fs::path& path) { return unlocked([&] { return read_mesh(path); }); }, py::arg("path"));

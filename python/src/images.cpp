@@ -116,12 +116,28 @@ provenance : dict of str to str, optional
         },
         py::arg("path"), py::arg("mask"), py::kw_only(), py::arg("provenance") = py::none(), KeywordText(writing));
     define(
-        m, "write_image", "Writes an image with its sample type as .nii, .nii.gz, .nrrd, .seg.nrrd or .mha.",
-        [](const fs::path& path, const Image& image) {
+        m, "write_image", R"(Writes an image with its sample type, whole or not at all.
+
+Parameters
+----------
+path : path
+    .nii, .nii.gz, .nrrd, .seg.nrrd (a label map, one segment for each label) or .mha; the name decides on the format.
+image : Image
+provenance : dict of str to str, optional
+    How it was made, for the format's text fields.
+label_names : dict of int to str, optional
+    For .seg.nrrd: the names of labels; others are called 'label N'.
+)",
+        [](const fs::path& path, const Image& image, const py::object& provenance,
+           const std::map<std::int64_t, std::string>& label_names) {
+            WriteImageOptions options;
+            options.provenance = provenance_from(provenance);
+            for (const auto& [label, name] : label_names) options.names.push_back({label, name});
             const py::gil_scoped_release release;
-            write_image(path, image);
+            write_image(path, image, options);
         },
-        py::arg("path"), py::arg("image"));
+        py::arg("path"), py::arg("image"), py::kw_only(), py::arg("provenance") = py::none(),
+        py::arg("label_names") = py::dict());
 }
 
 }  // namespace kontur::python

@@ -4,6 +4,7 @@
 #include "kontur/view/picture.h"
 #include "kontur/view/reslice.h"
 #include "kontur/view/window.h"
+#include "provenance.h"
 
 namespace kontur::python {
 namespace {
@@ -63,12 +64,13 @@ ndarray, shape (height_px, width_px, 3), uint8
         py::arg("facts") = py::tuple(), py::arg("window") = py::none(), py::arg("threads") = defaults.threads);
     define(
         m, "write_png", "Writes pixels, shape (height, width, 3), uint8, as an sRGB PNG, whole or not at all.",
-        [](const std::filesystem::path& path, const ArrayOf<std::uint8_t>& pixels) {
+        [](const std::filesystem::path& path, const ArrayOf<std::uint8_t>& pixels, const py::object& items) {
             const RgbImage image = image_from(pixels);
+            const Provenance provenance = provenance_from(items);
             const py::gil_scoped_release release;
-            write_png(path, image);
+            write_png(path, image, provenance);
         },
-        py::arg("path"), py::arg("pixels"));
+        py::arg("path"), py::arg("pixels"), py::arg("provenance") = py::none());
     define(
         m, "suggest_window", R"(The intensities that a screen shows from black to white: (centre, width).
 

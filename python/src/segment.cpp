@@ -67,6 +67,7 @@ void bind_report(py::module_& m) {
         .field("normals", &Report::normals, "str")
         .field("normal_offset_mm", &Report::normal_offset_mm, "float: as used.")
         .field("smoothing", &Report::smoothing, "float: as used.")
+        .field("tolerance_mm", &Report::tolerance_mm, "float: of the iterative solver, as used.")
         .field("conflicts", &Report::conflicts, "str")
         .field("corners", &Report::corners, "str")
         .field("fill_rule", &Report::fill_rule, "str")

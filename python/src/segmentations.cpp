@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "kontur/io/dicom_seg.h"
 #include "notes.h"
+#include "provenance.h"
 
 namespace kontur::python {
 namespace {
@@ -124,17 +125,21 @@ images : DicomSeries
     Such as one of `list_dicom_series`.
 progress, stop : optional
     As for `segment`.
+provenance : dict of str to str, optional
+    How the file was made: the description of kontur's contribution.
 @options
 )",
         [keywords](const fs::path& path, const py::object& labels, const std::vector<DicomSegment>& segments,
-                   const DicomSeries& images, const py::object& progress, const py::object& stop, const py::kwargs& given) {
-            const WriteDicomSegOptions options = keywords.parse("write_dicom_seg", given);
+                   const DicomSeries& images, const py::object& progress, const py::object& stop,
+                   const py::object& provenance, const py::kwargs& given) {
+            WriteDicomSegOptions options = keywords.parse("write_dicom_seg", given);
+            options.provenance = provenance_from(provenance);
             const Image volume = labels_from(labels);
             run_work({progress, stop},
                      [&](const Progress& p) { write_dicom_seg(path, volume, segments, images, options, p); });
         },
         py::arg("path"), py::arg("labels"), py::arg("segments"), py::arg("images"), py::kw_only(), kProgress, kStop,
-        KeywordText(keywords));
+        py::arg("provenance") = py::none(), KeywordText(keywords));
 }
 
 }  // namespace kontur::python

@@ -102,6 +102,7 @@ void describe_fit(const PreparedContours& prepared, const Fit& fit, const FitOpt
     report.normals = options.normals;
     report.normal_offset_mm = options.place.normal_offset_mm;
     report.smoothing = options.solve.smoothing;
+    report.tolerance_mm = options.solve.tolerance_mm;
     report.solver = fit.report.solver;
     report.solves = fit.solves;
     report.iterations = fit.iterations;
@@ -177,11 +178,11 @@ Provenance provenance(const ContourSet& contours, const Grid& grid, const Segmen
         {"contours_sha256", contours_sha256(contours)},
         {"grid_sha256", grid_sha256(grid)},
         {"version", KONTUR_VERSION},
-        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} quality={} "
-                                "solver={} voxelizer={}",
+        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} "
+                                "quality={} solver={} tolerance_mm={} voxelizer={}",
                                 name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
-                                name(report.corners), report.normal_offset_mm, report.smoothing, report.quality, name(report.solver),
-                                name(report.voxelizer))},
+                                name(report.corners), report.normal_offset_mm, report.smoothing, report.quality,
+                                name(report.solver), report.tolerance_mm, name(report.voxelizer))},
     };
 }
 

@@ -52,6 +52,7 @@ struct SegmentReport {
     Normals normals = Normals::surface;
     double normal_offset_mm = 0;
     double smoothing = 0;
+    double tolerance_mm = 0;  ///< of the iterative solver
     FillRule fill_rule = FillRule::even_odd;
     Conflicts conflicts = Conflicts::reconcile;
     Corners corners = Corners::rounded;

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """DICOM segmentations out of kontur segment and convert and back in."""
+import hashlib
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -56,6 +58,35 @@ def test_a_label_map_keeps_its_segments_through_dicom(tmp_path, images):
     [facts] = json.loads(kontur("inspect", tmp_path / "seg.dcm", "--json").stdout)
     assert facts["kind"] == "segmentation"
     assert [(s["name"], s["voxels"]) for s in facts["segments"]] == [(f"label {n}", (labels == n).sum()) for n in (3, 6)]
+
+
+def test_segments_keep_names_and_colours_between_dicom_and_3d_slicer(tmp_path, images):
+    assert kontur("convert", images, tmp_path / "ct.nii.gz").returncode == 0
+    labels = (numpy.random.default_rng(1).integers(0, 3, read_nifti(tmp_path / "ct.nii.gz").shape)).astype("u1")
+    ras = numpy.array(nibabel.load(tmp_path / "ct.nii.gz").affine)
+    write_nifti(tmp_path / "labels.nii.gz", labels, numpy.diag([-1.0, -1.0, 1.0, 1.0]) @ ras)
+    assert kontur("convert", tmp_path / "labels.nii.gz", tmp_path / "a.seg.nrrd").returncode == 0
+    content = (tmp_path / "a.seg.nrrd").read_bytes()
+    colors = re.findall(rb"Segment\d_Color:=(.*)", content)
+    for number, name in ((1, "Läsion"), (2, "Leber rechts")):
+        content = content.replace(f"Name:=label {number}\n".encode(), f"Name:={name}\n".encode())
+    (tmp_path / "a.seg.nrrd").write_bytes(content)
+    assert kontur("convert", tmp_path / "a.seg.nrrd", tmp_path / "seg.dcm", "--image", images).returncode == 0
+    assert kontur("convert", tmp_path / "seg.dcm", tmp_path / "b.seg.nrrd").returncode == 0
+    again = (tmp_path / "b.seg.nrrd").read_bytes()
+    assert [n.decode() for n in re.findall(rb"Segment\d_Name:=(.*)", again)] == ["Läsion", "Leber rechts"]
+    for before, after in zip(colors, re.findall(rb"Segment\d_Color:=(.*)", again)):
+        assert numpy.allclose([float(x) for x in before.split()], [float(x) for x in after.split()], atol=0.01)  # by way of CIELab
+
+
+def test_a_converted_segmentation_says_so(tmp_path, images, contours):
+    assert kontur("segment", contours, "--image", images, "--output", tmp_path / "mask.nii.gz").returncode == 0
+    assert kontur("convert", tmp_path / "mask.nii.gz", tmp_path / "seg.dcm", "--image", images).returncode == 0
+    [equipment] = pydicom.dcmread(tmp_path / "seg.dcm").ContributingEquipmentSequence
+    assert equipment.PurposeOfReferenceCodeSequence[0].CodeMeaning == "Modifying Equipment"
+    digest = hashlib.sha256((tmp_path / "mask.nii.gz").read_bytes()).hexdigest()
+    assert f"made_by: kontur convert; source_sha256: {digest}" in equipment.ContributionDescription
+    assert "Error" not in subprocess.run(["dciodvfy", tmp_path / "seg.dcm"], capture_output=True, text=True).stderr
 
 
 def test_what_is_no_label_map_of_the_images_is_refused(tmp_path, images):

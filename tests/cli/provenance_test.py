@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+import zlib
 
 import nibabel
 import numpy
@@ -99,3 +100,59 @@ def test_no_file_name_and_no_time_go_into_the_files(folder):
     kontur("segment", "DOE_JANE.json", "--image", "image.nii.gz", "--output", "b.nii", "--mesh", "b.ply", cwd=folder)
     assert (folder / "a.nii").read_bytes() == (folder / "b.nii").read_bytes()
     assert (folder / "a.ply").read_bytes() == (folder / "b.ply").read_bytes()
+
+
+def png_texts(path):
+    """The text chunks of a PNG, whose checksums must be right."""
+    data, at, texts = path.read_bytes(), 8, {}
+    while at < len(data):
+        length, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == int.from_bytes(data[at + 8 + length:at + 12 + length], "big")
+        if kind == b"iTXt":
+            keyword, text = body.split(b"\0", 1)
+            texts[keyword.decode()] = text[4:].decode()
+        at += 12 + length
+    return texts
+
+
+def test_a_picture_says_how_it_was_made(folder):
+    segment(folder, "--output", "out.nii", "--picture", "out.png")
+    made = comment(folder / "out.nii")
+    assert png_texts(folder / "out.png") == {f"kontur {name}": value for name, value in made.items()}
+    assert "tolerance_mm=" in made["options"]
+
+
+def test_traced_contours_say_of_what(folder):
+    segment(folder, "--output", "out.nii")
+    for output, key in (("traced.json", "provenance"), ("traced.mrk.json", "kontur")):
+        result = kontur("trace", "out.nii", "--planes", "ball.json", "--output", output, "--min-area-mm2", "2", cwd=folder)
+        assert result.returncode == 0, result
+        made = json.loads((folder / output).read_text())[key]
+        assert made["made_by"] == "kontur trace" and "min_area_mm2=2" in made["options"]
+        assert made["mask_sha256"] == sha256(folder / "out.nii") and made["planes_sha256"] == sha256(folder / "ball.json")
+        assert kontur("inspect", output, cwd=folder).returncode == 0
+    kontur("trace", "out.nii", "--planes", "ball.json", "--output", "again.json", "--min-area-mm2", "2", cwd=folder)
+    assert (folder / "again.json").read_bytes() == (folder / "traced.json").read_bytes()
+
+
+@pytest.mark.parametrize("source, output", [("out.nii", "b.nrrd"), ("out.nii", "b.seg.nrrd"), ("out.nii", "b.mha"), ("out.nii", "b.nii.gz"),
+                                            ("out.ply", "b.obj"), ("out.ply", "b.stl"), ("ball.json", "b.json"), ("ball.json", "b.mrk.json")])
+def test_a_converted_file_names_its_source_by_digest(folder, source, output):
+    segment(folder, "--output", "out.nii", "--mesh", "out.ply")
+    assert kontur("convert", source, output, cwd=folder).returncode == 0
+    digest = sha256(folder / source)
+    content = (folder / output).read_bytes()
+    if output.endswith(".gz"):
+        assert comment(folder / output)["source_sha256"] == digest
+    elif output.endswith((".stl", ".mha")):
+        assert b"source_sha256=" + digest[:12].encode() in content[:400]
+    else:
+        assert digest.encode() in content
+    assert str(folder).encode() not in content
+
+
+def test_the_phantom_says_which_noise(folder):
+    assert kontur("phantom", "made", "--scan", "metastasis", "--seed", "3", cwd=folder).returncode == 0
+    assert comment(folder / "made" / "metastasis_ct.nii.gz")["options"] == "seed=3 noise_hu=14"
+    assert json.loads((folder / "made" / "kidney_radial6.json").read_text())["provenance"]["made_by"] == "kontur phantom"

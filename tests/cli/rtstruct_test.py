@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """RT structure sets out of kontur segment, trace and convert, as pydicom and dciodvfy see them."""
+import hashlib
 import json
 import math
 import pathlib
@@ -7,6 +8,7 @@ import subprocess
 import sys
 
 import numpy
+import pydicom
 import pytest
 from support import ball_array, circle, kontur, names, read_nifti, real_data, write_nifti, write_planes
 
@@ -48,6 +50,9 @@ def test_segment_cuts_the_surface_on_the_images_slices(tmp_path, images):
     assert "rs.dcm" in result.stdout
     [roi], found = checked(tmp_path / "rs.dcm", images)
     assert roi[1] == "Läsion" and roi[3] == "SEMIAUTOMATIC"
+    [equipment] = pydicom.dcmread(tmp_path / "rs.dcm").ContributingEquipmentSequence
+    digest = hashlib.sha256(contours.read_bytes()).hexdigest()
+    assert f"contour_files_sha256: {digest}" in equipment.ContributionDescription
     areas = {float(line[3]): float(line[2]) for line in found}
     assert sorted(areas) == [107.5, 110.0, 112.5]
     for z, area in areas.items():

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy
 import pytest
-from support import CENTER, KONTUR, RADIUS, ball_array, ball_planes, dice, kontur, write_nifti
+from support import CENTER, KONTUR, RADIUS, ball_array, ball_planes, dice, kontur, write_nifti, write_planes
 
 MODULE = pathlib.Path(KONTUR).parent.parent / "lib" / "slicer" / "KonturSegment"
 
@@ -179,3 +179,34 @@ def test_the_module_runs_through_a_link(scene, tmp_path):
     (tmp_path / "modules" / "KonturSegment").symlink_to(MODULE)
     result = subprocess.run([tmp_path / "modules" / "KonturSegment", "--xml"], capture_output=True)
     assert result.stdout.startswith(b"<?xml")
+
+
+# What 3D Slicer's published schema of markups (1.0.3) says of everything that kontur writes; stricter, in that nothing else may occur.
+NUMBERS = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+POINT = {"type": "object", "required": ["position", "positionStatus"], "additionalProperties": False, "properties": {
+    "id": {"type": "string"}, "label": {"type": "string"}, "description": {"type": "string"}, "position": NUMBERS,
+    "positionStatus": {"enum": ["undefined", "preview", "defined"]}}}
+CURVE = {"type": "object", "required": ["type", "coordinateSystem", "coordinateUnits", "controlPoints"], "additionalProperties": False,
+         "properties": {"type": {"const": "ClosedCurve"}, "name": {"type": "string"}, "coordinateSystem": {"enum": ["LPS", "RAS"]},
+                        "coordinateUnits": {"enum": ["mm", "um"]}, "controlPoints": {"type": "array", "items": POINT}}}
+MARKUPS = {"type": "object", "required": ["@schema", "markups"], "additionalProperties": False, "properties": {
+    "@schema": {"type": "string", "pattern": r"^https://raw\.githubusercontent\.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
+                                             r"Schema/markups-schema-v1\.[0-9]+\.[0-9]+\.json#*$"},
+    "kontur": {"type": "object", "additionalProperties": {"type": "string"}}, "markups": {"type": "array", "items": CURVE}}}
+
+
+def test_written_curves_follow_the_published_rules(tmp_path):
+    jsonschema = pytest.importorskip("jsonschema")
+    planes = ball_planes()
+    planes[0]["contours"][0]["hole"] = True
+    write_planes(tmp_path / "ball.json", planes)
+    assert kontur("convert", tmp_path / "ball.json", tmp_path / "ball.mrk.json").returncode == 0
+    text = (tmp_path / "ball.mrk.json").read_text()
+    document = json.loads(text)
+    jsonschema.validate(document, MARKUPS)
+    assert len(document["markups"]) == 9
+    assert all(re.search(r"[.e]", number) for number in re.findall(r'"position": \[(.*?)\]', text)[0].split(","))
+    wrong = json.loads(text)
+    wrong["markups"][0]["coordinateSystem"] = "lps"
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(wrong, MARKUPS)

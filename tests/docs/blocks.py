@@ -10,11 +10,13 @@ The words behind the three backticks say what is done with a block:
     LANGUAGE file: NAME written to the page's folder, for the blocks that follow
     text                not code
     text output         what the block before prints; ... stands for anything
+    LANGUAGE needs: MODULE  run where Python has the module
     LANGUAGE not run: REASON
 """
 import contextlib
 import dataclasses
 import doctest
+import importlib.util
 import io
 import json
 import pathlib
@@ -61,6 +63,12 @@ def blocks_of(page):
     if fence:
         raise ValueError(f"{page}:{fence[0]}: a block without an end")
     return found
+
+
+def lacks(block):
+    """The module that the block needs, if Python does not have it."""
+    module = block.words.removeprefix("needs:").strip() if block.words.startswith("needs:") else None
+    return module if module and not importlib.util.find_spec(module) else None
 
 
 class Runner:

@@ -5,13 +5,14 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 
 import pytest
 
 pytest.importorskip("kontur", reason="this build has no Python package")
 pytest.importorskip("pydicom")
 
-from blocks import Block, Runner, blocks_of
+from blocks import Block, Runner, blocks_of, lacks
 from material import write_material
 
 ROOT = pathlib.Path(__file__).parents[2]
@@ -49,9 +50,11 @@ def runner(material, prefix, tmp_path, monkeypatch):
         (folder / name).symlink_to(ROOT / name)
     (folder / "build/release/bin").mkdir(parents=True)
     (folder / "build/release/bin/kontur").symlink_to(HERE / "kontur")
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/python3").symlink_to(sys.executable)
     libraries = next(prefix.rglob("libkontur.so")).parent
     environment = {
-        **os.environ, "PATH": f"{HERE}:{os.environ['PATH']}", "HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"),
+        **os.environ, "PATH": f"{HERE}:{tmp_path}/bin:{os.environ['PATH']}", "HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"),
         "MPLBACKEND": "Agg", "LD_LIBRARY_PATH": str(libraries), "CMAKE_PREFIX_PATH": str(prefix),
         "PKG_CONFIG_PATH": str(libraries / "pkgconfig"),
     }
@@ -64,7 +67,7 @@ def runner(material, prefix, tmp_path, monkeypatch):
 @pytest.mark.parametrize("page", PAGES, ids=named)
 def test_each_block_runs(page, runner):
     for block in blocks_of(page):
-        if block.reason_not_to_run:
+        if block.reason_not_to_run or lacks(block):
             continue
         try:
             runner.run(block)

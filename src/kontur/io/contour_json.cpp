@@ -196,13 +196,14 @@ std::string planes_text(const std::vector<Contour>& contours) {
     return contours.empty() ? text : text + "\n  ]}\n";
 }
 
-std::string to_document(const ContourSet& set) {
+std::string to_document(const ContourSet& set, const Provenance& provenance) {
     const std::string name = json(set.name).dump(-1, ' ', false, json::error_handler_t::replace);
     std::string text = fmt::format("{{\n\"version\": {},\n\"frame\": \"LPS mm\",\n\"structure\": {},\n\"planes\": [\n{}]",
                                    kVersion, name, planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
     if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
+    if (!provenance.empty()) text += ",\n\"provenance\": " + to_json(provenance);
     return text + "\n}\n";
 }
 
@@ -222,8 +223,8 @@ std::vector<Plane> read_planes_json(const std::filesystem::path& path) {
     });
 }
 
-void write_contour_json(const std::filesystem::path& path, const ContourSet& set) {
-    write_file_atomically(path, to_document(set));
+void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {
+    write_file_atomically(path, to_document(set, provenance));
 }
 
 }  // namespace kontur

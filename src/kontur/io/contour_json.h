@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kontur/shape/contour.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 
@@ -18,7 +19,8 @@ ContourSet read_contour_json(const std::filesystem::path& path);
 std::vector<Plane> read_planes_json(const std::filesystem::path& path);
 
 /// Writes the file whole or not at all. Reading it gives the same doubles in the same order; neighbouring contours on an
-/// identical plane share one entry. Throws Error(invalid_input) for a coordinate that is NaN or infinite.
-void write_contour_json(const std::filesystem::path& path, const ContourSet& set);
+/// identical plane share one entry. `provenance` goes into the key of that name. Throws Error(invalid_input) for a
+/// coordinate that is NaN or infinite.
+void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

@@ -76,9 +76,9 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
     return all;
 }
 
-void write_contours(const fs::path& path, const ContourSet& set) {
-    if (is_markups(path)) write_markups(path, set);
-    else if (path.extension() == ".json") write_contour_json(path, set);
+void write_contours(const fs::path& path, const ContourSet& set, const Provenance& provenance) {
+    if (is_markups(path)) write_markups(path, set, provenance);
+    else if (path.extension() == ".json") write_contour_json(path, set, provenance);
     else
         throw Error(ErrorKind::unsupported,
                     "contours are written to names that end in .json or .mrk.json, not to " + path.filename().string());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kontur/shape/contour.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 
@@ -30,6 +31,6 @@ ReadContours read_contours(const std::vector<std::filesystem::path>& paths, cons
 
 /// Writes 3D Slicer's markups to a name that ends in .mrk.json and kontur's contour file to any other .json. Throws
 /// Error(unsupported) for another extension.
-void write_contours(const std::filesystem::path& path, const ContourSet& set);
+void write_contours(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

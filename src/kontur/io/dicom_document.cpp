@@ -102,6 +102,19 @@ void start_document(DcmItem& document, const DicomSeries& images, const char* cl
     put(document, DCM_SoftwareVersions, KONTUR_VERSION);
 }
 
+void put_contribution(DcmItem& document, const Provenance& provenance) {
+    if (provenance.empty()) return;
+    constexpr std::size_t kMostCharacters = 1024;
+    std::string text;
+    for (const auto& [name, value] : provenance) text += (text.empty() ? "" : "; ") + name + ": " + value;
+    DcmItem& item = append_item(document, DCM_ContributingEquipmentSequence);
+    put_code(item, DCM_PurposeOfReferenceCodeSequence, {"109103", "DCM", "Modifying Equipment"});
+    put(item, DCM_Manufacturer, "kontur");
+    put(item, DCM_ManufacturerModelName, "kontur");
+    put(item, DCM_SoftwareVersions, KONTUR_VERSION);
+    put(item, DCM_ContributionDescription, one_value(text, kMostCharacters));
+}
+
 void put_file_reference(DcmItem& item, const DicomHeader& slice) {
     put(item, DCM_ReferencedSOPClassUID, slice.sop_class_uid);
     put(item, DCM_ReferencedSOPInstanceUID, slice.sop_instance_uid);

@@ -10,6 +10,7 @@
 #include "kontur/io/dcmtk.h"
 #include "kontur/io/dicom_header.h"
 #include "kontur/io/dicom_series.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur::dcmtk {
 
@@ -36,6 +37,9 @@ void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 /// whose first file is read for it; names kontur as its maker.
 void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
                     const std::string& series_description);
+
+/// Says how the object was made: kontur as equipment that contributed to it (PS3.3 C.12.1). Nothing without provenance.
+void put_contribution(DcmItem& document, const Provenance& provenance);
 
 /// Refers to a slice's file.
 void put_file_reference(DcmItem& item, const DicomHeader& slice);

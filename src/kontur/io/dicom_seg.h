@@ -10,6 +10,7 @@
 
 #include "kontur/base/progress.h"
 #include "kontur/io/dicom_series.h"
+#include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -60,7 +61,8 @@ struct DicomAlgorithm {
 
 struct WriteDicomSegOptions {
     std::string series_description = "kontur segmentation";
-    DicomAlgorithm algorithm;
+    DicomAlgorithm algorithm{};
+    Provenance provenance{};  ///< how the file was made: the description of kontur's contribution (equipment)
 };
 
 /// Writes a binary DICOM segmentation (Explicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,

@@ -280,6 +280,7 @@ void write_dicom_seg(const std::filesystem::path& path, const Image& labels, con
     DcmFileFormat file;
     DcmItem& document = *file.getDataset();
     dcmtk::start_document(document, images, UID_SegmentationStorage, "SEG", options.series_description);
+    dcmtk::put_contribution(document, options.provenance);
     SegWriter writer(document, slices);
     writer.put_header(segments.size());
     writer.put_image_references();

@@ -130,10 +130,15 @@ constexpr std::array<std::array<double, 3>, 8> kPalette{{{0.9, 0.7, 0.3},
                                                          {0.9, 0.55, 0.75},
                                                          {0.6, 0.6, 0.45}}};
 
-std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int64_t>& labels) {
+std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int64_t>& labels,
+                                          const std::vector<LabelName>& names) {
     std::vector<NrrdSegment> segments;
-    for (const auto& [label, count] : labels)
-        segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
+    for (const auto& [label, count] : labels) {
+        const auto known = std::find_if(names.begin(), names.end(), [&, l = label](const auto& n) { return n.label == l; });
+        if (known != names.end()) segments.push_back({known->name, known->color, label, 0});
+        else
+            segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
+    }
     return segments;
 }
 
@@ -227,8 +232,10 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
     else write_view(Image{mask.grid, with_value_inside<std::uint16_t>(mask, value)});
 }
 
-void write_image(const fs::path& path, const Image& image) {
-    write(path, image, [&] { return one_segment_each(labels_of(image, path)); });
+void write_image(const fs::path& path, const Image& image, const WriteImageOptions& options) {
+    ImageView view(image);
+    view.provenance = options.provenance;
+    write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });
 }
 
 }  // namespace kontur

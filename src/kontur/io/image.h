@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kontur/base/progress.h"
 #include "kontur/io/read_image_options.h"
@@ -38,11 +39,24 @@ struct WriteMaskOptions {
     Provenance provenance{};
 };
 
+/// A label's name and colour in a .seg.nrrd.
+struct LabelName {
+    std::int64_t label = 1;
+    std::string name;
+    std::array<double, 3> color{0.9, 0.7, 0.3};  ///< red, green, blue from 0 to 1
+};
+
+struct WriteImageOptions {
+    std::vector<LabelName> names{};  ///< for .seg.nrrd
+    Provenance provenance{};         ///< as WriteMaskOptions'
+};
+
 /// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha), whole or not at all.
 void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
 
-/// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label.
-void write_image(const std::filesystem::path& path, const Image& image);
+/// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label, named as in
+/// `segments` where these know the label.
+void write_image(const std::filesystem::path& path, const Image& image, const WriteImageOptions& options = {});
 
 /// Throws Error(unsupported), as the writers do, for a name whose extension is not among theirs: so that a long computation
 /// is refused before it starts.

@@ -213,7 +213,7 @@ std::string to_text(std::string_view type, const std::string& name, const std::v
         type, name_member(name), to_text(controls));
 }
 
-std::string to_document(const ContourSet& set) {
+std::string to_document(const ContourSet& set, const Provenance& provenance) {
     std::vector<std::string> markups;
     for (std::size_t i = 0; i < set.contours.size(); ++i) {
         const bool alone = set.name.empty() || set.contours.size() == 1;
@@ -222,7 +222,8 @@ std::string to_document(const ContourSet& set) {
     }
     if (const auto points = single_points_of(set); !points.empty())
         markups.push_back(to_text("Fiducial", set.name.empty() ? "" : set.name + " points", points));
-    return fmt::format("{{\"@schema\": \"{}\",\n \"markups\": [{}]}}\n", kSchema, fmt::join(markups, ","));
+    const std::string made = provenance.empty() ? "" : fmt::format(" \"kontur\": {},\n", to_json(provenance));
+    return fmt::format("{{\"@schema\": \"{}\",\n{} \"markups\": [{}]}}\n", kSchema, made, fmt::join(markups, ","));
 }
 
 }  // namespace
@@ -232,9 +233,9 @@ ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOpti
     return in_context(path.string(), [&] { return read_set(document, options); });
 }
 
-void write_markups(const std::filesystem::path& path, const ContourSet& set) {
+void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {
     check_writable(set);
-    write_file_atomically(path, to_document(set));
+    write_file_atomically(path, to_document(set, provenance));
 }
 
 }  // namespace kontur

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <zlib.h>
 
 #include "kontur/base/error.h"
 #include "kontur/io/atomic_file.h"
@@ -34,11 +35,33 @@ std::string encode(const RgbImage& image) {
     return bytes;
 }
 
+std::string big_endian(std::uint32_t number) {
+    std::string bytes;
+    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xFF);
+    return bytes;
+}
+
+/// An iTXt chunk: keyword, uncompressed, no language, UTF-8 text.
+std::string text_chunk(const std::string& keyword, const std::string& text) {
+    constexpr std::size_t kMostKeywordBytes = 79;
+    const std::string body = "iTXt" + keyword.substr(0, kMostKeywordBytes) + std::string(5, '\0') + text;
+    const auto crc = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+    return big_endian(static_cast<std::uint32_t>(body.size() - 4)) + body + big_endian(static_cast<std::uint32_t>(crc));
+}
+
+/// The encoded picture with the chunks behind its header, which libpng's simple interface cannot write.
+std::string with_text(std::string png, const Provenance& provenance) {
+    constexpr std::size_t kHeaderEnd = 8 + 25;  // the signature, IHDR
+    std::string chunks;
+    for (const auto& [name, value] : provenance) chunks += text_chunk("kontur " + name, value);
+    return png.insert(kHeaderEnd, chunks);
+}
+
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const RgbImage& image) {
+void write_png(const std::filesystem::path& path, const RgbImage& image, const Provenance& provenance) {
     check_picture(image);
-    write_file_atomically(path, encode(image));
+    write_file_atomically(path, with_text(encode(image), provenance));
 }
 
 }  // namespace kontur

@@ -10,6 +10,7 @@
 
 #include "kontur/io/dicom_series.h"
 #include "kontur/shape/contour.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 
@@ -57,6 +58,7 @@ enum class HoleEncoding {
 struct WriteRtstructOptions {
     HoleEncoding holes = HoleEncoding::keyhole;
     std::string series_description = "kontur contours";
+    Provenance provenance{};  ///< how the contours were made: the description of kontur's contribution (equipment)
 };
 
 /// Writes a DICOM RT structure set (Implicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,

@@ -219,6 +219,7 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     put(document, DCM_StructureSetDate, dcmtk::text(document, DCM_InstanceCreationDate));
     put(document, DCM_StructureSetTime, dcmtk::text(document, DCM_InstanceCreationTime));
     put(document, DCM_ApprovalStatus, "UNAPPROVED");
+    dcmtk::put_contribution(document, options.provenance);
     put_image_hierarchy(document, slices);
     RoiWriter writer(document, slices, options.holes);
     for (std::size_t n = 0; n < set.rois.size(); ++n) {

@@ -17,7 +17,7 @@ public:
         for (std::size_t n = 0; n < 8; ++n) bytes[n] = static_cast<std::byte>(number >> (8 * n));
         hash_.update(bytes);
     }
-    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number + 0.0)); }  // -0 is 0, as it is in files
     void add(const Vec3& v) {
         for (int axis = 0; axis < 3; ++axis) add(v[axis]);
     }
@@ -64,6 +64,23 @@ std::string grid_sha256(const Grid& grid) {
     for (int axis = 0; axis < 3; ++axis) digest.add(grid.index_to_mm.column(axis));
     digest.add(grid.index_to_mm.translation);
     return digest.hex();
+}
+
+std::string to_json(const Provenance& provenance) {
+    const auto quoted = [](const std::string& text) {
+        std::string result = "\"";
+        for (const char c : text) {
+            if (c == '"' || c == '\\') result += '\\';
+            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        }
+        return result + "\"";
+    };
+    std::string text = "{";
+    for (const auto& [name, value] : provenance) {
+        if (text.size() > 1) text += ", ";
+        text += quoted(name) + ": " + quoted(value);
+    }
+    return text + "}";
 }
 
 std::string short_text(const Provenance& provenance, std::size_t most_bytes) {

@@ -22,6 +22,9 @@ std::string contours_sha256(const ContourSet& contours);
 /// SHA-256 of the grid's size and affine.
 std::string grid_sha256(const Grid& grid);
 
+/// The names and values as one line of JSON, {"NAME": "VALUE", ...}.
+std::string to_json(const Provenance& provenance);
+
 /// "NAME=VALUE NAME=VALUE ..." cut to at most `most_bytes`, for fields of fixed size; digests are shortened to 12 digits.
 std::string short_text(const Provenance& provenance, std::size_t most_bytes);
 

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whatever the public headers declare is in Python, or stands in docs/python.md among what is left out."""
+import pathlib
+import re
+
+import kontur
+import numpy
+import pytest
+
+ROOT = pathlib.Path(__file__).parents[2]
+SOURCES = ROOT / "src"
+
+# Names that say the same in another way, and options structs, which are keywords in Python.
+SAME = {
+    "make_plane": "Plane", "make_affine": "Grid", "drop_duplicate_points": "without_duplicate_points", "read_contour": "read_contours",
+    "gradient": "ImplicitFunction", "contains": "EdgeMap", "volume_ml": "Mask", "point_count": "ContourSet", "bounding_box": "ContourSet",
+    "sample": "Image", "Result": "Segmentation", "DicomSeg": "read_dicom_seg", "DicomAlgorithm": "write_dicom_seg", "LabelName": "write_image",
+    "ReadContours": "read_contours", "PictureFact": "make_picture", "RgbImage": "write_png", "Pixel": "EdgeMap", "PixelPosition": "EdgeMap",
+    "DenseLiver": "dense_liver_case", "ErrorKind": "Error", "Severity": "Finding", "FindingKind": "Finding", "UnitFrame": "ImplicitFunction",
+    "BoundaryPoint": "PreparedContours", "Progress": "segment", "Affine3": "Grid", "Vec3": "Contour", "Index3": "Grid", "Box3": "grid_around",
+    "OutlineLine": "outline", "Window": "suggest_window",
+}
+
+
+def public_headers():
+    found, waiting = [], ["kontur/kontur.h"]
+    while waiting:
+        header = waiting.pop()
+        if header in found:
+            continue
+        found.append(header)
+        waiting += re.findall(r'^#include "(kontur/[^"]+)"', (SOURCES / header).read_text(), re.MULTILINE)
+    return found
+
+
+def declared(header):
+    """Functions and types at namespace scope: lines that start in the first column."""
+    text = re.sub(r"//[^\n]*", "", (SOURCES / header).read_text())
+    functions = re.findall(r"^(?! |using|template|#|friend|\})[\w:<>,&\*\[\] ]+?[ &\*](\w+)\(", text, re.MULTILINE)
+    types = re.findall(r"^(?:class|struct) (\w+)", text, re.MULTILINE)
+    return {name for name in functions + types if not name.endswith("Options") and not name.startswith("operator") and name != "name"}
+
+
+def left_out():
+    """The table in docs/python.md: headers and names, each with its reason."""
+    section = (ROOT / "docs/python.md").read_text().split("## What is left out")[1].split("\n## ")[0]
+    rows = re.findall(r"^\| (`.*?) \| (.+) \|$", section, re.MULTILINE)
+    assert all(len(reason) > 20 for _, reason in rows)
+    return {name for names, _ in rows for name in re.findall(r"`([^`]+)`", names)}
+
+
+def test_everything_public_is_in_python_or_left_out_by_name():
+    without = left_out()
+    missing, used = {}, set()
+    for header in public_headers():
+        short = header.removeprefix("kontur/")
+        if short in without:
+            used.add(short)
+            continue
+        for name in declared(header):
+            if hasattr(kontur, name) or hasattr(kontur, SAME.get(name, "?")):
+                continue
+            if name in without:
+                used.add(name)
+            else:
+                missing.setdefault(short, []).append(name)
+    assert missing == {}
+    assert without - used == set(), "left out, but not there"
+
+
+def test_a_contour_along_an_edge(case):
+    """Live-wire from clicks 20 degrees apart along the kidney's border runs within a pixel of it."""
+    centre = case.contours.bounding_box.mean(axis=0)
+    image = kontur.make_phantom_image(kontur.grid_around(case.contours.bounding_box, [1, 1, 1], 20))
+    plane = kontur.Plane(centre, [0, 0, 1], u=[1, 0, 0], v=[0, 1, 0])
+    n = 160
+    edges = kontur.EdgeMap(kontur.reslice(image, plane, n, n, 1.0, outside=-1000))
+    assert edges.strengths.shape == (n, n) and 0 <= edges.strengths.min() <= edges.strengths.max() <= 1
+    angles = numpy.radians(numpy.arange(0, 360, 20))
+    truth = kontur.segment(case.contours, case.grid, mesh=True).mesh
+    border = plane.to_uv(max(kontur.outline(truth, plane), key=lambda line: len(line[0]))[0])
+    middle = border.mean(axis=0)
+    direction = numpy.arctan2(*(border - middle).T[::-1])
+    clicks = [border[numpy.abs(numpy.angle(numpy.exp(1j * (direction - a)))).argmin()] + (n - 1) / 2 for a in angles]
+    pixels = [edges.snap((round(c), round(r)), radius=2) for c, r in clicks]
+    line = numpy.concatenate([kontur.smooth_path(edges, kontur.LiveWire(edges, a).path_to(b))[:-1]
+                              for a, b in zip(pixels, pixels[1:] + pixels[:1])])
+    drawn = kontur.Contour(plane.from_uv(line - (n - 1) / 2), plane=plane)
+    distance = numpy.abs(case.body.values(drawn.points))
+    assert numpy.median(distance) < 1 and distance.max() < 4
+    for wrong in ((-1, 0), (n, 0)):
+        with pytest.raises(kontur.InvalidInputError, match="outside"):
+            kontur.LiveWire(edges, wrong)
+
+
+def test_a_live_editor_answers_the_newest_edit(case):
+    updates = []
+    with kontur.LiveEditor(updates.append, preview_spacing_mm=2) as editor:
+        for count in (3, 4, 5, 6):
+            number = editor.edit(kontur.ContourSet(case.contours.contours[:count]))
+        editor.wait()
+        assert number == 4
+    final = [update for update in updates if update.kind == "refined"][-1]
+    assert final.edit == 4 and final.surface.refined
+    assert numpy.array_equal(final.surface.function.weights, kontur.Editor().refine(case.contours).function.weights)
+    with pytest.raises(kontur.InvalidInputError, match="closed"):
+        editor.edit(case.contours)
+
+
+def test_a_listener_that_raises_or_waits_does_no_harm(case):
+    def listener(update):
+        editor.wait()
+
+    problems = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.unraisablehook", problems.append)
+        with kontur.LiveEditor(listener) as editor:
+            editor.edit(kontur.ContourSet(case.contours.contours[:3]))
+            editor.wait()
+    assert problems and "must not call wait" in str(problems[0].exc_value)
+
+
+def test_an_editor_left_open_does_not_keep_python_from_ending(tmp_path):
+    import subprocess
+    import sys
+
+    program = ("import kontur\ncase = kontur.phantom_case('liver_orthogonal14')\n"
+               "editor = kontur.LiveEditor(lambda update: None)\neditor.edit(case.contours)\nprint('end')")
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (result.returncode, result.stdout) == (0, "end\n"), result
+
+
+def test_fast_functions_agree_with_direct_sums_and_survive_a_stop():
+    case = kontur.dense_liver_case(points=4000)
+    grid = kontur.grid_around(case.contours.bounding_box, [10, 10, 10], 0)
+    function = kontur.segment(case.contours, grid).function
+    points = numpy.random.default_rng(1).uniform(*case.contours.bounding_box, (200_000, 3))
+    fast = kontur.FastFunction(function, expected_points=len(points), tolerance_mm=0.005)
+    values = fast.values(points)
+    some = slice(0, 2000)
+    assert numpy.abs(values[some] - function(points[some])).max() < 0.02
+    assert numpy.abs(fast.gradients(points[some]) - function.gradients(points[some])).max() < 0.05
+    assert fast.kernel_values > 0 and fast.exact.kernel == "triharmonic"
+
+    class Now:
+        def is_set(self):
+            return True
+
+    with pytest.raises(kontur.CancelledError):
+        kontur.FastFunction(function).values(numpy.repeat(points, 20, axis=0), stop=Now())
+    assert numpy.abs(fast.values(points[some]) - function(points[some])).max() < 0.02
+
+
+def test_findings_name_places(case):
+    two = kontur.ContourSet([*case.contours.contours, case.contours.contours[0]])
+    finding = next(f for f in kontur.check_contour_set(two) if f.kind == "duplicate")
+    assert (finding.severity, {finding.contour, finding.other}) == ("warning", {0, 6})
+    assert "contour" in finding.text
+    assert kontur.check_contour_set(kontur.ContourSet([]))[0].severity == "error"
+
+
+def test_placed_constraints_solve_to_the_papers_surface(case):
+    prepared = kontur.prepare(case.contours, quality=0.3)
+    placed = kontur.place_constraints(prepared, normal_offset_mm=1).constraints
+    assert set(placed.kinds) == {"boundary", "normal"} and set(placed.values) == {0, -1} and (placed.trust == 1).all()
+    direct = kontur.solve(placed, solver="dense").function
+    fitted = kontur.fit(prepared, normals="in-plane", normal_offset_mm=1, solver="dense", cap_rounds=0).function
+    at = case.contours.bounding_box.mean(axis=0)
+    assert direct(at) == pytest.approx(float(fitted(at)), rel=1e-6)
+    with pytest.raises(kontur.InvalidInputError, match="slope"):
+        kontur.place_constraints(prepared, slopes=numpy.zeros(len(prepared.positions)))
+
+
+def test_nesting_and_fill_rule():
+    square = numpy.array([[1, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]], float)
+    rings = kontur.ContourSet([kontur.Contour(r * square) for r in (10, 6, 3)])
+    nesting = kontur.find_nesting(rings, tolerance_mm=0.01)
+    assert nesting.depth == [0, 1, 2] and nesting.enclosing == [[], [0], [0, 1]] and nesting.crossings == []
+    filled, changes = kontur.apply_fill_rule(rings, "even-odd")
+    assert [c.hole for c in filled.contours] == [False, True, False] and changes.holes == 1
+    fewer, changes = kontur.apply_fill_rule(rings, "declared")
+    assert len(fewer) == 1 and changes.removed == 2
+
+
+def test_digests_do_not_depend_on_the_file(tmp_path, case):
+    kontur.write_contours(tmp_path / "a.json", case.contours, provenance={"made_by": "hand"})
+    assert '"provenance": {"made_by": "hand"}' in (tmp_path / "a.json").read_text()
+    again = kontur.read_contours(tmp_path / "a.json")
+    assert kontur.contours_sha256(again) == kontur.contours_sha256(case.contours)
+    assert kontur.contours_sha256(again) != kontur.contours_sha256(kontur.ContourSet(case.contours.contours[1:]))
+    assert len(kontur.grid_sha256(case.grid)) == 64
+
+
+def test_a_plane_there_and_back():
+    plane = kontur.Plane([1, 2, 3], [0.3, -0.2, 0.9])
+    uv = numpy.random.default_rng(1).normal(size=(20, 2))
+    assert numpy.allclose(plane.to_uv(plane.from_uv(uv)), uv)
+    assert numpy.abs(plane.distance_to(plane.from_uv(uv))).max() < 1e-12
+    assert plane.from_uv(numpy.empty((0, 2))).shape == (0, 3)
+    with pytest.raises(kontur.InvalidInputError):
+        plane.from_uv([[1, 2, 3]])

@@ -50,7 +50,7 @@ TEST(Corners, PointsGrowDenseTowardsThemAndStayOnTheEdges) {
         const Vec3& p = refined.points[i];
         EXPECT_NEAR(std::max(std::abs(p.x), std::abs(p.y)), 20, 1e-12);
         const double step = distance(p, refined.points[(i + 1) % n]);
-        EXPECT_LE(step, 4 * 1.5);
+        EXPECT_LE(step, 4 * 1.75);
         EXPECT_GE(step, 0.05 / 4);
         double to_corner = 100;
         for (const Vec3& corner : square().points) to_corner = std::min(to_corner, distance(p, corner));

@@ -45,6 +45,7 @@ std::string digest_of(const std::vector<std::string>& digests) {
 }  // namespace
 
 std::string file_sha256(const fs::path& path, const Progress& progress) {
+    if (fs::is_other(path)) fail(path, "it is a device or a pipe, not a file");  // devices may never end
     if (!fs::is_directory(path)) return digest_of_file(path, progress);
     std::vector<std::string> digests;
     for (const fs::directory_entry& entry : fs::directory_iterator(path))

@@ -184,7 +184,7 @@ def unique(rows, key):
     return list(dict.fromkeys(row[key] for row in rows))
 
 
-TABLES = {f.__name__: f for f in (machine, solving, voxelizing, reduction, end_to_end, stages)}
+TABLES = {f.__name__: f for f in (machine, solving, voxelizing, reduction, end_to_end, stages, editing)}
 
 
 def filled(document, results):

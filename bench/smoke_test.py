@@ -57,12 +57,12 @@ def test_full_quality_is_what_the_others_are_compared_with(results):
 
 def test_the_tables_show_every_measurement(json_file, results):
     tables = subprocess.run([sys.executable, TABLES, json_file], check=True, capture_output=True, text=True).stdout
-    for experiment in ("solving", "voxelizing", "reduction", "end_to_end"):
+    for experiment in ("solving", "voxelizing", "reduction", "end_to_end", "editing"):
         assert len(tables.splitlines()) > len(results[experiment]) > 0
 
 
 def test_a_document_is_filled_between_its_markers_and_stays_as_it_is_elsewhere(json_file, tmp_path):
-    names = ("machine", "solving", "voxelizing", "reduction", "end_to_end", "stages")
+    names = ("machine", "solving", "voxelizing", "reduction", "end_to_end", "stages", "editing")
     document = tmp_path / "performance.md"
     document.write_text("".join(f"before {n}\n<!-- begin {n} -->\nold\n<!-- end {n} -->\nafter\n" for n in names))
     for _ in range(2):

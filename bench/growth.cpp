@@ -6,6 +6,7 @@
 #include <random>
 
 #include "kontur/field/kernel_matrix.h"
+#include "kontur/field/orient.h"
 #include "kontur/field/prepare.h"
 #include "kontur/field/solve.h"
 #include "machine.h"
@@ -21,10 +22,15 @@ constexpr double kTolerance_mm = 0.05;
 constexpr double kMergeDistance_mm = 0.1;
 
 ConstraintSet constraints_of(const DenseLiver& liver) {
-    const PreparedContours contours = published_contours(dense_liver_case(liver), 1);
-    const std::vector<double> slopes(contours.points.size(), 1.0);
-    return place_constraints(contours.points, slopes, {}, {.normal_offset_mm = 1, .merge_distance_mm = kMergeDistance_mm})
-        .constraints;
+    // `prepare` would thin contours of so many points.
+    std::vector<BoundaryPoint> points;
+    for (const Contour& contour : dense_liver_case(liver).contours.contours) {
+        const ContourOrientation orientation = orient(contour);
+        for (std::size_t i = 0; i < contour.points.size(); ++i)
+            points.push_back({.position = contour.points[i], .inplane_normal = orientation.normals[i]});
+    }
+    const std::vector<double> slopes(points.size(), 1.0);
+    return place_constraints(points, slopes, {}, {.normal_offset_mm = 1, .merge_distance_mm = kMergeDistance_mm}).constraints;
 }
 
 /// Kernel values that one core sums per second when nothing else limits it: the direct product, which reads what it needs

@@ -54,7 +54,7 @@ public:
 
     /// null: nothing is known about the case as it is now.
     Facts entry(const Case& one) const {
-        const Facts found = Facts::parse(content_of(file(one, ".json")), nullptr, /*allow_exceptions=*/false);
+        Facts found = Facts::parse(content_of(file(one, ".json")), nullptr, /*allow_exceptions=*/false);
         if (!found.is_object() || found.value("made_from", "") != fingerprint(one, base_)) return nullptr;
         return found;
     }

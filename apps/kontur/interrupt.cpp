@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <functional>
 #include <system_error>
 
 namespace kontur::app {
@@ -30,7 +31,7 @@ extern "C" void on_signal(int) {
     errno = saved;
 }
 
-void watch(std::stop_source source) {
+void watch(std::stop_source& source) {
     for (char what = 0; what != kFinished;) {
         if (read(pipe_ends[0], &what, 1) < 0 && errno != EINTR) return;
         if (what == kInterrupted) source.request_stop();
@@ -41,7 +42,7 @@ void watch(std::stop_source source) {
 
 Interrupt::Interrupt() {
     if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-    watcher_ = std::thread(watch, source_);
+    watcher_ = std::thread(watch, std::ref(source_));
     struct sigaction action = {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);

@@ -21,6 +21,122 @@ namespace fs = std::filesystem;
 
 constexpr const char* kName = "Kontur Segment";
 
+/// The module's description for 3D Slicer, in its own XML.
+constexpr const char* kDescription = R"(<?xml version="1.0" encoding="utf-8"?>
+<executable>
+  <category>Segmentation</category>
+  <title>{title}</title>
+  <description><![CDATA[Smooth surface and mask of an object from closed curves drawn in slices of any orientation. Research software, not a medical device.]]></description>
+  <version>{version}</version>
+  <license>Apache-2.0</license>
+  <contributor>The kontur authors</contributor>
+  <acknowledgements><![CDATA[After Heckel, Konrad and Peitgen, Fast and Smooth Interactive Segmentation of Medical Images Using Variational Interpolation, VCBM 2010.]]></acknowledgements>
+  <parameters>
+    <label>Input and output</label>
+    <description><![CDATA[What is drawn, on what, and what becomes of it]]></description>
+    <image>
+      <name>referenceVolume</name>
+      <label>Reference volume</label>
+      <longflag>--reference</longflag>
+      <channel>input</channel>
+      <description><![CDATA[The image that was drawn on; the label map has its voxels]]></description>
+    </image>
+    <pointfile multiple="true" type="closedcurve" fileExtensions=".mrk.json" coordinateSystem="lps">
+      <name>contours</name>
+      <label>Closed curves</label>
+      <longflag>--contour</longflag>
+      <channel>input</channel>
+      <description><![CDATA[Closed curves of one object, each drawn in one slice view. Straight lines join their points: resample curves with few points]]></description>
+    </pointfile>
+    <image type="label">
+      <name>outputMask</name>
+      <label>Label map</label>
+      <longflag>--mask</longflag>
+      <channel>output</channel>
+      <description><![CDATA[The object as a label map]]></description>
+    </image>
+    <geometry fileExtensions=".ply">
+      <name>outputModel</name>
+      <label>Model</label>
+      <longflag>--model</longflag>
+      <channel>output</channel>
+      <description><![CDATA[The object's surface]]></description>
+    </geometry>
+  </parameters>
+  <parameters advanced="true">
+    <label>Method</label>
+    <description><![CDATA[How the surface runs through the curves]]></description>
+    <string-enumeration>
+      <name>kernel</name>
+      <label>Kernel</label>
+      <longflag>--kernel</longflag>
+      <description><![CDATA[Radial function: triharmonic (r^3) or biharmonic (r)]]></description>
+      <default>{kernel}</default>
+      <element>triharmonic</element>
+      <element>biharmonic</element>
+    </string-enumeration>
+    <string-enumeration>
+      <name>normals</name>
+      <label>Normals</label>
+      <longflag>--normals</longflag>
+      <description><![CDATA[Direction of the surface at a curve: from all curves together (surface), or in the curve's own plane (in-plane)]]></description>
+      <default>{normals}</default>
+      <element>surface</element>
+      <element>in-plane</element>
+    </string-enumeration>
+    <double>
+      <name>quality</name>
+      <label>Quality</label>
+      <longflag>--quality</longflag>
+      <description><![CDATA[Fraction of each curve's points that is used]]></description>
+      <default>{quality}</default>
+      <constraints>
+        <minimum>0.05</minimum>
+        <maximum>1</maximum>
+        <step>0.05</step>
+      </constraints>
+    </double>
+    <integer>
+      <name>threads</name>
+      <label>Threads</label>
+      <longflag>--threads</longflag>
+      <description><![CDATA[0: as many as the machine has]]></description>
+      <default>{threads}</default>
+      <constraints>
+        <minimum>0</minimum>
+        <maximum>256</maximum>
+        <step>1</step>
+      </constraints>
+    </integer>
+  </parameters>
+  <parameters>
+    <label>Result</label>
+    <description><![CDATA[What was found]]></description>
+    <double>
+      <name>volumeMl</name>
+      <label>Volume (ml)</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[Volume of the label map]]></description>
+    </double>
+    <double>
+      <name>residualMaxMm</name>
+      <label>Largest residual (mm)</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[Largest distance of the surface from a drawn point]]></description>
+    </double>
+    <integer>
+      <name>components</name>
+      <label>Components</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[Connected parts of the label map]]></description>
+    </integer>
+  </parameters>
+</executable>
+)";
+
 /// 3D Slicer reads the last of these tags on stdout, at any time.
 void tell(const std::string& tags) {
     std::fwrite(tags.data(), 1, tags.size(), stdout);
@@ -134,122 +250,9 @@ void run(const SlicerCommand& command, Console& console) {
 
 std::string slicer_description(const SlicerCommand& defaults) {
     const SegmentOptions& o = defaults.options;
-    return fmt::format(R"(<?xml version="1.0" encoding="utf-8"?>
-<executable>
-  <category>Segmentation</category>
-  <title>{title}</title>
-  <description><![CDATA[Smooth surface and mask of an object from closed curves drawn in slices of any orientation. Research software, not a medical device.]]></description>
-  <version>{version}</version>
-  <license>Apache-2.0</license>
-  <contributor>The kontur authors</contributor>
-  <acknowledgements><![CDATA[After Heckel, Konrad and Peitgen, Fast and Smooth Interactive Segmentation of Medical Images Using Variational Interpolation, VCBM 2010.]]></acknowledgements>
-  <parameters>
-    <label>Input and output</label>
-    <description><![CDATA[What is drawn, on what, and what becomes of it]]></description>
-    <image>
-      <name>referenceVolume</name>
-      <label>Reference volume</label>
-      <longflag>--reference</longflag>
-      <channel>input</channel>
-      <description><![CDATA[The image that was drawn on; the label map has its voxels]]></description>
-    </image>
-    <pointfile multiple="true" type="closedcurve" fileExtensions=".mrk.json" coordinateSystem="lps">
-      <name>contours</name>
-      <label>Closed curves</label>
-      <longflag>--contour</longflag>
-      <channel>input</channel>
-      <description><![CDATA[Closed curves of one object, each drawn in one slice view. Straight lines join their points: resample curves with few points]]></description>
-    </pointfile>
-    <image type="label">
-      <name>outputMask</name>
-      <label>Label map</label>
-      <longflag>--mask</longflag>
-      <channel>output</channel>
-      <description><![CDATA[The object as a label map]]></description>
-    </image>
-    <geometry fileExtensions=".ply">
-      <name>outputModel</name>
-      <label>Model</label>
-      <longflag>--model</longflag>
-      <channel>output</channel>
-      <description><![CDATA[The object's surface]]></description>
-    </geometry>
-  </parameters>
-  <parameters advanced="true">
-    <label>Method</label>
-    <description><![CDATA[How the surface runs through the curves]]></description>
-    <string-enumeration>
-      <name>kernel</name>
-      <label>Kernel</label>
-      <longflag>--kernel</longflag>
-      <description><![CDATA[Radial function: triharmonic (r^3) or biharmonic (r)]]></description>
-      <default>{kernel}</default>
-      <element>triharmonic</element>
-      <element>biharmonic</element>
-    </string-enumeration>
-    <string-enumeration>
-      <name>normals</name>
-      <label>Normals</label>
-      <longflag>--normals</longflag>
-      <description><![CDATA[Direction of the surface at a curve: from all curves together (surface), or in the curve's own plane (in-plane)]]></description>
-      <default>{normals}</default>
-      <element>surface</element>
-      <element>in-plane</element>
-    </string-enumeration>
-    <double>
-      <name>quality</name>
-      <label>Quality</label>
-      <longflag>--quality</longflag>
-      <description><![CDATA[Fraction of each curve's points that is used]]></description>
-      <default>{quality}</default>
-      <constraints>
-        <minimum>0.05</minimum>
-        <maximum>1</maximum>
-        <step>0.05</step>
-      </constraints>
-    </double>
-    <integer>
-      <name>threads</name>
-      <label>Threads</label>
-      <longflag>--threads</longflag>
-      <description><![CDATA[0: as many as the machine has]]></description>
-      <default>{threads}</default>
-      <constraints>
-        <minimum>0</minimum>
-        <maximum>256</maximum>
-        <step>1</step>
-      </constraints>
-    </integer>
-  </parameters>
-  <parameters>
-    <label>Result</label>
-    <description><![CDATA[What was found]]></description>
-    <double>
-      <name>volumeMl</name>
-      <label>Volume (ml)</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Volume of the label map]]></description>
-    </double>
-    <double>
-      <name>residualMaxMm</name>
-      <label>Largest residual (mm)</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Largest distance of the surface from a drawn point]]></description>
-    </double>
-    <integer>
-      <name>components</name>
-      <label>Components</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Connected parts of the label map]]></description>
-    </integer>
-  </parameters>
-</executable>
-)",
-                       fmt::arg("title", kName), fmt::arg("version", KONTUR_VERSION), fmt::arg("kernel", name(o.kernel)),
-                       fmt::arg("normals", name(o.normals)), fmt::arg("quality", o.quality), fmt::arg("threads", o.threads));
+    return fmt::format(kDescription, fmt::arg("title", kName), fmt::arg("version", KONTUR_VERSION),
+                       fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)),
+                       fmt::arg("quality", o.quality), fmt::arg("threads", o.threads));
 }
 
 }  // namespace kontur::app

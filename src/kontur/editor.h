@@ -33,7 +33,7 @@ struct EditedSurface {
 /// at a residual of 1e5 mm and more), and the set-up of a thousand points takes milliseconds.
 class Editor {
 public:
-    explicit Editor(EditorOptions options = {}) : options_(std::move(options)) {}
+    explicit Editor(EditorOptions options = {}) : options_(options) {}
 
     /// Throws Error as check_contours and solve do; then the edit before stays the last one. A set without contours gives an
     /// empty surface.

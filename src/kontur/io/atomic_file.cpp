@@ -27,7 +27,7 @@ constexpr int kNameAttempts = 1000;
 fs::path destination_of(const fs::path& target) {
     std::error_code error;
     if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
-    const fs::path resolved = fs::weakly_canonical(target, error);
+    fs::path resolved = fs::weakly_canonical(target, error);
     if (error) fail_to_write(target, error.message());
     return resolved;
 }

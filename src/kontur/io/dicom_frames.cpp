@@ -103,6 +103,7 @@ std::vector<Frame> frames_of(DcmItem& dataset) {
         throw corrupt(fmt::format("it declares {} frames and describes {}", declared, own.size()));
     DcmItem* shared = first_item(&dataset, DCM_SharedFunctionalGroupsSequence);
     std::vector<Frame> frames;
+    frames.reserve(own.size());
     for (DcmItem* item : own) frames.emplace_back(item, shared);
     return frames;
 }

@@ -154,7 +154,7 @@ std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmDatas
 
 /// Empty for an image that can be placed in space.
 std::string reason_to_skip(DcmDataset& dataset) {
-    const std::string modality = dcmtk::text(dataset, DCM_Modality);
+    std::string modality = dcmtk::text(dataset, DCM_Modality);
     if (modality == "SEG" || modality == "RTDOSE") return modality;
     if (!dataset.tagExists(DCM_Rows)) return modality.empty() ? "DICOM without an image" : modality;
     if (has_placed_frames(dataset)) return "";

@@ -24,7 +24,7 @@ Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
 
 /// Places where contours disagree by more than careful hands do, in large organs more than in small ones.
 std::vector<Conflict> conflicts(const SurfaceTask& task) {
-    const double least_mm = std::max(1.0, 0.01 * bounding_box(task.set).diagonal());
+    const double least_mm = std::max(1.0, 0.015 * diameter_mm(task.set));
     std::vector<Conflict> found;
     for (const Crossing& crossing : find_crossings(task.set))
         if (crossing.disagreement_mm >= least_mm)

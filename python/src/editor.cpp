@@ -14,7 +14,7 @@ Keywords<EditorOptions> editor_keywords() {
     };
     return Keywords<EditorOptions>()
         .field("preview_spacing_mm", &EditorOptions::preview_spacing_mm,
-               "Of the preview's lattice; 0: 1/150 of the contours' box diagonal.")
+               "Of the preview's lattice; 0: 1/100 of the contours' diameter.")
         .field("refined_spacing_mm", &EditorOptions::refined_spacing_mm,
                "Of the refined surface's; 0: half the preview's.")
         .field("preview_points", &EditorOptions::preview_points,

@@ -31,7 +31,7 @@ void bind_findings(py::module_& m) {
             .field("line_tolerance_mm", limit(&ContourCheckOptions::line_tolerance_mm),
                    "A contour no wider than this is a line.")
             .field("disagreement_mm", &ContourSetCheckOptions::disagreement_mm,
-                   "How much contours of different planes may disagree; None: 1 % of the set's diagonal.");
+                   "How much contours of different planes may disagree; None: 1.5 % of the contours' diameter.");
     define(
         m, "check_contour_set", R"(Everything that is wrong or doubtful in a contour set, errors first.
 

@@ -40,7 +40,7 @@ Keywords<Options>& solve_fields(Keywords<Options>& keywords, Access access) {
     };
     return keywords.field("kernel", to(&SolveOptions::kernel), "Radial function: r^3 or r.")
         .field("solver", to(&SolveOptions::solver), "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
-        .field("smoothing", to(&SolveOptions::smoothing), "On unit-box coordinates; 0 interpolates exactly.")
+        .field("smoothing", to(&SolveOptions::smoothing), "On unit coordinates; 0 interpolates exactly.")
         .field("tolerance_mm", to(&SolveOptions::tolerance_mm), "Of the iterative solver, at all constraints.")
         .field("max_iterations", to(&SolveOptions::max_iterations), "Of the iterative solver.")
         .field("max_memory_mb", to(&SolveOptions::max_memory_mb), "A dense matrix larger than this is refused.")
@@ -59,7 +59,7 @@ Keywords<FitOptions> fit_keywords() {
                "Direction of the surface at a contour: from all contours together, or the contour's alone.")
         .field("rounds", &FitOptions::rounds,
                "Surface normals: how often the tilts are read from the fit and given back to it.")
-        .field("start_smoothing", &FitOptions::start_smoothing, "Smoothing of the first fit, on unit-box coordinates.")
+        .field("start_smoothing", &FitOptions::start_smoothing, "Smoothing of the first fit, on unit coordinates.")
         .field("smoothing_factor", &FitOptions::smoothing_factor, "And its factor from round to round.")
         .field("least_slope", &FitOptions::least_slope, "Lower bound of the cosine of the tilt.")
         .field("early_tolerance_factor", &FitOptions::early_tolerance_factor,

@@ -13,9 +13,9 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("normals", &SegmentOptions::normals,
                "Direction of the surface at a contour: from all contours together, or the contour's alone (the paper's).")
         .field("normal_offset_mm", &SegmentOptions::normal_offset_mm,
-               "Length of the normal constraints; None: 0.3 % of the contours' box diagonal.")
+               "Length of the normal constraints; None: 0.45 % of the contours' diameter.")
         .field("smoothing", &SegmentOptions::smoothing,
-               "On unit-box coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
+               "On unit coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
         .field("conflicts", &SegmentOptions::conflicts,
                "Where contours of different planes contradict each other: both yield, the earlier one, or none.")
         .field("fill_rule", &SegmentOptions::fill_rule, "What contours inside others of their plane mean.")
@@ -24,7 +24,7 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
         .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
         .field("tolerance_mm", &SegmentOptions::tolerance_mm,
-               "Of the iterative solver, at all constraints; None: 1e-5 of the contours' box diagonal.")
+               "Of the iterative solver, at all constraints; None: 1.5e-5 of the contours' diameter.")
         .field("voxelizer", &SegmentOptions::voxelizer,
                "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
                "all voxels.")

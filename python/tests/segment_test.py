@@ -27,12 +27,12 @@ def test_the_kidney(case, kidney):
 
 
 def test_the_stages_make_what_segment_makes(case, kidney):
-    diagonal = numpy.linalg.norm(numpy.diff(case.contours.bounding_box, axis=0))
+    diameter = case.contours.diameter_mm
     prepared = kontur.reconcile(kontur.prepare(case.contours), kontur.find_crossings(case.contours),
                                 offset_mm=kidney.report.normal_offset_mm)
     fitted = kontur.fit(prepared, normal_offset_mm=kidney.report.normal_offset_mm,
-                        merge_distance_mm=4e-4 * diagonal, smoothing=kidney.report.smoothing,
-                        tolerance_mm=1e-5 * diagonal)
+                        merge_distance_mm=6e-4 * diameter, smoothing=kidney.report.smoothing,
+                        tolerance_mm=1.5e-5 * diameter)
     starts = numpy.concatenate([prepared.positions] + [contour.points for contour in case.contours.contours])
     surface = kontur.track_surface_adaptively(fitted.function, case.grid, starts)
     assert numpy.array_equal(kontur.fill(surface).values, kidney.mask.values)

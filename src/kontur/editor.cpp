@@ -11,7 +11,7 @@ namespace {
 
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
 constexpr double kPreviewTolerance = 50;  // times that of the refined surface
-constexpr double kSpacingFraction = 1.0 / 150;
+constexpr double kSpacingFraction = 0.01;  // of the contours' diameter
 
 /// The contours as `segment` sees them.
 ContourSet cleaned(ContourSet contours, FillRule fill_rule) {
@@ -40,7 +40,7 @@ EditedSurface surface_of(const Fit& fit, const ContourSet& contours, const Prepa
 
 double Editor::preview_spacing(const ContourSet& contours) const {
     return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm
-                                           : kSpacingFraction * bounding_box(contours).diagonal();
+                                           : kSpacingFraction * diameter_mm(contours);
 }
 
 /// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.

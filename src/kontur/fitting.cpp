@@ -10,25 +10,25 @@
 namespace kontur {
 namespace {
 
-// Fractions of the diagonal of the contours' box. The offset is short enough to stay clear of the opposite wall of thin
+// Fractions of the contours' diameter (diameter_mm). The offset is short enough to stay clear of the opposite wall of thin
 // structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
-constexpr double kOffsetFraction = 3e-3;
-constexpr double kMergeFraction = 4e-4;
-constexpr double kToleranceFraction = 1e-5;  // 0.004 mm on a liver
+constexpr double kOffsetFraction = 4.5e-3;
+constexpr double kMergeFraction = 6e-4;
+constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
 
-FitOptions fit_options(const SegmentOptions& options, double diagonal_mm) {
+FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     FitOptions fit;
     fit.normals = options.normals;
-    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diagonal_mm);
-    fit.place.merge_distance_mm = kMergeFraction * diagonal_mm;
+    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diameter_mm);
+    fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
     if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
         throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
                                                           fit.place.normal_offset_mm));
     fit.solve.kernel = options.kernel;
     fit.solve.solver = options.solver;
     fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
-    fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diagonal_mm);
+    fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
     fit.solve.threads = options.threads;
     return fit;
 }
@@ -60,10 +60,10 @@ std::vector<double> weights_of(const ContourSet& contours) {
 }  // namespace
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
-    const FitOptions fit = fit_options(options, bounding_box(contours).diagonal());
+    const FitOptions fit = fit_options(options, diameter_mm(contours));
     const ReconcileOptions reconcile{
         .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
-        .offset_mm = kOffsetFraction * bounding_box(contours).diagonal(),
+        .offset_mm = kOffsetFraction * diameter_mm(contours),
         .weights = weights_of(contours)};
     return {prepare_options(options, fit), reconcile, fit};
 }

@@ -10,6 +10,7 @@
 #include "kontur/base/printable.h"
 #include "kontur/base/progress.h"
 #include "kontur/base/sha256.h"
+#include "kontur/base/smallest_ball.h"
 
 // What goes in and comes out.
 #include "kontur/shape/contour.h"

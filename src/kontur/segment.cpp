@@ -77,7 +77,7 @@ void describe_crossings(const ContourSet& contours, const Grid& grid, SegmentRep
                      [](const Crossing& a, const Crossing& b) { return a.disagreement_mm > b.disagreement_mm; });
     if (report.crossings.empty()) return;
     const Crossing& worst = report.crossings.front();
-    const double limit_mm = std::max(std::cbrt(grid.voxel_volume_mm3()), 0.01 * bounding_box(contours).diagonal());
+    const double limit_mm = std::max(std::cbrt(grid.voxel_volume_mm3()), 0.015 * diameter_mm(contours));
     if (worst.disagreement_mm > limit_mm) report.warnings.push_back("contours contradict each other: " + sentence(worst));
 }
 

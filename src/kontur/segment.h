@@ -26,14 +26,14 @@ struct SegmentOptions {
     Kernel kernel = Kernel::triharmonic;
     Normals normals = Normals::surface;
     std::optional<double>
-        normal_offset_mm{};             ///< length of the normal constraints; unset: 0.3 % of the contours' box diagonal
-    std::optional<double> smoothing{};  ///< on unit-box coordinates; unset: 1e-5 with surface normals, else 0
+        normal_offset_mm{};             ///< length of the normal constraints; unset: 0.45 % of the contours' diameter
+    std::optional<double> smoothing{};  ///< on unit coordinates; unset: 1e-5 with surface normals, else 0
     Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
     FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
     Corners corners = Corners::rounded;          ///< what becomes of the corners of closed contours; surface normals only
     double quality = 1.0;                        ///< fraction of each contour's points that the fit uses, in (0, 1]
     Solver solver = Solver::automatic;
-    std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 1e-5 of the box diagonal
+    std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 1.5e-5 of the diameter
     Voxelizer voxelizer = Voxelizer::adaptive;
     bool mesh = false;  ///< also make the surface
     int threads = 0;    ///< 0: the machine's
@@ -45,7 +45,7 @@ struct SegmentReport {
     std::size_t contours = 0;
     std::size_t points = 0;       ///< drawn points
     std::size_t constraints = 0;  ///< placed and kept
-    std::size_t merged = 0;       ///< constraints left out because others lie within 0.04 % of the box diagonal
+    std::size_t merged = 0;       ///< constraints left out because others lie within 0.06 % of the diameter
     std::size_t capped = 0;       ///< constraints that end the object beyond its last contours
     std::size_t centres = 0;      ///< weights of the implicit function
     Kernel kernel = Kernel::triharmonic;

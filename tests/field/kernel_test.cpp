@@ -133,7 +133,7 @@ TEST(ImplicitFunction, DefaultIsZeroEverywhere) {
     EXPECT_EQ(ImplicitFunction().gradient({1, 2, 3}), Vec3());
 }
 
-TEST(UnitFrame, PutsThePointsIntoTheUnitBox) {
+TEST(UnitFrame, PutsThePointsIntoTheUnitBall) {
     const std::vector<Vec3> points{{1000, 0, 0}, {1040, 10, 5}, {1020, -10, 2}};
     const UnitFrame frame = unit_frame(points);
     EXPECT_EQ(frame.scale, 20);

@@ -25,8 +25,8 @@ ContourSet moved(ContourSet set, const Affine3& turn, const Vec3& shift, double 
     const auto move = [&](const Vec3& p) { return shift + scale * turn.apply(p); };
     for (Contour& contour : set.contours) {
         for (Vec3& p : contour.points) p = move(p);
-        Plane& plane = contour.plane;
-        plane = {move(plane.origin), turn.apply(plane.normal), turn.apply(plane.u), turn.apply(plane.v)};
+        // As a file gives it: with axes of its own choice.
+        contour.plane = make_plane(move(contour.plane.origin), turn.apply(contour.plane.normal));
     }
     for (Vec3& p : set.interior) p = move(p);
     for (Vec3& p : set.exterior) p = move(p);
@@ -94,18 +94,22 @@ TEST_P(Equivariance, MasksScaleWithTheContoursFromMicrometresToAHundredMetres) {
     }
 }
 
-// Lengths follow the diagonal of the contours' box along the axes, which a turn changes by up to a factor of 1.7: so does
-// the offset of the normals, and the smoothing.
-TEST_P(Equivariance, MasksAlmostTurnWithTheContours) {
+TEST_P(Equivariance, MasksTurnWithTheContours) {
     const Drawing& drawing = GetParam();
     const Segmentation original = segment(drawing.contours, drawing.grid);
-    const Segmentation result = moved_and_segmented(drawing, rotation({0.3, -0.5, 0.8}), {70, -200, 900}, 1);
-    EXPECT_LE(different_voxels(original.mask, result.mask), static_cast<std::size_t>(original.report.mask_voxels / 50));
+    for (const Vec3& axis : {Vec3{0.3, -0.5, 0.8}, Vec3{-1, 1, 0.2}}) {
+        const Segmentation result = moved_and_segmented(drawing, rotation(axis), {70, -200, 900}, 1);
+        EXPECT_LE(different_voxels(original.mask, result.mask),
+                  static_cast<std::size_t>(original.report.mask_voxels / 2000));
+        EXPECT_NEAR(result.report.residual.max_mm, original.report.residual.max_mm,
+                    0.02 * original.report.residual.max_mm + 1e-3);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Drawings, Equivariance,
                          testing::Values(ball({-12, 0, 9}), ball({3}), of_phantom("metastasis_parallel7", 3),
-                                         of_phantom("kidney_radial6_hand", 2)),
+                                         of_phantom("kidney_radial6_hand", 2), of_phantom("vertebra_parallel11_hand", 3),
+                                         of_phantom("liver_oblique10_hand", 6)),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -34,11 +34,18 @@ public:
         for (const Vec3& p : set.interior) reach_ = std::max(reach_, ahead(p));
     }
 
-    bool leads_on() const { return leads_on_; }
-
     void append_caps(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
+        if (leads_on_) return;
         if (next_) return append_towards_next(inside, caps);
         append_rounded_end(inside, caps);
+    }
+
+    /// How far the object may go on beyond the section; 0 where other contours tell.
+    double height(const std::vector<Probe>& inside) const {
+        if (leads_on_ || next_) return 0;
+        const double deepest = deepest_of(inside);
+        const double widest = std::isinf(previous_distance_) ? deepest : 1.5 * deepest;
+        return std::max(std::min(previous_distance_, widest), 1.25 * reach_);
     }
 
 private:
@@ -63,6 +70,12 @@ private:
         return false;
     }
 
+    static double deepest_of(const std::vector<Probe>& inside) {
+        double deepest = 0;
+        for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
+        return deepest;
+    }
+
     Vec3 above(const Point2& p, double height) const {
         return section_.plane.from_uv(p[0], p[1]) + sign_ * height * section_.plane.normal;
     }
@@ -79,12 +92,8 @@ private:
     }
 
     void append_rounded_end(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
-        double deepest = 0;
-        for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
+        const double deepest = deepest_of(inside), height = this->height(inside);
         if (deepest == 0) return;
-        // A dome is lower off its middle than in it: leave room for the point wherever it is.
-        const double widest = std::isinf(previous_distance_) ? deepest : 1.5 * deepest;
-        const double height = std::max(std::min(previous_distance_, widest), 1.25 * reach_);
         for (const Probe& probe : inside) {
             const double rim = 1 - probe.depth / deepest;
             caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});
@@ -131,18 +140,21 @@ bool has_open_contour(const ContourSet& set, const Plane& plane, double toleranc
 // Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
 constexpr double kProbeTrust = 0.05;
 
-void append_leak_probes(const Section& section, const Box3& box, double step, int threads, std::vector<Cap>& probes) {
-    const Point2 center = section.plane.to_uv(box.center());
-    const int reach = static_cast<int>(std::ceil(box.diagonal() / 2 / step));
+void append_leak_probes(const Section& section, const Ball3& ball, double step, int threads, std::vector<Cap>& probes) {
+    const SectionAxes axes(section);
+    const Point2 center = axes.from_plane(section.plane.to_uv(ball.center));
+    const int reach = static_cast<int>(std::ceil(ball.radius / step));
     std::vector<std::vector<Cap>> rows(static_cast<std::size_t>(2 * reach + 1));
     parallel_for(2 * reach + 1, 4, threads, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin)
             for (int i = -reach; i <= reach; ++i) {
-                const Point2 at{center[0] + i * step, center[1] + static_cast<double>(begin - reach) * step};
+                const Point2 at =
+                    axes.to_plane({center[0] + i * step, center[1] + static_cast<double>(begin - reach) * step});
                 const Vec3 position = section.plane.from_uv(at[0], at[1]);
-                if (!box.contains(position) || section.contains(at)) continue;
+                if (distance(position, ball.center) > ball.radius || section.contains(at)) continue;
                 const double clear = section.clearance(at);
-                if (clear > step) rows[static_cast<std::size_t>(begin)].push_back(
+                if (clear > step)
+                    rows[static_cast<std::size_t>(begin)].push_back(
                         {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kProbeTrust});
             }
     });
@@ -153,14 +165,14 @@ void append_leak_probes(const Section& section, const Box3& box, double step, in
 
 std::vector<Cap> find_caps(const ContourSet& set) {
     std::vector<Cap> caps;
-    const double tolerance = 1e-3 * bounding_box(set).diagonal();
+    const double tolerance = 1.5e-3 * diameter_mm(set);
     const std::vector<Section> sections = sections_of(set, tolerance);
     for (const Section& section : sections) {
         const std::vector<Probe> inside = probes(section);
         for (const double sign : {-1.0, 1.0}) {
             Side side(sections, section, sign, tolerance);
             side.consider_rest(set);
-            if (!side.leads_on()) side.append_caps(inside, caps);
+            side.append_caps(inside, caps);
         }
     }
     return caps;
@@ -168,12 +180,24 @@ std::vector<Cap> find_caps(const ContourSet& set) {
 
 std::vector<Cap> find_leak_probes(const ContourSet& set, int threads) {
     std::vector<Cap> probes;
-    const double diagonal = bounding_box(set).diagonal();
-    const Box3 box = bounding_box(set).padded(diagonal / 3);
-    const std::vector<Section> sections = sections_of(set, 1e-3 * diagonal);
-    for (const Section& section : sections)
-        if (!has_open_contour(set, section.plane, 1e-3 * diagonal) && !is_incomplete(section, sections, 0.05 * diagonal))
-            append_leak_probes(section, box, diagonal / 24, threads, probes);
+    const Ball3 around = smallest_ball(set);
+    const Ball3 reached{around.center, 2 * around.radius};
+    const double diameter = around.diameter(), tolerance = 1.5e-3 * diameter;
+    const std::vector<Section> sections = sections_of(set, tolerance);
+    for (const Section& section : sections) {
+        if (!has_open_contour(set, section.plane, tolerance) && !is_incomplete(section, sections, 0.075 * diameter))
+            append_leak_probes(section, reached, diameter / 16, threads, probes);
+        // What goes on beyond the last plane ends at its cap, and beside it there is nothing.
+        const std::vector<Probe> inside = kontur::probes(section);
+        for (const double sign : {-1.0, 1.0}) {
+            Side side(sections, section, sign, tolerance);
+            side.consider_rest(set);
+            Section end = section;
+            end.plane.origin += sign * side.height(inside) * section.plane.normal;
+            if (end.plane.origin != section.plane.origin)
+                append_leak_probes(end, reached, diameter / 16, threads, probes);
+        }
+    }
     return probes;
 }
 

@@ -36,7 +36,7 @@ std::vector<Cap> find_caps(const ContourSet& set);
 
 /// Where a leak would show. In a drawn plane, what lies outside of all its contours is outside of the object, but far from
 /// the contours the interpolant may turn positive again, and such a sheet can join the object. The points lie on a lattice
-/// over each drawn plane, as far as a third of the set's diagonal beyond its box. A plane counts as drawn incompletely, and
+/// over each drawn plane, in the ball of twice the diameter of the smallest one around the contours. A plane counts as drawn incompletely, and
 /// gets none, when contours of other planes cross it well outside of its own.
 std::vector<Cap> find_leak_probes(const ContourSet& set, int threads = 0);
 

@@ -47,7 +47,7 @@ std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm) {
 }
 
 std::vector<std::string> contradictory_clicks(const ContourSet& set, double margin_mm) {
-    const std::vector<Section> sections = sections_of(set, 1e-3 * bounding_box(set).diagonal());
+    const std::vector<Section> sections = sections_of(set, 1.5e-3 * diameter_mm(set));
     std::vector<std::string> sentences;
     const auto check = [&](const std::vector<Vec3>& points, bool interior) {
         for (std::size_t i = 0; i < points.size(); ++i)

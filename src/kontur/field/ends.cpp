@@ -116,7 +116,7 @@ std::string complaint(std::size_t contour, bool both_carried_on) {
 
 Ends find_ends(const ContourSet& set) {
     Ends ends;
-    const double tolerance = 1e-3 * bounding_box(set).diagonal();
+    const double tolerance = 1.5e-3 * diameter_mm(set);
     const std::vector<Section> sections = sections_of(set, tolerance);
     for (const Section& section : sections)
         for (const std::size_t c : section.contours) {

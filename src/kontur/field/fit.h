@@ -18,7 +18,7 @@ std::string_view name(Normals normals) noexcept;
 struct FitOptions {
     Normals normals = Normals::surface;
     int rounds = 3;                      ///< surface normals: how often the tilts are read from the fit and given back to it
-    double start_smoothing = 1e-3;       ///< surface normals: smoothing of the first fit, on unit-box coordinates
+    double start_smoothing = 1e-3;       ///< surface normals: smoothing of the first fit, on unit coordinates
     double smoothing_factor = 0.3;       ///< ... and its factor from round to round; the last fit has `solve.smoothing`
     double least_slope = 0.2;            ///< surface normals: lower bound of the cosine of the tilt
     double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt

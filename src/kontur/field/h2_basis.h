@@ -10,7 +10,7 @@
 namespace kontur {
 
 struct H2Options {
-    double tolerance = 1e-10;  ///< of an interpolated phi, root mean square, on unit-box coordinates
+    double tolerance = 1e-10;  ///< of an interpolated phi, root mean square, on unit coordinates
     double eta = 1.25;         ///< admissible: diameters at most eta times the distance
     std::int32_t leaf_size = 64;
 };

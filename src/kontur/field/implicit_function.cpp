@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "kontur/base/smallest_ball.h"
+
 namespace kontur {
 
 struct ImplicitFunction::Data {
@@ -22,11 +24,8 @@ std::vector<Vec3> UnitFrame::to_unit(std::span<const Vec3> points) const {
 }
 
 UnitFrame unit_frame(std::span<const Vec3> points) {
-    const Box3 box = bounding_box(points);
-    if (box.is_empty()) return {};
-    const Vec3 size = box.size();
-    const double longest = std::max({size.x, size.y, size.z});
-    return {box.center(), longest > 0 ? longest / 2 : 1.0};
+    const Ball3 ball = smallest_ball(points);
+    return {ball.center, ball.radius > 0 ? ball.radius : 1.0};
 }
 
 ImplicitFunction::ImplicitFunction() : data_(std::make_shared<const Data>()) {}

@@ -10,8 +10,9 @@
 
 namespace kontur {
 
-/// Coordinates in which the system is set up: x -> (x - center) / scale, so that the centres fill the box [-1, 1]^3. In
-/// raw millimetres the condition number is five orders of magnitude worse, with a patient offset nine.
+/// Coordinates in which the system is set up: x -> (x - center) / scale, so that the centres lie in the unit ball,
+/// however they are turned. In raw millimetres the condition number is five orders of magnitude worse, with a patient offset
+/// nine.
 struct UnitFrame {
     Vec3 center;
     double scale = 1;
@@ -20,7 +21,7 @@ struct UnitFrame {
     std::vector<Vec3> to_unit(std::span<const Vec3> points) const;
 };
 
-/// The frame of a point set: its box's centre and half its longest side (1 for a single point).
+/// The frame of a point set: centre and radius of its smallest ball (1 for a single point).
 UnitFrame unit_frame(std::span<const Vec3> points);
 
 /// f(x) = p0 + p . x + sum_j w_j phi(|x - c_j|) (paper Eq. 2), positive inside, in mm near the surface. Immutable, cheap to

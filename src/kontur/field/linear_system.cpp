@@ -33,7 +33,7 @@ std::array<std::size_t, 4> spread_centers(const PointArrays& centers) {
     const Vec3 area = cross(pb - pa, centers[c] - pa);
     const std::size_t d = best_center(centers, [&](const Vec3& p) { return std::abs(dot(area, p - pa)); });
 
-    // In the unit box a real body spans a volume of order 1; offset points alone leave a contour's plane by about 1e-3.
+    // In the unit ball a real body spans a volume of order 1; offset points alone leave a contour's plane by about 1e-3.
     if (!(std::abs(dot(area, centers[d] - pa)) > 1e-9))
         throw Error(ErrorKind::singular_system, "all constraints lie in one plane, so the surface is not determined");
     return {a, b, c, d};

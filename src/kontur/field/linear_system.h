@@ -11,11 +11,11 @@
 
 namespace kontur {
 
-/// The interpolation problem in unit-box coordinates, as the solvers see it.
+/// The interpolation problem in unit coordinates, as the solvers see it.
 struct LinearSystem {
     Kernel kernel;
     std::vector<double> smoothing;  ///< of every constraint
-    PointArrays centers;            ///< unit-box coordinates
+    PointArrays centers;            ///< unit coordinates
     std::vector<double> values;     ///< mm
     std::vector<double> start = {};  ///< weights that may be close to the solution; empty: none are known
     std::shared_ptr<const PreconditionerPattern> pattern = {};  ///< of these centres, if there is one already

@@ -19,7 +19,7 @@ namespace {
 
 bool is_coplanar(const ContourSet& set) {
     const Plane& plane = set.contours.front().plane;
-    const double tolerance = 1e-3 * bounding_box(set).diagonal();  // as planes are told apart for caps
+    const double tolerance = 1.5e-3 * diameter_mm(set);  // as planes are told apart for caps
     const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > tolerance; };
     for (const Contour& contour : set.contours)
         if (std::any_of(contour.points.begin(), contour.points.end(), off_plane)) return false;
@@ -112,9 +112,9 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
     PreparedContours prepared;
     if (drawn.contours.empty()) return prepared;
     ContourSet set = drawn;
-    const double diagonal = bounding_box(set).diagonal();
+    const double diameter = diameter_mm(set);
     apply_fill_rule(set, options.fill_rule);
-    note_tidied(tidy(set, {1e-5 * diagonal, 1e-4 * diagonal}), prepared.notes);
+    note_tidied(tidy(set, {1.5e-5 * diameter, 1.5e-4 * diameter}), prepared.notes);
     prepared.coplanar = is_coplanar(set);
 
     ContourSet fitted = set;
@@ -124,7 +124,7 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), options.corners, prepared);
-    if (options.gaps) find_gaps(fitted, 0.1 * diagonal, 1e-3 * diagonal, prepared.points, options.threads);
+    if (options.gaps) find_gaps(fitted, 0.15 * diameter, 1.5e-3 * diameter, prepared.points, options.threads);
     append_limits(set, options, prepared);
     return prepared;
 }

@@ -5,22 +5,66 @@
 #include <cmath>
 
 namespace kontur {
+namespace {
+
+template <class Visit>
+void for_each_edge(const Section& section, const Visit& visit) {
+    for (const Polygon2& outline : section.outlines)
+        for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++)
+            visit(outline[before], outline[i]);
+}
+
+}  // namespace
+
+SectionAxes::SectionAxes(const Section& section) {
+    // Moments of the lines, each edge as a mass at its middle.
+    double mass = 0, mean_u = 0, mean_v = 0;
+    const auto middle = [](const Point2& a, const Point2& b) { return Point2{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}; };
+    const auto length = [](const Point2& a, const Point2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); };
+    for_each_edge(section, [&](const Point2& a, const Point2& b) {
+        mass += length(a, b);
+        mean_u += length(a, b) * middle(a, b)[0];
+        mean_v += length(a, b) * middle(a, b)[1];
+    });
+    if (!(mass > 0)) return;
+    double uu = 0, uv = 0, vv = 0;
+    for_each_edge(section, [&](const Point2& a, const Point2& b) {
+        const double u = middle(a, b)[0] - mean_u / mass, v = middle(a, b)[1] - mean_v / mass;
+        uu += length(a, b) * u * u;
+        uv += length(a, b) * u * v;
+        vv += length(a, b) * v * v;
+    });
+    const bool is_round = std::hypot(uu - vv, 2 * uv) < 1e-3 * (uu + vv);
+    const Point2& first = section.outlines.front().front();
+    const double angle =
+        is_round ? std::atan2(first[1] - mean_v / mass, first[0] - mean_u / mass) : std::atan2(2 * uv, uu - vv) / 2;
+    cos_ = std::cos(angle);
+    sin_ = std::sin(angle);
+}
 
 std::vector<Probe> probes(const Section& section) {
+    const SectionAxes axes(section);
     Point2 low{1e300, 1e300}, high{-1e300, -1e300};
     for (const Polygon2& outline : section.outlines)
-        for (const Point2& p : outline)
+        for (const Point2& vertex : outline) {
+            const Point2 p = axes.from_plane(vertex);
             for (std::size_t axis = 0; axis < 2; ++axis) {
                 low[axis] = std::min(low[axis], p[axis]);
                 high[axis] = std::max(high[axis], p[axis]);
             }
+        }
     const double width = high[0] - low[0], height = high[1] - low[1];
     const double step = std::max(std::sqrt(width * height / 150), std::max(width, height) / 100);
+    // Symmetric about the middle: the axes' signs mean nothing.
+    const auto columns = static_cast<int>(width / 2 / step), rows = static_cast<int>(height / 2 / step);
     std::vector<Probe> result;
-    for (double v = low[1] + step / 2; v < high[1]; v += step)
-        for (double u = low[0] + step / 2; u < high[0]; u += step)
-            if (const Point2 at{u, v}; section.contains(at))
-                if (const double depth = section.clearance(at); depth > step / 2) result.push_back({at, depth});
+    for (int row = -rows; row <= rows; ++row)
+        for (int column = -columns; column <= columns; ++column) {
+            const Point2 at =
+                axes.to_plane({(low[0] + high[0]) / 2 + column * step, (low[1] + high[1]) / 2 + row * step});
+            if (!section.contains(at)) continue;
+            if (const double depth = section.clearance(at); depth > step / 2) result.push_back({at, depth});
+        }
     return result;
 }
 

@@ -19,15 +19,15 @@ std::optional<ImplicitFunction> coarse_fit(const ContourSet& set, std::vector<Bo
         if (!contour.closed && !contour.inside)
             for (const Vec3& p : contour.points) points.push_back({.position = p, .contour = kNoContour});
 
-    const double diagonal = bounding_box(set).diagonal();
+    const double diameter = diameter_mm(set);
     std::vector<PointConstraint> clicks;
-    for (const Vec3& p : set.interior) clicks.push_back({p, diagonal / 20, ConstraintKind::interior});
-    for (const Vec3& p : set.exterior) clicks.push_back({p, -diagonal / 20, ConstraintKind::exterior});
-    const PlaceOptions place{.normal_offset_mm = 3e-3 * diagonal, .merge_distance_mm = 1e-3 * diagonal};
+    for (const Vec3& p : set.interior) clicks.push_back({p, 0.075 * diameter, ConstraintKind::interior});
+    for (const Vec3& p : set.exterior) clicks.push_back({p, -0.075 * diameter, ConstraintKind::exterior});
+    const PlaceOptions place{.normal_offset_mm = 4.5e-3 * diameter, .merge_distance_mm = 1.5e-3 * diameter};
     try {
         const std::vector<double> slopes(points.size(), 1.0);
         return solve(place_constraints(points, slopes, clicks, place).constraints,
-                     {.smoothing = 1e-3, .tolerance_mm = 1e-3 * diagonal})
+                     {.smoothing = 1e-3, .tolerance_mm = 1.5e-3 * diameter})
             .function;
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::singular_system && error.kind() != ErrorKind::invalid_input) throw;

@@ -25,7 +25,7 @@ std::string_view name(Kernel kernel) noexcept;
 struct SolveOptions {
     Kernel kernel = Kernel::triharmonic;
     Solver solver = Solver::automatic;
-    double smoothing = 0;        ///< >= 0, on unit-box coordinates, divided by each constraint's trust; 0: exact
+    double smoothing = 0;        ///< >= 0, on unit coordinates, divided by each constraint's trust; 0: exact
     double tolerance_mm = 1e-3;  ///< iterative only: largest |f(c_i) - h_i| over all constraints at which it stops
     int max_iterations = 500;    ///< iterative only
     Products products = Products::automatic;  ///< iterative only

@@ -61,7 +61,7 @@ struct Finding {
 struct ContourSetCheckOptions {
     ContourCheckOptions limits;  ///< of what counts as an error
     std::optional<double>
-        disagreement_mm;  ///< contours of different planes may disagree so much; unset: 1 % of the diagonal
+        disagreement_mm;  ///< contours of different planes may disagree so much; unset: 1.5 % of the contours' diameter
 };
 
 /// Everything that is wrong or doubtful, errors first; at most one finding of a kind for each contour or pair of contours,

@@ -30,9 +30,9 @@ public:
           index_(sound.index),
           findings_(findings),
           box_(bounding_box(set_)),
-          diagonal_(box_.diagonal()),
-          sections_(sections_of(set_, 1e-4 * diagonal_)),
-          limit_(options.disagreement_mm.value_or(0.01 * diagonal_)) {}
+          diameter_(diameter_mm(set_)),
+          sections_(sections_of(set_, 1.5e-4 * diameter_)),
+          limit_(options.disagreement_mm.value_or(0.015 * diameter_)) {}
 
     void run() {
         find_size();
@@ -66,10 +66,10 @@ private:
     }
 
     void find_size() {
-        if (diagonal_ < 1 || diagonal_ > 3000)
+        if (diameter_ < 1 || diameter_ > 3000)
             add(FindingKind::implausible_size, Severity::warning,
-                fmt::format("the contours span {:.3g} mm; are their coordinates really millimetres?", diagonal_))
-                .value_mm = diagonal_;
+                fmt::format("the contours span {:.3g} mm; are their coordinates really millimetres?", diameter_))
+                .value_mm = diameter_;
         if (const double away = norm(box_.center()); away > 10000) {
             Finding& finding = add(FindingKind::far_away, Severity::warning,
                                    fmt::format("the contours lie {:.3g} mm from the origin", away));
@@ -81,7 +81,7 @@ private:
     void find_tiny() {
         for (std::size_t c = 0; c < set_.contours.size(); ++c) {
             const double width = width_mm(contour(c).points);
-            if (!contour(c).closed || width > 0.005 * diagonal_) continue;
+            if (!contour(c).closed || width > 0.0075 * diameter_) continue;
             add(FindingKind::tiny, Severity::note, c, fmt::format("is only {:.2g} mm wide", width)).value_mm = width;
         }
     }
@@ -117,7 +117,7 @@ private:
     }
 
     void find_holes_and_overlaps() {
-        const Nesting nesting = find_nesting(set_.contours, 1e-4 * diagonal_);
+        const Nesting nesting = find_nesting(set_.contours, 1.5e-4 * diameter_);
         for (std::size_t c = 0; c < set_.contours.size(); ++c) {
             std::vector<std::size_t> around = nesting.enclosing[c];
             std::erase_if(around, [&](std::size_t other) { return is_duplicate(c, other); });
@@ -178,8 +178,8 @@ private:
         for (const Vec3& p : points)
             for (const Section& section : sections_) {
                 const Point2 at = section.plane.to_uv(p);
-                if (std::abs(section.plane.distance_to(p)) > 1e-3 * diagonal_ || section.contains(at) == inside) continue;
-                if (section.clearance(at) < 1e-3 * diagonal_ || has_open(section)) continue;
+                if (std::abs(section.plane.distance_to(p)) > 1.5e-3 * diameter_ || section.contains(at) == inside) continue;
+                if (section.clearance(at) < 1.5e-3 * diameter_ || has_open(section)) continue;
                 Finding& finding = add(FindingKind::misplaced_point, Severity::warning,
                                        inside ? "an interior point lies outside of the contours of its plane"
                                               : "an exterior point lies inside of the contours of its plane");
@@ -207,7 +207,7 @@ private:
         const Box3 own = shadow(contour(c));
         for (const Contour& other : set_.contours) {
             const double height = std::abs(plane.distance_to(other.plane.origin));
-            if (height < 1e-4 * diagonal_ || height > 3 * own.diagonal()) continue;
+            if (height < 1.5e-4 * diameter_ || height > 3 * own.diagonal()) continue;
             if (std::abs(dot(plane.normal, other.plane.normal)) < 0.95) continue;
             const Box3 theirs = shadow(other);
             if (own.min.x < theirs.max.x && theirs.min.x < own.max.x && own.min.y < theirs.max.y && theirs.min.y < own.max.y)
@@ -269,7 +269,7 @@ private:
     const std::vector<std::size_t>& index_;
     std::vector<Finding>& findings_;
     Box3 box_;
-    double diagonal_;
+    double diameter_;
     std::vector<Section> sections_;
     double limit_;
     std::vector<Pair> duplicates_;

@@ -126,6 +126,16 @@ Box3 bounding_box(const ContourSet& set) {
     return box;
 }
 
+Ball3 smallest_ball(const ContourSet& set) {
+    std::vector<Vec3> points;
+    points.reserve(point_count(set) + set.surface.size());
+    for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
+    for (const SurfacePoint& p : set.surface) points.push_back(p.position);
+    return smallest_ball(points);
+}
+
+double diameter_mm(const ContourSet& set) { return smallest_ball(set).diameter(); }
+
 double width_mm(const std::vector<Vec3>& points) {
     if (points.empty()) return 0;
     const Vec3 one_end = farthest_from(points.front(), points);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kontur/base/geometry.h"
+#include "kontur/base/smallest_ball.h"
 
 namespace kontur {
 
@@ -62,6 +63,12 @@ std::size_t point_count(const ContourSet& set);
 
 /// Box of all contour points and single surface points, in mm; empty for an empty set.
 Box3 bounding_box(const ContourSet& set);
+
+/// The smallest ball around all contour points and single surface points. Unlike the box, it turns with them.
+Ball3 smallest_ball(const ContourSet& set);
+
+/// Diameter of that ball: what the method's lengths are fractions of, so that results turn and scale with the contours.
+double diameter_mm(const ContourSet& set);
 
 /// Largest distance in mm of the points from the line through two far ends of them: 0 when all lie on one line.
 double width_mm(const std::vector<Vec3>& points);

@@ -94,7 +94,7 @@ std::string_view name(FillRule rule) noexcept { return rule == FillRule::even_od
 
 FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
     std::vector<Contour>& contours = set.contours;
-    const Nesting nesting = find_nesting(contours, 1e-4 * bounding_box(set).diagonal());
+    const Nesting nesting = find_nesting(contours, 1.5e-4 * diameter_mm(set));
     FillChanges changes;
     changes.crossings = nesting.crossings;
     if (rule == FillRule::even_odd) {

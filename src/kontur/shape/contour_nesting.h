@@ -37,7 +37,7 @@ struct FillChanges {
 };
 
 /// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The tolerance of
-/// `find_nesting` is 0.01 % of the set's diagonal.
+/// `find_nesting` is 0.015 % of the set's diameter.
 FillChanges apply_fill_rule(ContourSet& set, FillRule rule);
 
 /// Whether two planes are one: normals equal up to sign, the second's origin less than `tolerance_mm` off the first.

@@ -23,7 +23,7 @@ struct Drawn {
 
 std::vector<Drawn> drawn_planes(const ContourSet& set) {
     std::vector<Drawn> planes;
-    for (const Section& section : sections_of(set, 1e-4 * bounding_box(set).diagonal())) {
+    for (const Section& section : sections_of(set, 1.5e-4 * diameter_mm(set))) {
         Drawn drawn{{section.plane, {}, {}}, {}};
         for (std::size_t o = 0; o < section.outlines.size(); ++o) {
             const Contour& contour = set.contours[section.contours[o]];

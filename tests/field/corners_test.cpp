@@ -86,7 +86,7 @@ TEST(Corners, ASquareStaysASquareAndANotchANotch) {
         options.corners = Corners::faithful;
         const Segmentation result = segment(set, grid, options);
         EXPECT_LT(farthest_from_surface(result.function, contour), 0.1);
-        EXPECT_GT(rounded, 0.4);
+        EXPECT_GT(rounded, 0.3);
         EXPECT_EQ(result.report.corners, Corners::faithful);
         EXPECT_LT(result.report.iterations, 25 * result.report.solves);
     }

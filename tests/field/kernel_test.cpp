@@ -136,9 +136,11 @@ TEST(ImplicitFunction, DefaultIsZeroEverywhere) {
 TEST(UnitFrame, PutsThePointsIntoTheUnitBall) {
     const std::vector<Vec3> points{{1000, 0, 0}, {1040, 10, 5}, {1020, -10, 2}};
     const UnitFrame frame = unit_frame(points);
-    EXPECT_EQ(frame.scale, 20);
-    EXPECT_EQ(frame.to_unit(points[0]), (Vec3{-1, 0, -0.125}));
-    EXPECT_EQ(frame.to_unit(points[1]), (Vec3{1, 0.5, 0.125}));
+    for (const Vec3& p : points) EXPECT_LE(norm(frame.to_unit(p)), 1 + 1e-12);
+    EXPECT_NEAR(norm(frame.to_unit(points[0])), 1, 1e-12);
+    EXPECT_NEAR(norm(frame.to_unit(points[1])), 1, 1e-12);
+    EXPECT_NEAR(frame.scale * distance(frame.to_unit(points[1]), frame.to_unit(points[0])), distance(points[0], points[1]),
+                1e-12);
     EXPECT_EQ(unit_frame(std::vector<Vec3>{{7, 8, 9}}).scale, 1);
 }
 

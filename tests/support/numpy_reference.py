@@ -5,10 +5,11 @@ Usage: numpy_reference.py CONTOURS.json GRID.txt OFFSET_MM FOLDER
 
 Reads kontur's contour file and a grid (three sizes, then the twelve numbers of the index-to-mm matrix, row by row), and
 writes FOLDER/centres.txt (x y z weight per line, mm), FOLDER/polynomial.txt and FOLDER/mask.bin (a byte per voxel, i
-fastest). Weights belong to coordinates moved and scaled so that the longest side of the centres' box is [-1, 1].
+fastest). Weights belong to coordinates moved and scaled so that their smallest ball is
+the unit ball.
 
 Near-duplicate constraints make the system singular, which the paper does not treat. Rule: in the order of all boundary
-constraints, then all normal constraints, one that lies within 0.04 % of the contours' box diagonal of an earlier one is
+constraints, then all normal constraints, one that lies within 0.06 % of the diameter of the contours' smallest ball of an earlier one is
 left out, and a boundary constraint that is left out has no normal constraint.
 """
 
@@ -17,6 +18,8 @@ import sys
 
 import numpy as np
 from scipy.linalg import lapack
+from scipy.optimize import minimize
+from scipy.spatial import ConvexHull
 
 contours_file, grid_file, offset_mm, folder = sys.argv[1], sys.argv[2], float(sys.argv[3]), sys.argv[4]
 
@@ -31,6 +34,27 @@ def read_contours(path):
             repeated = (points == np.roll(points, 1, axis=0)).all(axis=1)
             contours.append((points[~repeated], normal, contour["hole"]))
     return contours
+
+
+def smallest_ball(points):
+    """Centre c and radius r by quadratic programming: least r^2 = t + |c|^2 with t >= |p|^2 - 2 p . c for every point p."""
+    shift, size = points.mean(axis=0), np.ptp(points)
+    p = np.unique((points - shift) / size, axis=0)
+    p = p[ConvexHull(p).vertices]
+    found = minimize(
+        lambda x: x[3] + x[:3] @ x[:3],
+        np.append(np.zeros(3), (p**2).sum(axis=1).max()),
+        jac=lambda x: np.append(2 * x[:3], 1),
+        constraints={
+            "type": "ineq",
+            "fun": lambda x: x[3] - (p**2).sum(axis=1) + 2 * p @ x[:3],
+            "jac": lambda x: np.column_stack([2 * p, np.ones(len(p))]),
+        },
+        method="SLSQP",
+        options={"ftol": 1e-16, "maxiter": 500},
+    )
+    centre = shift + size * found.x[:3]
+    return centre, np.linalg.norm(points - centre, axis=1).max()
 
 
 def refine(points):
@@ -81,7 +105,7 @@ def outward_normals(points, plane_normal, hole):
 
 def place(contours):
     """Centres and values: f = 0 on the contours, f = -offset at the offset outside."""
-    diagonal = np.linalg.norm(np.ptp(np.concatenate([c[0] for c in contours]), axis=0))
+    diameter = 2 * smallest_ball(np.concatenate([c[0] for c in contours]))[1]
     points, normals = [], []
     for drawn, plane_normal, hole in contours:
         refined = refine(drawn)
@@ -94,7 +118,7 @@ def place(contours):
 
     def try_to_keep(point, value):
         nonlocal kept
-        if len(kept) and np.linalg.norm(kept - point, axis=1).min() < 4e-4 * diagonal:
+        if len(kept) and np.linalg.norm(kept - point, axis=1).min() < 6e-4 * diameter:
             return False
         kept = np.vstack([kept, point])
         values.append(value)
@@ -122,8 +146,7 @@ def solve(centres, values):
 
 
 centres_mm, values = place(read_contours(contours_file))
-low, high = centres_mm.min(axis=0), centres_mm.max(axis=0)
-middle, scale = (low + high) / 2, (high - low).max() / 2
+middle, scale = smallest_ball(centres_mm)
 centres = (centres_mm - middle) / scale
 weights, polynomial = solve(centres, values)
 

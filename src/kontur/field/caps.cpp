@@ -192,10 +192,15 @@ std::vector<Cap> find_leak_probes(const ContourSet& set, int threads) {
         for (const double sign : {-1.0, 1.0}) {
             Side side(sections, section, sign, tolerance);
             side.consider_rest(set);
+            const double height = side.height(inside);
+            if (height == 0) continue;
             Section end = section;
-            end.plane.origin += sign * side.height(inside) * section.plane.normal;
-            if (end.plane.origin != section.plane.origin)
-                append_leak_probes(end, reached, diameter / 16, threads, probes);
+            end.plane.origin += sign * height * section.plane.normal;
+            append_leak_probes(end, reached, diameter / 16, threads, probes);
+            // The cap's dome can be pierced between its points: over it, too, nothing is left.
+            end.plane.origin += sign * height * section.plane.normal;
+            for (const Probe& probe : inside)
+                probes.push_back({end.plane.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
         }
     }
     return probes;

@@ -31,13 +31,14 @@ struct Cap {
 ///   but not higher than 1.5 radii of the largest inscribed circle; on a single plane that radius is the height. Where single
 ///   surface or interior points lie farther out, it is a quarter higher than they are.
 ///
-/// At most a few hundred points per plane; spacings follow the contours' size, so the caps move and scale with them.
+/// At most a few hundred points per plane; spacings follow the contours' size, so the caps move, turn and scale with them.
 std::vector<Cap> find_caps(const ContourSet& set);
 
-/// Where a leak would show. In a drawn plane, what lies outside of all its contours is outside of the object, but far from
-/// the contours the interpolant may turn positive again, and such a sheet can join the object. The points lie on a lattice
-/// over each drawn plane, in the ball of twice the diameter of the smallest one around the contours. A plane counts as drawn incompletely, and
-/// gets none, when contours of other planes cross it well outside of its own.
+/// Where a leak would show. In a drawn plane, what lies outside of all its contours is outside of the object, and so is what
+/// lies beside a cap at its height or above it at twice the height; but far from the contours the interpolant may turn positive again, and such a sheet
+/// can join the object. The points lie on a lattice over each of these planes, in a ball of twice the diameter of the
+/// smallest one around the contours. A drawn plane counts as incomplete, and gets none, when contours of other planes cross
+/// it well outside of its own.
 std::vector<Cap> find_leak_probes(const ContourSet& set, int threads = 0);
 
 }  // namespace kontur

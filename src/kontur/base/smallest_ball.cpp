@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/base/smallest_ball.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace kontur {
+namespace {
+
+constexpr double kSlack = 1e-12;  // of the radius: points so far outside count as on the ball
+
+/// The smallest ball with all of at most four points on its surface; nullopt when they lie on a line or circle.
+std::optional<Ball3> ball_through(std::span<const Vec3> points) {
+    // The centre is points[0] + sum s_k e_k with e_k = points[k + 1] - points[0] and e_j . sum s_k e_k = e_j . e_j / 2.
+    const std::size_t n = points.size() - 1;
+    std::array<Vec3, 3> edge;
+    std::array<std::array<double, 4>, 3> rows{};
+    for (std::size_t j = 0; j < n; ++j) edge[j] = points[j + 1] - points[0];
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < n; ++k) rows[j][k] = dot(edge[j], edge[k]);
+        rows[j][3] = rows[j][j] / 2;
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+        const double own = dot(edge[j], edge[j]);
+        if (!(rows[j][j] > 1e-12 * own)) return std::nullopt;  // what is left of the edge lies in the span of those before
+        for (std::size_t below = j + 1; below < n; ++below) {
+            const double factor = rows[below][j] / rows[j][j];
+            for (std::size_t k = j; k < 4; ++k) rows[below][k] -= factor * rows[j][k];
+        }
+    }
+    Vec3 to_center;
+    std::array<double, 3> s{};
+    for (std::size_t j = n; j-- > 0;) {
+        double rest = rows[j][3];
+        for (std::size_t k = j + 1; k < n; ++k) rest -= rows[j][k] * s[k];
+        s[j] = rest / rows[j][j];
+        to_center += s[j] * edge[j];
+    }
+    return Ball3{points[0] + to_center, norm(to_center)};
+}
+
+bool contains(const Ball3& ball, const Vec3& p) { return distance(ball.center, p) <= (1 + kSlack) * ball.radius; }
+
+/// What holds a ball: points on its surface.
+struct Held {
+    Ball3 ball;
+    std::vector<Vec3> support;
+};
+
+/// The smallest ball around a support and one point outside of its ball, which will be on the new one's surface.
+Held hold(const std::vector<Vec3>& support, const Vec3& outside) {
+    Held best;
+    for (unsigned subset = 0; subset < 1U << support.size(); ++subset) {
+        std::vector<Vec3> chosen{outside};
+        for (std::size_t i = 0; i < support.size(); ++i)
+            if (subset >> i & 1U) chosen.push_back(support[i]);
+        if (chosen.size() > 4) continue;
+        const std::optional<Ball3> ball = ball_through(chosen);
+        if (!ball || (!best.support.empty() && ball->radius >= best.ball.radius)) continue;
+        if (std::all_of(support.begin(), support.end(), [&](const Vec3& p) { return contains(*ball, p); }))
+            best = {*ball, chosen};
+    }
+    return best;
+}
+
+}  // namespace
+
+Ball3 smallest_ball(std::span<const Vec3> points) {
+    constexpr int kMostPasses = 1000;  // far more than needed: each pass makes the ball grow
+    if (points.empty()) return {};
+    Held held{{points[0], 0}, {points[0]}};
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+        const auto squared = [&](const Vec3& p) { return dot(p - held.ball.center, p - held.ball.center); };
+        const Vec3& farthest = *std::max_element(points.begin(), points.end(),
+                                                 [&](const Vec3& a, const Vec3& b) { return squared(a) < squared(b); });
+        if (contains(held.ball, farthest)) break;
+        Held grown = hold(held.support, farthest);
+        if (!(grown.ball.radius > held.ball.radius)) break;  // rounding
+        held = std::move(grown);
+    }
+    return held.ball;
+}
+
+}  // namespace kontur

@@ -46,7 +46,6 @@ FileKind check_kinds(const ConvertCommand& command) {
                             words(*to), command.output.string(), advice(from, *to)));
 }
 
-/// A conversion changes the format alone, so the source says all.
 Provenance provenance_of(const ConvertCommand& command, const Progress& progress) {
     return made_by("convert", {{"source", command.input.path}},
                    command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "", progress);

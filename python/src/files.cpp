@@ -5,6 +5,7 @@
 #include "kontur/io/file_digest.h"
 #include "kontur/io/markups.h"
 #include "kontur/io/mesh.h"
+#include "kontur/io/read_provenance.h"
 #include "notes.h"
 #include "provenance.h"
 
@@ -87,6 +88,26 @@ provenance : dict of str to str, optional
             write_mesh(path, mesh, made);
         },
         py::arg("path"), py::arg("mesh"), py::arg("provenance") = py::none());
+    define(
+        m, "read_provenance", R"(What kontur wrote into a file about how it was made; empty where the file says nothing.
+
+MetaImage and STL hold it shortened, as the one entry 'shortened'.
+
+Parameters
+----------
+path : path
+    A mask, image, contour file or mesh, written by kontur or by any other program.
+
+Returns
+-------
+dict of str to str
+)",
+        [](const fs::path& path) {
+            py::dict items;
+            for (const auto& [name, value] : unlocked([&] { return read_provenance(path); })) items[py::str(name)] = value;
+            return items;
+        },
+        py::arg("path"));
     define(
         m, "files_sha256", R"(SHA-256 of files, as 64 hexadecimal digits.
 

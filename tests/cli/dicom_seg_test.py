@@ -86,6 +86,11 @@ def test_a_converted_segmentation_says_so(tmp_path, images, contours):
     assert equipment.PurposeOfReferenceCodeSequence[0].CodeMeaning == "Modifying Equipment"
     digest = hashlib.sha256((tmp_path / "mask.nii.gz").read_bytes()).hexdigest()
     assert f"made_by: kontur convert; source_sha256: {digest}" in equipment.ContributionDescription
+    assert kontur("convert", tmp_path / "seg.dcm", tmp_path / "again.nii.gz").returncode == 0
+    mask, seg, again = (json.loads(kontur("inspect", tmp_path / name, "--json").stdout)[0]["provenance"]
+                        for name in ("mask.nii.gz", "seg.dcm", "again.nii.gz"))
+    for name, value in mask.items():
+        assert seg[f"source_{name}"] == again[f"source_source_{name}"] == value
     assert "Error" not in subprocess.run(["dciodvfy", tmp_path / "seg.dcm"], capture_output=True, text=True).stderr
 
 

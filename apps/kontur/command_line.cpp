@@ -260,6 +260,9 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     bind.word("OUT", c.output, "File to write; its name decides the format");
     bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT or SEG (.dcm) refers to");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
+    bind.option("--label", c.label, "N", "Of a label map or segmentation only this label");
+    bind.option("--add", c.more, "MASK", "One more mask for a SEG, as a segment that may overlap others; again for more")
+        ->allow_extra_args(false);
     add_rtstruct_options(*bind.sub, c.write_rtstruct);
     add_read_options(*bind.sub, c.input.options);
     add_series_options(*bind.sub, c.input.options.dicom);

@@ -26,6 +26,7 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
                             {"algorithm_type", s.algorithm_type},
                             {"algorithm", s.algorithm_name},
                             {"voxels", s.voxels},
+                            {"shared_voxels", s.shared_voxels},
                             {"volume_ml", number(static_cast<double>(s.voxels) * found.grid.voxel_volume_mm3() / 1000)}});
     Facts facts = {{"kind", "segmentation"}};
     facts.update(describe(found.grid));

@@ -192,6 +192,8 @@ class DicomSegment:
     def color(self) -> list[int] | None: ...
     @property
     def voxels(self) -> int: ...
+    @property
+    def shared_voxels(self) -> int: ...
 
 class DicomSegmentation:
     @property
@@ -973,6 +975,14 @@ def read_dicom_seg(
     stop: _Stop | None = None,
 ) -> Image: ...
 
+def read_dicom_seg_masks(
+    path: _Path,
+    max_voxels: int = 2200000000,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+) -> list[Mask]: ...
+
 def read_dicom_segmentation(path: _Path, max_voxels: int = 2200000000) -> DicomSegmentation: ...
 
 def read_dicom_series(
@@ -1172,6 +1182,21 @@ def write_contours(path: _Path, contours: ContourSet, provenance: dict[str, str]
 def write_dicom_seg(
     path: _Path,
     labels: Image | Mask,
+    segments: Sequence[DicomSegment],
+    images: DicomSeries,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    provenance: dict[str, str] | None = None,
+    series_description: str = "kontur segmentation",
+    algorithm_name: str = "",
+    algorithm_version: str = "",
+    algorithm_parameters: str = "",
+) -> None: ...
+
+def write_dicom_seg_masks(
+    path: _Path,
+    masks: Sequence[Mask],
     segments: Sequence[DicomSegment],
     images: DicomSeries,
     *,

@@ -39,8 +39,7 @@ roi : str, optional
     RT structure sets: the ROI's name or number; needed when several have contours.
 plane_tolerance_mm : float
     For curves whose plane must be fitted.
-on_note : callable, optional
-    Called with each sentence on how the file was interpreted; when left out they are warnings of the logger 'kontur'.
+@on_note
 
 Returns
 -------
@@ -79,8 +78,7 @@ Parameters
 ----------
 path : path
 mesh : TriangleMesh
-provenance : dict of str to str, optional
-    How it was made, for the format's comments; such as what `provenance` gives.
+@provenance
 )",
         [](const fs::path& path, const TriangleMesh& mesh, const py::object& provenance) {
             const Provenance made = provenance_from(provenance);
@@ -116,8 +114,7 @@ Of a folder: of the sorted digests of its files, one per line. Of several paths:
 Parameters
 ----------
 paths : sequence of paths
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------

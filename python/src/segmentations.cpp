@@ -87,10 +87,8 @@ segment : int, optional
     Read this one alone; needed where segments overlap.
 max_voxels : int
     Larger grids are refused.
-on_note : callable, optional
-    Called with each sentence on what you should know; when left out they are warnings of the logger 'kontur'.
-progress, stop : optional
-    As for `segment`.
+@on_note
+@progress
 
 Returns
 -------
@@ -112,8 +110,7 @@ Parameters
 path : path
 max_voxels : int
     Refused when all masks together have more.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -146,10 +143,8 @@ segments : sequence of DicomSegment
     One for each value other than 0. In the file they are numbered from 1 in this order.
 images : DicomSeries
     Such as one of `list_dicom_series`.
-progress, stop : optional
-    As for `segment`.
-provenance : dict of str to str, optional
-    How the file was made: the description of kontur's contribution.
+@progress
+@provenance
 @options
 )",
         [keywords](const fs::path& path, const py::object& labels, const std::vector<DicomSegment>& segments,
@@ -175,10 +170,8 @@ segments : sequence of DicomSegment
     In the file they are numbered from 1 in this order, whatever their numbers are.
 images : DicomSeries
     Such as one of `list_dicom_series`.
-progress, stop : optional
-    As for `segment`.
-provenance : dict of str to str, optional
-    How the file was made: the description of kontur's contribution.
+@progress
+@provenance
 @options
 )",
         [keywords](const fs::path& path, const std::vector<Mask>& masks, const std::vector<DicomSegment>& segments,

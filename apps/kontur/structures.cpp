@@ -44,6 +44,21 @@ Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& 
     return found;
 }
 
+/// A segment without voxels cannot be written, and says nothing.
+Structures without_empty(Structures found, const ImageInput& input) {
+    Structures kept;
+    for (std::size_t s = 0; s < found.masks.size(); ++s) {
+        const std::vector<std::uint8_t>& values = found.masks[s].values;
+        if (std::find(values.begin(), values.end(), 1) == values.end()) {
+            input.options.on_note(fmt::format("the segment '{}' has no voxels and is left out", found.segments[s].label));
+            continue;
+        }
+        kept.segments.push_back(std::move(found.segments[s]));
+        kept.masks.push_back(std::move(found.masks[s]));
+    }
+    return kept;
+}
+
 /// "liver" for folder/liver.nii.gz.
 std::string stem(const fs::path& path) {
     const std::string name = path.filename().string();
@@ -106,9 +121,9 @@ Structures read_structures(const ImageInput& input, const Progress& progress) {
     if (is_dicom_seg(input.path)) {
         const DicomSegmentation about = read_dicom_segmentation(input.path, input.options.max_voxels);
         for (const std::string& note : about.notes) input.options.on_note(note);
-        return {about.segments, read_dicom_seg_masks(input.path, input.options.max_voxels, progress)};
+        return without_empty({about.segments, read_dicom_seg_masks(input.path, input.options.max_voxels, progress)}, input);
     }
-    if (may_overlap(input)) return read_layers(input, nrrd_segments(input.path), progress);
+    if (may_overlap(input)) return without_empty(read_layers(input, nrrd_segments(input.path), progress), input);
     const Image image = read_image(input.path, input.options, progress);
     const std::vector<DicomSegment> named = named_segments(input);
     Structures found{segments_of(image, input), {}};

@@ -160,12 +160,13 @@ def test_layers_of_3d_slicer_become_overlapping_segments(tmp_path, images, overl
     header = ["NRRD0004", "type: unsigned char", "dimension: 4", "space: left-posterior-superior", "sizes: 2 " + fields["sizes"],
               "space directions: none " + fields["space directions"], "kinds: list domain domain domain", "encoding: raw",
               "space origin: " + fields["space origin"]]
-    for number, name in enumerate(("liver", "tumour")):
+    for number, name in enumerate(("liver", "tumour", "nothing")):
         header += [f"Segment{number}_{key}:={value}" for key, value in
-                   (("ID", f"S{number}"), ("Name", name), ("Color", "1 0 0"), ("LabelValue", 1), ("Layer", number))]
+                   (("ID", f"S{number}"), ("Name", name), ("Color", "1 0 0"), ("LabelValue", number // 2 + 1), ("Layer", number % 2))]
     voxels = overlapping.astype("u1").transpose(3, 2, 1, 0).tobytes()
     (tmp_path / "both.seg.nrrd").write_bytes("\n".join(header).encode() + b"\n\n" + voxels)
-    assert kontur("convert", tmp_path / "both.seg.nrrd", tmp_path / "seg.dcm", "--image", images).returncode == 0
+    result = kontur("convert", tmp_path / "both.seg.nrrd", tmp_path / "seg.dcm", "--image", images)
+    assert result.returncode == 0 and "the segment 'nothing' has no voxels and is left out" in result.stderr
     check_overlapping(tmp_path / "seg.dcm", images, overlapping)
     words = ["--frame", 1, "--image", images]
     assert kontur("convert", tmp_path / "both.seg.nrrd", tmp_path / "second.dcm", *words).returncode == 0

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kontur/io/image.h"
 #include "support/damage.h"
 #include "support/expect_error.h"
@@ -147,6 +149,14 @@ TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
     segments.push_back({.number = 7, .label = "seven"});
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, segments, series_), ErrorKind::invalid_input,
                         "segment 7 'seven' has no voxels");
+    const Vec3 first_slice = labels.grid.index_to_mm.translation;
+    const auto& values = std::get<std::vector<std::uint8_t>>(labels.samples);
+    const auto of_last_slice =
+        std::count_if(values.end() - grid_.size.i * grid_.size.j, values.end(), [](auto v) { return v != 0; });
+    labels.grid.index_to_mm.translation = grid_.center_mm(0, 0, 1);
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+                        std::to_string(of_last_slice) + " of the mask's ");
+    labels.grid.index_to_mm.translation = first_slice;
     labels.grid.index_to_mm.translation.x += 0.35;
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
                         "they are up to 0.5 of a voxel off; the limit is 0.05");

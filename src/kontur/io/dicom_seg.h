@@ -76,9 +76,9 @@ struct WriteDicomSegOptions {
 /// study, frame of reference, and for each frame its source slice. Each segment covers the voxels of `labels` whose value is
 /// its number; in the file they are numbered from 1 in the order given, as DICOM wants it. The frames are all slices of the
 /// images, so a mask comes back on their grid. `labels` may be turned, mirrored or cropped against the images as long as its
-/// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in mm, for a value without a
-/// segment and for a segment without voxels; Error(too_large) beyond DICOM's 4 GiB; Error(io). Source: DICOM PS3.3 A.51 and
-/// C.8.20.
+/// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in voxels, and how many lie
+/// outside of the images, for a value without a segment and for a segment without voxels; Error(too_large) beyond DICOM's 4
+/// GiB; Error(io). Source: DICOM PS3.3 A.51 and C.8.20.
 void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
                      const DicomSeries& images, const WriteDicomSegOptions& options = {}, const Progress& progress = {});
 

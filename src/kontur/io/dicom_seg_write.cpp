@@ -50,7 +50,8 @@ public:
         check_lattices();
     }
 
-    /// `value_at(offset)` by voxel of the images, i fastest; 0 outside of the labels.
+    /// `value_at(offset)` by voxel of the images, i fastest; 0 outside of the labels. Throws Error(invalid_input) when
+    /// voxels of the labels that are not 0 lie outside of the images, where no frame could hold them.
     template <class Value, class ValueAt>
     std::vector<Value> values(const ValueAt& value_at) const {
         std::vector<Value> values;
@@ -61,10 +62,21 @@ public:
                     const std::optional<std::size_t> offset = offset_at(i, j, k);
                     values.push_back(offset ? static_cast<Value>(value_at(*offset)) : Value{});
                 }
+        check_all_found(values, value_at);
         return values;
     }
 
 private:
+    template <class Value, class ValueAt>
+    void check_all_found(const std::vector<Value>& values, const ValueAt& value_at) const {
+        const auto found = std::count_if(values.begin(), values.end(), [](Value value) { return value != 0; });
+        std::ptrdiff_t all = 0;
+        for (std::size_t offset = 0; offset < static_cast<std::size_t>(labels_.voxel_count()); ++offset)
+            all += value_at(offset) != 0;
+        if (all > found)
+            throw invalid(fmt::format("{} of the mask's {} voxels lie outside of the images", all - found, all));
+    }
+
     std::optional<std::size_t> offset_at(std::int64_t i, std::int64_t j, std::int64_t k) const {
         const Vec3 p = to_label_.apply({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
         const Index3 n{std::llround(p.x), std::llround(p.y), std::llround(p.z)}, &size = labels_.size;

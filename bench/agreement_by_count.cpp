@@ -23,21 +23,11 @@ struct Organ {
     Box3 box;  ///< of the truth's voxels
 };
 
-Box3 box_of(const Mask& mask) {
-    Box3 box;
-    const Index3& n = mask.grid.size;
-    for (std::int64_t k = 0; k < n.k; ++k)
-        for (std::int64_t j = 0; j < n.j; ++j)
-            for (std::int64_t i = 0; i < n.i; ++i)
-                if (mask.values[mask.grid.offset(i, j, k)]) box.extend(mask.grid.center_mm(i, j, k));
-    return box;
-}
-
 Organ organ_of(const std::string& phantom_case_name, bool coarse) {
     const PhantomCase drawn = phantom_case(phantom_case_name);
     const Grid grid = coarse ? coarsened(drawn.grid) : drawn.grid;
     Organ organ{*drawn.body, make_truth_mask(*drawn.body, grid), {}};
-    organ.box = box_of(organ.truth);
+    organ.box = bounding_box(organ.truth);
     return organ;
 }
 

@@ -182,7 +182,13 @@ void add_slicer(CLI::App& app, Invocation& invocation) {
     SlicerCommand& c = *bind.command;
     bind.sub->set_version_flag("--xml", slicer_description(c), "Print the module's description");
     bind.option("--reference", c.reference, "FILE", "Image that was drawn on")->required();
-    bind.option("--contour", c.contours, "FILE", "Closed curves (.mrk.json); again for more")->allow_extra_args(false);
+    const std::vector<std::string> curves = slicer_curve_flags();
+    bind.option(curves[0], c.contours, "FILE", "Curves (.mrk.json); again for more")->allow_extra_args(false);
+    constexpr const char* kHidden = "";
+    for (std::size_t n = 1; n < curves.size(); ++n)
+        bind.sub
+            ->add_option_function<std::string>(curves[n], [&c](const std::string& file) { c.contours.emplace_back(file); })
+            ->group(kHidden);
     bind.option("--mask", c.output_mask, "FILE", "Label map to write");
     bind.option("--model", c.output_model, "FILE", "Surface to write");
     bind.option("--returnparameterfile", c.return_parameters, "FILE", "Values to write for 3D Slicer");
@@ -260,6 +266,9 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     bind.word("OUT", c.output, "File to write; its name decides the format");
     bind.option("--image", c.image, "DIR", "DICOM folder of the images that an RTSTRUCT or SEG (.dcm) refers to");
     bind.option("--roi", c.contours.roi, "NAME", "Which structure of a structure set, by name or number");
+    bind.option("--label", c.label, "N", "Of a label map or segmentation only this label");
+    bind.option("--add", c.more, "MASK", "One more mask for a SEG, as a segment that may overlap others; again for more")
+        ->allow_extra_args(false);
     add_rtstruct_options(*bind.sub, c.write_rtstruct);
     add_read_options(*bind.sub, c.input.options);
     add_series_options(*bind.sub, c.input.options.dicom);

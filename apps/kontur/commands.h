@@ -114,6 +114,8 @@ void run(const InspectCommand& command, Console& console);
 /// The same content in another format.
 struct ConvertCommand {
     ImageInput input;
+    std::vector<std::filesystem::path> more;  ///< masks that become further segments of a DICOM SEG
+    std::optional<std::int64_t> label;        ///< of a label map or segmentation only this one
     ReadContoursOptions contours;
     std::filesystem::path image;  ///< DICOM series that DICOM output refers to
     std::filesystem::path output;

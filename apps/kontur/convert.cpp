@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <array>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "dicom_output.h"
@@ -9,6 +12,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/mesh.h"
 #include "outputs.h"
+#include "structures.h"
 
 namespace kontur::app {
 namespace {
@@ -46,20 +50,42 @@ FileKind check_kinds(const ConvertCommand& command) {
                             words(*to), command.output.string(), advice(from, *to)));
 }
 
-/// A conversion changes the format alone, so the source says all.
 Provenance provenance_of(const ConvertCommand& command, const Progress& progress) {
-    return made_by("convert", {{"source", command.input.path}},
-                   command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "", progress);
+    std::vector<std::pair<std::string, fs::path>> inputs{{"source", command.input.path}};
+    for (const fs::path& path : command.more) inputs.emplace_back(fmt::format("source_{}", inputs.size() + 1), path);
+    std::string options = command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "";
+    if (command.label) options = fmt::format("label={}", *command.label);
+    return made_by("convert", inputs, options, progress);
+}
+
+/// All structures of all inputs.
+Structures structures_of(const ConvertCommand& command, Console& console) {
+    Structures all;
+    std::vector<fs::path> paths{command.input.path};
+    paths.insert(paths.end(), command.more.begin(), command.more.end());
+    for (const fs::path& path : paths) {
+        Structures some = read_structures({path, console.noting(command.input.options)}, console.progress());
+        std::move(some.segments.begin(), some.segments.end(), std::back_inserter(all.segments));
+        std::move(some.masks.begin(), some.masks.end(), std::back_inserter(all.masks));
+    }
+    return all;
+}
+
+void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
+    const ImageInput input{command.input.path, console.noting(command.input.options)};
+    const ImageInput images{command.image, command.input.options};
+    const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
+    if (is_dicom_name(output) && by_itself)
+        return write_structures(output, structures_of(command, console), images, made, console.progress());
+    const Image image = read_labels(input, command.label, console.progress());
+    write_image(output, image, input, images, made, console.progress());
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
     const Provenance made = provenance_of(command, console.progress());
     switch (kind) {
-        case FileKind::image: {
-            const ImageInput& input = command.input;
-            const Image image = read_image(input.path, console.noting(input.options), console.progress());
-            return write_image(output, image, input.path, {command.image, input.options}, made, console.progress());
-        }
+        case FileKind::image:
+            return convert_image(command, output, made, console);
         case FileKind::contours: {
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
@@ -73,11 +99,26 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
     }
 }
 
+/// Options that only masks know.
+void check_options(const ConvertCommand& command, FileKind kind) {
+    const auto refuse = [](const char* why) { throw Error(ErrorKind::invalid_input, why); };
+    if (command.label && kind != FileKind::image) refuse("--label chooses from a label map or a segmentation");
+    if (command.more.empty()) return;
+    if (kind != FileKind::image || !is_dicom_name(command.output))
+        refuse("--add is for segments of a DICOM SEG (.dcm), which may overlap");
+    if (command.label) refuse("--label cannot choose where --add names several files");
+    for (const fs::path& path : command.more)
+        if (input_kind(path) != FileKind::image) refuse("--add takes masks and label maps");
+}
+
 }  // namespace
 
 void run(const ConvertCommand& command, Console& console) {
     const FileKind kind = check_kinds(command);
-    check_output(command.output, std::array{command.input.path});
+    check_options(command, kind);
+    std::vector<fs::path> inputs = command.more;
+    inputs.push_back(command.input.path);
+    check_output(command.output, inputs);
     check_dicom_images(command.output, command.image);
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) { convert(command, kind, path, console); });

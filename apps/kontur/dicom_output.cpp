@@ -3,30 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "kontur/base/error.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom_seg.h"
-#include "kontur/io/nrrd.h"
 
 namespace kontur::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Rgb8 = std::array<std::uint8_t, 3>;
-constexpr Rgb8 kColor{230, 179, 77};  // that of masks in .seg.nrrd
-
 DicomSeries series_of(const ImageInput& images) { return read_dicom_grid(images.path, images.options.dicom).series; }
-
-Rgb8 to_rgb8(const std::array<double, 3>& color) {
-    Rgb8 result{};
-    std::transform(color.begin(), color.end(), result.begin(),
-                   [](double level) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(level, 0.0, 1.0))); });
-    return result;
-}
 
 /// What makes a fit reproducible.
 std::string parameters(const SegmentReport& report, const Provenance& provenance) {
@@ -38,31 +24,10 @@ std::string parameters(const SegmentReport& report, const Provenance& provenance
 std::vector<LabelName> label_names(const std::vector<DicomSegment>& segments) {
     std::vector<LabelName> names;
     for (const DicomSegment& segment : segments) {
-        const Rgb8 color = segment.color.value_or(kColor);
+        const auto color = segment.color.value_or(kStructureColor);
         names.push_back({segment.number, segment.label, {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0}});
     }
     return names;
-}
-
-/// What the source says about its segments; empty where it says nothing.
-std::vector<DicomSegment> named_segments(const fs::path& source) {
-    if (is_dicom_seg(source)) return read_dicom_segmentation(source).segments;
-    std::vector<DicomSegment> segments;
-    if (!has_extension(source, ".nrrd")) return segments;
-    for (const NrrdSegment& segment : read_nrrd_segments(source))
-        segments.push_back({.number = segment.label_value, .label = segment.name, .color = to_rgb8(segment.color)});
-    return segments;
-}
-
-std::vector<DicomSegment> segments_of(const Image& image, const fs::path& source) {
-    const std::vector<DicomSegment> named = named_segments(source);
-    std::vector<DicomSegment> segments;
-    for (const auto& [label, voxels] : count_labels(image)) {
-        const auto known = std::find_if(named.begin(), named.end(), [&, l = label](const auto& s) { return s.number == l; });
-        if (known != named.end()) segments.push_back(*known);
-        else segments.push_back({.number = label, .label = fmt::format("label {}", label), .color = kColor});
-    }
-    return segments;
 }
 
 }  // namespace
@@ -86,7 +51,7 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
     }
     Roi roi;
     roi.name = set.name;
-    roi.color = kColor;
+    roi.color = kStructureColor;
     roi.generation_algorithm = "SEMIAUTOMATIC";
     roi.contours = set;
     return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
@@ -103,7 +68,7 @@ void write_mask(const fs::path& path, const Segmentation& result, const ImageInp
                     {.algorithm = algorithm, .provenance = options.provenance}, progress);
 }
 
-void write_image(const fs::path& path, const Image& image, const fs::path& source, const ImageInput& images,
+void write_image(const fs::path& path, const Image& image, const ImageInput& source, const ImageInput& images,
                  const Provenance& provenance, const Progress& progress) {
     if (!is_dicom_name(path)) {
         const bool has_names = path.filename().string().ends_with(".seg.nrrd");
@@ -111,6 +76,12 @@ void write_image(const fs::path& path, const Image& image, const fs::path& sourc
         return kontur::write_image(path, image, {names, provenance});
     }
     write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, progress);
+}
+
+void write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,
+                      const Provenance& provenance, const Progress& progress) {
+    write_dicom_seg_masks(path, structures.masks, structures.segments, series_of(images), {.provenance = provenance},
+                          progress);
 }
 
 }  // namespace kontur::app

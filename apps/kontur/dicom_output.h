@@ -10,6 +10,7 @@
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/segment.h"
+#include "structures.h"
 
 // What the writers of several formats have in common with those of DICOM, whose files (.dcm) refer to images.
 
@@ -27,9 +28,13 @@ std::vector<std::string> write_contours(const std::filesystem::path& path, const
 void write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
                 const WriteMaskOptions& options, const Progress& progress);
 
-/// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label, named
-/// as in the source where that names them.
-void write_image(const std::filesystem::path& path, const Image& image, const std::filesystem::path& source,
-                 const ImageInput& images, const Provenance& provenance, const Progress& progress);
+/// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,
+/// named as in the source where that names them.
+void write_image(const std::filesystem::path& path, const Image& image, const ImageInput& source, const ImageInput& images,
+                 const Provenance& provenance, const Progress& progress);
+
+/// Writes a DICOM segmentation whose segments may overlap.
+void write_structures(const std::filesystem::path& path, const Structures& structures, const ImageInput& images,
+                      const Provenance& provenance, const Progress& progress);
 
 }  // namespace kontur::app

@@ -9,6 +9,7 @@
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/file_digest.h"
+#include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
 
 namespace kontur::app {
@@ -21,6 +22,14 @@ namespace fs = std::filesystem;
 std::string image_sha256(const fs::path& image, const Progress& progress) {
     const bool is_slice = !fs::is_directory(image) && looks_like_dicom(image) && !is_dicom_seg(image) && !is_rtstruct(image);
     return file_sha256(is_slice ? fs::absolute(image).parent_path() : image, progress);
+}
+
+/// Appends what an input says of itself, `name` in front of each of its names. A file that came by very many steps keeps
+/// what its last ones say.
+void carry_on(Provenance& made, const std::string& name, const Provenance& input) {
+    constexpr std::size_t kMostEntries = 100;
+    for (const auto& [its_name, value] : input)
+        if (made.size() < kMostEntries) made.emplace_back(name + "_" + its_name, value);
 }
 
 }  // namespace
@@ -39,6 +48,8 @@ Provenance made_by(const std::string& command, const std::vector<std::pair<std::
         if (!path.empty()) made.emplace_back(name + "_sha256", image_sha256(path, progress));
     made.emplace_back("version", KONTUR_VERSION);
     if (!options.empty()) made.emplace_back("options", options);
+    for (const auto& [name, path] : inputs)
+        if (!path.empty()) carry_on(made, name, read_provenance(path));
     return made;
 }
 

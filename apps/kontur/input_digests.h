@@ -16,7 +16,7 @@ namespace kontur::app {
 Provenance input_digests(const SegmentCommand& command, const Progress& progress);
 
 /// How a file was made by another command than `segment`: its name, digests of what went in (name and path; empty paths are
-/// left out), the version and the options as used.
+/// left out), the version, the options as used and, with that name in front, what the inputs say about how they were made.
 Provenance made_by(const std::string& command, const std::vector<std::pair<std::string, std::filesystem::path>>& inputs,
                    const std::string& options, const Progress& progress);
 

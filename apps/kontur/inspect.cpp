@@ -8,6 +8,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/mesh.h"
+#include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/measure/contour_check.h"
 
@@ -25,6 +26,7 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
                             {"algorithm_type", s.algorithm_type},
                             {"algorithm", s.algorithm_name},
                             {"voxels", s.voxels},
+                            {"shared_voxels", s.shared_voxels},
                             {"volume_ml", number(static_cast<double>(s.voxels) * found.grid.voxel_volume_mm3() / 1000)}});
     Facts facts = {{"kind", "segmentation"}};
     facts.update(describe(found.grid));
@@ -71,10 +73,16 @@ void append_findings(const ContourSet& contours, const std::string& roi, Facts& 
     for (const Finding& finding : check_contour_set(contours)) list.push_back(finding_json(finding, roi));
 }
 
-/// Findings become lines; everything else stays.
+/// Findings and provenance become lines; everything else stays.
 Facts for_people(Facts facts) {
-    if (!facts.contains("findings")) return facts;
-    for (Facts& finding : facts["findings"]) finding = finding_line(finding);
+    if (facts.contains("findings"))
+        for (Facts& finding : facts["findings"]) finding = finding_line(finding);
+    if (facts.contains("provenance")) {
+        Facts lines = Facts::array();
+        for (const auto& [name, value] : facts["provenance"].items())
+            lines.push_back(fmt::format("{}: {}", name, value.get<std::string>()));
+        facts["provenance"] = lines;
+    }
     return facts;
 }
 
@@ -118,7 +126,7 @@ Facts inspect_mesh(const fs::path& path) {
     return facts;
 }
 
-Facts inspect(const InspectCommand& command, const fs::path& path, Console& console) {
+Facts inspect_by_kind(const InspectCommand& command, const fs::path& path, Console& console) {
     switch (input_kind(path)) {
         case FileKind::image:
             if (is_dicom_seg(path)) return inspect_segmentation(command, path);
@@ -129,6 +137,12 @@ Facts inspect(const InspectCommand& command, const fs::path& path, Console& cons
             break;
     }
     return inspect_mesh(path);
+}
+
+Facts inspect(const InspectCommand& command, const fs::path& path, Console& console) {
+    Facts facts = inspect_by_kind(command, path, console);
+    for (const auto& [name, value] : read_provenance(path)) facts["provenance"][name] = value;
+    return facts;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "kontur/base/error.h"
@@ -41,14 +43,7 @@ constexpr const char* kDescription = R"(<?xml version="1.0" encoding="utf-8"?>
       <channel>input</channel>
       <description><![CDATA[The image that was drawn on; the label map has its voxels]]></description>
     </image>
-    <pointfile multiple="true" type="closedcurve" fileExtensions=".mrk.json" coordinateSystem="lps">
-      <name>contours</name>
-      <label>Closed curves</label>
-      <longflag>--contour</longflag>
-      <channel>input</channel>
-      <description><![CDATA[Closed curves of one object, each drawn in one slice view. Straight lines join their points: resample curves with few points]]></description>
-    </pointfile>
-    <image type="label">
+{curves}    <image type="label">
       <name>outputMask</name>
       <label>Label map</label>
       <longflag>--mask</longflag>
@@ -63,6 +58,10 @@ constexpr const char* kDescription = R"(<?xml version="1.0" encoding="utf-8"?>
       <description><![CDATA[The object's surface]]></description>
     </geometry>
   </parameters>
+  <parameters advanced="true">
+    <label>More curves</label>
+    <description><![CDATA[Further curves of the same object]]></description>
+{more_curves}  </parameters>
   <parameters advanced="true">
     <label>Method</label>
     <description><![CDATA[How the surface runs through the curves]]></description>
@@ -228,7 +227,34 @@ Made fit(const SlicerCommand& command, const Progress& progress) {
     return {std::move(contours.contours), std::move(result)};
 }
 
+constexpr int kCurvesInFront = 6, kMostCurves = 24;
+
+std::string curve_flag(int number) { return number == 1 ? "--contour" : fmt::format("--contour_{}", number); }
+
+/// One for each curve, because 3D Slicer passes one node for a parameter, whatever its attribute "multiple" says. They take
+/// any type of markup: its parser means to allow "closedcurve", and refuses just that (as of August 2026).
+std::string curve_parameters(int first, int last) {
+    std::string text;
+    for (int number = first; number <= last; ++number)
+        text += fmt::format(R"(    <pointfile type="any" fileExtensions=".mrk.json" coordinateSystem="lps">
+      <name>curve{0}</name>
+      <label>Curve {0}</label>
+      <longflag>{1}</longflag>
+      <channel>input</channel>
+      <description><![CDATA[Closed curve around the object, drawn in one slice view. Straight lines join its points: resample curves with few points. Open curves are stretches of the border, points lie on the surface]]></description>
+    </pointfile>
+)",
+                            number, curve_flag(number));
+    return text;
+}
+
 }  // namespace
+
+std::vector<std::string> slicer_curve_flags() {
+    std::vector<std::string> flags;
+    for (int number = 1; number <= kMostCurves; ++number) flags.push_back(curve_flag(number));
+    return flags;
+}
 
 void run(const SlicerCommand& command, Console& console) {
     using Clock = std::chrono::steady_clock;
@@ -251,6 +277,8 @@ void run(const SlicerCommand& command, Console& console) {
 std::string slicer_description(const SlicerCommand& defaults) {
     const SegmentOptions& o = defaults.options;
     return fmt::format(kDescription, fmt::arg("title", kName), fmt::arg("version", KONTUR_VERSION),
+                       fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
+                       fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
                        fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)),
                        fmt::arg("quality", o.quality), fmt::arg("threads", o.threads));
 }

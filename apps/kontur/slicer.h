@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace kontur::app {
 
@@ -10,5 +11,8 @@ struct SlicerCommand;
 /// The description that 3D Slicer builds the module's panel from: parameters, defaults and the flags to pass. Source: the
 /// schema of its command-line modules, "Slicer Execution Model".
 std::string slicer_description(const SlicerCommand& defaults);
+
+/// The flags that the description gives to the curves, of which each takes one file.
+std::vector<std::string> slicer_curve_flags();
 
 }  // namespace kontur::app

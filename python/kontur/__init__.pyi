@@ -196,6 +196,8 @@ class DicomSegment:
     def color(self) -> list[int] | None: ...
     @property
     def voxels(self) -> int: ...
+    @property
+    def shared_voxels(self) -> int: ...
 
 class DicomSegmentation:
     @property
@@ -571,6 +573,8 @@ class PreparedContours:
     def plane_normals(self) -> NDArray[numpy.float64]: ...
     @property
     def contours(self) -> NDArray[numpy.int32]: ...
+    @property
+    def trust(self) -> NDArray[numpy.float64]: ...
     @property
     def crossings(self) -> NDArray[numpy.float64]: ...
     @property
@@ -977,6 +981,14 @@ def read_dicom_seg(
     stop: _Stop | None = None,
 ) -> Image: ...
 
+def read_dicom_seg_masks(
+    path: _Path,
+    max_voxels: int = 2200000000,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+) -> list[Mask]: ...
+
 def read_dicom_segmentation(path: _Path, max_voxels: int = 2200000000) -> DicomSegmentation: ...
 
 def read_dicom_series(
@@ -1031,6 +1043,8 @@ def read_mask(
 def read_mesh(path: _Path) -> TriangleMesh: ...
 
 def read_planes_json(path: _Path) -> list[Plane]: ...
+
+def read_provenance(path: _Path) -> dict[str, str]: ...
 
 def read_rtstruct(path: _Path) -> StructureSet: ...
 
@@ -1174,6 +1188,21 @@ def write_contours(path: _Path, contours: ContourSet, provenance: dict[str, str]
 def write_dicom_seg(
     path: _Path,
     labels: Image | Mask,
+    segments: Sequence[DicomSegment],
+    images: DicomSeries,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    provenance: dict[str, str] | None = None,
+    series_description: str = "kontur segmentation",
+    algorithm_name: str = "",
+    algorithm_version: str = "",
+    algorithm_parameters: str = "",
+) -> None: ...
+
+def write_dicom_seg_masks(
+    path: _Path,
+    masks: Sequence[Mask],
     segments: Sequence[DicomSegment],
     images: DicomSeries,
     *,

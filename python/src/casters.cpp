@@ -23,9 +23,21 @@ std::vector<py::ssize_t> leading_shape(const py::array& points) {
     return {points.shape(), points.shape() + points.ndim() - 1};
 }
 
-std::string with_options(std::string help, const std::string& options) {
-    constexpr std::string_view kMark = "@options\n";
-    if (const std::size_t at = help.find(kMark); at != std::string::npos) help.replace(at, kMark.size(), options);
+std::string filled_in(std::string help, const std::string& options) {
+    const std::pair<std::string_view, std::string_view> marks[] = {
+        {"@options\n", options},
+        {"@progress\n", "progress, stop : optional\n    As for `segment`.\n"},
+        {"@on_note\n",
+         "on_note : callable, optional\n    Called with each sentence on what the reader decided for you; when left out "
+         "they are "
+         "warnings of the\n    logger 'kontur'.\n"},
+        {"@provenance\n",
+         "provenance : dict of str to str, optional\n    How it was made, for the file's text, such as what `provenance` "
+         "gives; in "
+         "DICOM the description of\n    kontur's contribution.\n"},
+    };
+    for (const auto& [mark, text] : marks)
+        if (const std::size_t at = help.find(mark); at != std::string::npos) help.replace(at, mark.size(), text);
     return help;
 }
 

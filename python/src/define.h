@@ -100,8 +100,10 @@ inline void append(std::string& text, const KeywordText& keywords) { text += key
 template <class Other>
 void append(std::string&, const Other&) {}
 
-/// `help` with the keywords' part in place of its line "@options".
-std::string with_options(std::string help, const std::string& options);
+/// `help` with the keywords' part in place of its line "@options", and with what many functions say of "@progress" (and
+/// stop),
+/// "@on_note" and "@provenance".
+std::string filled_in(std::string help, const std::string& options);
 
 template <class... Extra>
 std::string docstring(const std::string& name, const std::string& first, const std::string& help, const Extra&... extra) {
@@ -113,7 +115,7 @@ std::string docstring(const std::string& name, const std::string& first, const s
         }(extra),
         ...);
     return name + "(" + parameters.substr(std::min<std::size_t>(2, parameters.size())) + ")\n--\n\n" +
-           with_options(help, options);
+           filled_in(help, options);
 }
 
 /// Of the extras, those that are pybind11's.

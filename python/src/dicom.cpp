@@ -124,10 +124,8 @@ path : path
 structures : StructureSet
 images : DicomSeries
     Such as one of `list_dicom_series`.
-on_note : callable, optional
-    Called with each sentence on what you should know; when left out they are warnings of the logger 'kontur'.
-provenance : dict of str to str, optional
-    How they were made: the description of kontur's contribution.
+@on_note
+@provenance
 @options
 )",
         [keywords](const fs::path& path, const StructureSet& structures, const DicomSeries& images,
@@ -160,8 +158,7 @@ Parameters
 ----------
 path : path
     A folder, or one file, which stands for its own series.
-progress, stop : optional
-    As for `segment`.
+@progress
 @options
 
 Returns
@@ -179,8 +176,7 @@ DicomVolume
 Parameters
 ----------
 path : path
-progress, stop : optional
-    As for `segment`.
+@progress
 @options
 
 Returns

@@ -42,7 +42,7 @@ void bind_editor_itself(py::module_& m) {
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
 
     const Keywords<EditorOptions> keywords = editor_keywords();
-    const std::string help = with_options(R"(Follows contours while they are edited.
+    const std::string help = filled_in(R"(Follows contours while they are edited.
 
 After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give. Not for use from several
 threads at once.

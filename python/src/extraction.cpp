@@ -50,8 +50,7 @@ starts : array_like, shape (n, 3)
     mm (LPS); those outside of the grid are ignored.
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -79,8 +78,7 @@ starts : array_like, shape (n, 3)
     mm (LPS); those outside of the grid are ignored.
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -105,8 +103,7 @@ spacing_mm : float
     Of the lattice; details thinner than it may be missing.
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -131,8 +128,7 @@ function : ImplicitFunction
     The mask's, as `segment` gives both.
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -153,8 +149,7 @@ function : ImplicitFunction
 grid : Grid
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -179,8 +174,7 @@ function : ImplicitFunction
     The one that the surface was found with.
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -214,8 +208,7 @@ Parameters
 ----------
 mask : Mask
 planes : sequence of Plane
-progress, stop : optional
-    As for `segment`.
+@progress
 @options
 
 Returns

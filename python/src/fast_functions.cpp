@@ -75,7 +75,7 @@ void bind_fast_functions(py::module_& m) {
             .field("expected_points", &FastOptions::expected_points,
                    "How many will be evaluated; decides what preparation pays.")
             .field("threads", &FastOptions::threads, "0: the machine's.");
-    const std::string help = with_options(R"(Values and gradients of an ImplicitFunction at many points, faster.
+    const std::string help = filled_in(R"(Values and gradients of an ImplicitFunction at many points, faster.
 
 Near centres are summed directly, the smooth rest is interpolated. Each call compares some of its values with direct sums; if
 one misses the tolerance, that call and all later ones are direct sums. Keeps what it computed for later calls.
@@ -95,7 +95,7 @@ Examples
 >>> bool(abs(fast.values(points[:1000]) - function(points[:1000])).max() < 0.01)
 True
 )",
-                                          keywords.documentation());
+                                       keywords.documentation());
     py::class_<SharedFastFunction> fast(m, "FastFunction", help.c_str());
     const std::string init_doc = docstring("__init__", "self, function, *", "", KeywordText(keywords));
     fast.def(py::init([keywords](const ImplicitFunction& function, const py::kwargs& given) {
@@ -109,8 +109,7 @@ Parameters
 ----------
 points : array_like, shape (..., 3)
     mm (LPS).
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------
@@ -123,8 +122,7 @@ Parameters
 ----------
 points : array_like, shape (..., 3)
     mm (LPS).
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------

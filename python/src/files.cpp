@@ -5,6 +5,7 @@
 #include "kontur/io/file_digest.h"
 #include "kontur/io/markups.h"
 #include "kontur/io/mesh.h"
+#include "kontur/io/read_provenance.h"
 #include "notes.h"
 #include "provenance.h"
 
@@ -38,8 +39,7 @@ roi : str, optional
     RT structure sets: the ROI's name or number; needed when several have contours.
 plane_tolerance_mm : float
     For curves whose plane must be fitted.
-on_note : callable, optional
-    Called with each sentence on how the file was interpreted; when left out they are warnings of the logger 'kontur'.
+@on_note
 
 Returns
 -------
@@ -78,8 +78,7 @@ Parameters
 ----------
 path : path
 mesh : TriangleMesh
-provenance : dict of str to str, optional
-    How it was made, for the format's comments; such as what `provenance` gives.
+@provenance
 )",
         [](const fs::path& path, const TriangleMesh& mesh, const py::object& provenance) {
             const Provenance made = provenance_from(provenance);
@@ -88,6 +87,26 @@ provenance : dict of str to str, optional
         },
         py::arg("path"), py::arg("mesh"), py::arg("provenance") = py::none());
     define(
+        m, "read_provenance", R"(What kontur wrote into a file about how it was made; empty where the file says nothing.
+
+MetaImage and STL hold it shortened, as the one entry 'shortened'.
+
+Parameters
+----------
+path : path
+    A mask, image, contour file or mesh, written by kontur or by any other program.
+
+Returns
+-------
+dict of str to str
+)",
+        [](const fs::path& path) {
+            py::dict items;
+            for (const auto& [name, value] : unlocked([&] { return read_provenance(path); })) items[py::str(name)] = value;
+            return items;
+        },
+        py::arg("path"));
+    define(
         m, "files_sha256", R"(SHA-256 of files, as 64 hexadecimal digits.
 
 Of a folder: of the sorted digests of its files, one per line. Of several paths: of their digests in this order, one per line.
@@ -95,8 +114,7 @@ Of a folder: of the sorted digests of its files, one per line. Of several paths:
 Parameters
 ----------
 paths : sequence of paths
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------

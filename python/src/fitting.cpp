@@ -102,6 +102,16 @@ void bind_types(py::module_& m) {
             return owning_array(std::move(contours), {count});
         },
         "ndarray, shape (n,), int32: index of each point's contour.");
+    prepared.def_property_readonly(
+        "trust",
+        [](const PreparedContours& p) {
+            std::vector<double> trust;
+            for (const BoundaryPoint& point : p.points) trust.push_back(point.trust);
+            const auto count = static_cast<py::ssize_t>(trust.size());
+            return owning_array(std::move(trust), {count});
+        },
+        "ndarray, shape (n,): above 0, how closely the surface is to follow each point; its contour's weight until "
+        "`reconcile`.");
     prepared.def_readonly("crossings", &PreparedContours::crossings,
                           "ndarray, shape (m, 3): mm, where contours cross themselves.");
     prepared.def_readonly("caps", &PreparedContours::caps, "list of Cap: limits beyond the last contours.");
@@ -168,8 +178,9 @@ Contour
            py::arg("contour"), py::arg("least_segments") = 0);
     define(m, "find_caps", "Limits to extrapolation beyond the last contours: list of Cap.", &find_caps,
            py::arg("contours"));
-    define(m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.", [](const ContourSet& set) { return find_leak_probes(set); },
-           py::arg("contours"));
+    define(
+        m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.",
+        [](const ContourSet& set) { return find_leak_probes(set); }, py::arg("contours"));
 
     const auto preparing = prepare_keywords();
     define(
@@ -225,8 +236,7 @@ PreparedContours
 Parameters
 ----------
 prepared : PreparedContours
-progress, stop : optional
-    As for `segment`.
+@progress
 @options
 
 Returns
@@ -246,8 +256,7 @@ Fit
 Parameters
 ----------
 constraints : ConstraintSet
-progress, stop : optional
-    As for `segment`.
+@progress
 @options
 
 Returns

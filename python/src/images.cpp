@@ -41,8 +41,7 @@ Parameters
 path : path
     NIfTI, NRRD, MetaImage, a DICOM folder or one of its files.
 )" + more_parameters +
-           R"(on_note : callable, optional
-    Called with each sentence on what the reader decided for you; when left out they are warnings of the logger 'kontur'.
+           R"(@on_note
 @options
 )";
 }
@@ -104,8 +103,7 @@ Parameters
 path : path
     .nii, .nii.gz, .nrrd, .seg.nrrd or .mha; the name decides on the format.
 mask : Mask
-provenance : dict of str to str, optional
-    How it was made, for the format's text fields; such as what `provenance` gives.
+@provenance
 @options
 )",
         [writing](const fs::path& path, const Mask& mask, const py::object& provenance, const py::kwargs& given) {
@@ -123,8 +121,7 @@ Parameters
 path : path
     .nii, .nii.gz, .nrrd, .seg.nrrd (a label map, one segment for each label) or .mha; the name decides on the format.
 image : Image
-provenance : dict of str to str, optional
-    How it was made, for the format's text fields.
+@provenance
 label_names : dict of int to str, optional
     For .seg.nrrd: the names of labels; others are called 'label N'.
 )",

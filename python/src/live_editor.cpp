@@ -130,7 +130,7 @@ void bind_update(py::module_& m) {
 
 void bind_live_editor(py::module_& m, const Keywords<EditorOptions>& keywords) {
     bind_update(m);
-    const std::string help = with_options(R"(An Editor on a thread of its own: previews the newest contours, then refines.
+    const std::string help = filled_in(R"(An Editor on a thread of its own: previews the newest contours, then refines.
 
 An edit cancels a running refinement at once; a running preview is finished first. Close it, or use it in a `with` statement.
 

@@ -29,8 +29,7 @@ Parameters
 a, b : Mask
 threads : int
     0: the machine's.
-progress, stop : optional
-    As for `segment`.
+@progress
 
 Returns
 -------

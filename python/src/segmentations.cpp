@@ -42,7 +42,10 @@ color : (int, int, int), optional
     segment.def_readonly("algorithm_name", &DicomSegment::algorithm_name, "str: may be empty.");
     segment.def_readonly("color", &DicomSegment::color, "list of 3 int (red, green, blue, 0 to 255), or None.");
     segment.def_readonly("voxels", &DicomSegment::voxels, "int: set by reading.");
-    segment.def("__repr__", [](const DicomSegment& s) { return py::str("<DicomSegment {}: {!r}>").format(s.number, s.label); });
+    segment.def_readonly("shared_voxels", &DicomSegment::shared_voxels,
+                         "int: those of them that lie in other segments, too; set by reading.");
+    segment.def("__repr__",
+                [](const DicomSegment& s) { return py::str("<DicomSegment {}: {!r}>").format(s.number, s.label); });
 
     py::class_<DicomSegmentation> segmentation(m, "DicomSegmentation", "What a DICOM segmentation says about itself.");
     segmentation.def_readonly("grid", &DicomSegmentation::grid, "Grid: from the first to the last stored slice.");
@@ -84,10 +87,8 @@ segment : int, optional
     Read this one alone; needed where segments overlap.
 max_voxels : int
     Larger grids are refused.
-on_note : callable, optional
-    Called with each sentence on what you should know; when left out they are warnings of the logger 'kontur'.
-progress, stop : optional
-    As for `segment`.
+@on_note
+@progress
 
 Returns
 -------
@@ -101,16 +102,35 @@ Image
         },
         py::arg("path"), py::arg("segment") = py::none(), max_voxels, py::kw_only(), kOnNote, kProgress, kStop);
 
+    define(
+        m, "read_dicom_seg_masks", R"(The mask of each segment of a DICOM segmentation, whether they overlap or not.
+
+Parameters
+----------
+path : path
+max_voxels : int
+    Refused when all masks together have more.
+@progress
+
+Returns
+-------
+list of Mask
+    In the order of `read_dicom_segmentation`, all on its grid.
+)",
+        [](const fs::path& path, std::int64_t most, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) { return read_dicom_seg_masks(path, most, p); });
+        },
+        py::arg("path"), max_voxels, py::kw_only(), kProgress, kStop);
+
     const auto algorithm = [](auto member) {
         return [member](WriteDicomSegOptions & options) -> auto& { return options.algorithm.*member; };
     };
-    const auto keywords =
-        Keywords<WriteDicomSegOptions>()
-            .field("series_description", &WriteDicomSegOptions::series_description, "")
-            .field("algorithm_name", algorithm(&DicomAlgorithm::name),
-                   "How the segments were made, for those who audit them; empty: nothing is said.")
-            .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
-            .field("algorithm_parameters", algorithm(&DicomAlgorithm::parameters), "Free text.");
+    const auto keywords = Keywords<WriteDicomSegOptions>()
+                              .field("series_description", &WriteDicomSegOptions::series_description, "")
+                              .field("algorithm_name", algorithm(&DicomAlgorithm::name),
+                                     "How the segments were made, for those who audit them; empty: nothing is said.")
+                              .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
+                              .field("algorithm_parameters", algorithm(&DicomAlgorithm::parameters), "Free text.");
     define(
         m, "write_dicom_seg", R"(Writes a binary DICOM segmentation that refers to the images it was made on.
 
@@ -123,10 +143,8 @@ segments : sequence of DicomSegment
     One for each value other than 0. In the file they are numbered from 1 in this order.
 images : DicomSeries
     Such as one of `list_dicom_series`.
-progress, stop : optional
-    As for `segment`.
-provenance : dict of str to str, optional
-    How the file was made: the description of kontur's contribution.
+@progress
+@provenance
 @options
 )",
         [keywords](const fs::path& path, const py::object& labels, const std::vector<DicomSegment>& segments,
@@ -139,6 +157,32 @@ provenance : dict of str to str, optional
                      [&](const Progress& p) { write_dicom_seg(path, volume, segments, images, options, p); });
         },
         py::arg("path"), py::arg("labels"), py::arg("segments"), py::arg("images"), py::kw_only(), kProgress, kStop,
+        py::arg("provenance") = py::none(), KeywordText(keywords));
+    define(
+        m, "write_dicom_seg_masks", R"(Writes a binary DICOM segmentation of segments that may overlap.
+
+Parameters
+----------
+path : path
+masks : sequence of Mask
+    One for each segment, otherwise as `labels` of `write_dicom_seg`.
+segments : sequence of DicomSegment
+    In the file they are numbered from 1 in this order, whatever their numbers are.
+images : DicomSeries
+    Such as one of `list_dicom_series`.
+@progress
+@provenance
+@options
+)",
+        [keywords](const fs::path& path, const std::vector<Mask>& masks, const std::vector<DicomSegment>& segments,
+                   const DicomSeries& images, const py::object& progress, const py::object& stop,
+                   const py::object& provenance, const py::kwargs& given) {
+            WriteDicomSegOptions options = keywords.parse("write_dicom_seg_masks", given);
+            options.provenance = provenance_from(provenance);
+            run_work({progress, stop},
+                     [&](const Progress& p) { write_dicom_seg_masks(path, masks, segments, images, options, p); });
+        },
+        py::arg("path"), py::arg("masks"), py::arg("segments"), py::arg("images"), py::kw_only(), kProgress, kStop,
         py::arg("provenance") = py::none(), KeywordText(keywords));
 }
 

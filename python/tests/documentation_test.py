@@ -29,7 +29,7 @@ def documented():
 def test_docstrings_are_there_and_their_examples_run(name, value):
     text = inspect.getdoc(value)
     assert text, f"{name} has no docstring"
-    assert "@options" not in text
+    assert not re.search(r"^@\w", text, re.MULTILINE), "a mark that nothing was filled in for"
     test = doctest.DocTestParser().get_doctest(text, dict(NAMES), name, None, None)
     assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test).failed == 0
 

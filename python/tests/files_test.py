@@ -84,6 +84,22 @@ def test_a_dicom_series(tmp_path):
         kontur.read_image(tmp_path, series_uid="9.9")
 
 
+def test_segments_that_overlap_keep_every_voxel(tmp_path):
+    grid = kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]))
+    (tmp_path / "ct").mkdir()
+    make_series(tmp_path / "ct", grid)
+    [series] = kontur.list_dicom_series(tmp_path / "ct")
+    arrays = numpy.random.default_rng(1).random((2, 5, 3, 4)) < 0.5
+    segments = [kontur.DicomSegment(label=name) for name in ("organ", "lesion")]
+    kontur.write_dicom_seg_masks(tmp_path / "seg.dcm", [kontur.Mask(a, grid) for a in arrays], segments, series)
+    for mask, array in zip(kontur.read_dicom_seg_masks(tmp_path / "seg.dcm"), arrays, strict=True):
+        assert numpy.array_equal(mask.values.astype(bool), array)
+    about = kontur.read_dicom_segmentation(tmp_path / "seg.dcm")
+    assert [s.shared_voxels for s in about.segments] == [int(arrays.all(axis=0).sum())] * 2 and about.notes
+    with pytest.raises(kontur.InvalidInputError, match="'organ' and 2 'lesion' overlap"):
+        kontur.read_dicom_seg(tmp_path / "seg.dcm")
+
+
 def test_notes_go_to_the_caller_or_to_the_log(tmp_path, caplog):
     make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1])))
     (tmp_path / "readme.txt").write_text("no image")

@@ -42,6 +42,19 @@ def test_the_stages_make_what_segment_makes(case, kidney):
     assert kontur.residual(fitted.function, case.contours).max_mm == kidney.report.residual.max_mm
 
 
+def test_of_two_contours_that_yield_the_heavier_yields_less():
+    """`reconcile` by itself, as within `segment`."""
+    def least_trust(weight):
+        angles = numpy.linspace(0, 2 * numpy.pi, 90, endpoint=False)
+        ring = numpy.stack([numpy.cos(angles), numpy.sin(angles), 0 * angles], axis=1)
+        circles = [kontur.Contour(20 * ring, weight=weight), kontur.Contour(21.5 * ring[:, [2, 0, 1]])]
+        contours = kontur.ContourSet(circles)
+        yielded = kontur.reconcile(kontur.prepare(contours), kontur.find_crossings(contours))
+        return min(yielded.trust[yielded.contours == 0]) / weight
+
+    assert least_trust(9) > 3 * least_trust(1)
+
+
 def test_values_and_gradients(case, kidney):
     points = numpy.concatenate([contour.points for contour in case.contours.contours])
     assert abs(kidney.function(points)).max() < 0.02

@@ -186,6 +186,7 @@ def test_nesting_and_fill_rule():
 def test_digests_do_not_depend_on_the_file(tmp_path, case):
     kontur.write_contours(tmp_path / "a.json", case.contours, provenance={"made_by": "hand"})
     assert '"provenance": {"made_by": "hand"}' in (tmp_path / "a.json").read_text()
+    assert kontur.read_provenance(tmp_path / "a.json") == {"made_by": "hand"}
     again = kontur.read_contours(tmp_path / "a.json")
     assert kontur.contours_sha256(again) == kontur.contours_sha256(case.contours)
     assert kontur.contours_sha256(again) != kontur.contours_sha256(kontur.ContourSet(case.contours.contours[1:]))

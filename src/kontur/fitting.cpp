@@ -51,20 +51,13 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
     return prepare;
 }
 
-std::vector<double> weights_of(const ContourSet& contours) {
-    std::vector<double> weights;
-    for (const Contour& contour : contours.contours) weights.push_back(contour.weight);
-    return weights;
-}
-
 }  // namespace
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
     const FitOptions fit = fit_options(options, diameter_mm(contours));
     const ReconcileOptions reconcile{
         .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
-        .offset_mm = kOffsetFraction * diameter_mm(contours),
-        .weights = weights_of(contours)};
+        .offset_mm = kOffsetFraction * diameter_mm(contours)};
     return {prepare_options(options, fit), reconcile, fit};
 }
 

@@ -34,6 +34,7 @@
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
 #include "kontur/io/markups.h"
+#include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
 
 // Contours become a function.
@@ -61,9 +62,9 @@
 #include "kontur/extract/voxelize.h"
 
 // All of it at once.
-#include "kontur/segment.h"
 #include "kontur/editor.h"
 #include "kontur/live_editor.h"
+#include "kontur/segment.h"
 
 // Judging and showing the result.
 #include "kontur/measure/compare.h"

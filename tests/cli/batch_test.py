@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import pty
 import re
 import signal
 import subprocess
@@ -57,6 +58,23 @@ def test_one_failed_case_stops_no_other(cohort):
     assert b["exit_code"] == 74 and "absent.json" in b["error"]
     assert "2 done, 1 failed, 0 open" in result.stdout
     assert re.search(r"^b +failed .*absent.json", result.stdout, re.MULTILINE)
+
+
+def test_a_terminal_shows_what_is_done_and_how_long_the_rest_will_take(cohort):
+    ours, theirs = pty.openpty()
+    result = subprocess.run([KONTUR, "batch", cohort / "cases.csv"], stdout=subprocess.PIPE, stderr=theirs, timeout=60)
+    os.close(theirs)
+    assert result.returncode == 1
+    shown = b""
+    try:
+        while part := os.read(ours, 1 << 16):
+            shown += part
+    except OSError:  # what a terminal gives whose other end is closed
+        pass
+    finally:
+        os.close(ours)
+    assert re.search(r"1 of 3 cases, about \d+ s left", shown.decode())
+    assert re.search(r"2 of 3 cases, 1 failed, about \d+ s left", shown.decode())
 
 
 def test_a_second_run_makes_only_what_is_missing(cohort):

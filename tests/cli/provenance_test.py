@@ -130,6 +130,7 @@ def test_traced_contours_say_of_what(folder):
         assert result.returncode == 0, result
         made = json.loads((folder / output).read_text())[key]
         assert made["made_by"] == "kontur trace" and "min_area_mm2=2" in made["options"]
+        assert made.items() >= {f"mask_{name}": value for name, value in comment(folder / "out.nii").items()}.items()
         assert made["mask_sha256"] == sha256(folder / "out.nii") and made["planes_sha256"] == sha256(folder / "ball.json")
         assert kontur("inspect", output, cwd=folder).returncode == 0
     kontur("trace", "out.nii", "--planes", "ball.json", "--output", "again.json", "--min-area-mm2", "2", cwd=folder)
@@ -150,6 +151,48 @@ def test_a_converted_file_names_its_source_by_digest(folder, source, output):
     else:
         assert digest.encode() in content
     assert str(folder).encode() not in content
+
+
+def provenance(path):
+    """What `kontur inspect` finds in a file."""
+    [facts] = json.loads(kontur("inspect", path, "--json").stdout)
+    return facts.get("provenance", {})
+
+
+@pytest.mark.parametrize("source, steps", [("out.nii", ["b.nrrd", "c.seg.nrrd", "d.nii.gz"]), ("out.ply", ["b.obj", "c.ply"]),
+                                           ("traced.json", ["b.mrk.json", "c.json"])])
+def test_a_converted_file_carries_on_what_its_source_says(folder, source, steps):
+    segment(folder, "--output", "out.nii", "--mesh", "out.ply")
+    kontur("trace", "out.nii", "--planes", "ball.json", "--output", "traced.json", cwd=folder)
+    before = provenance(folder / source)
+    assert before
+    for step in steps:
+        assert kontur("convert", source, step, cwd=folder).returncode == 0
+        after = provenance(folder / step)
+        assert after.items() >= {f"source_{name}": value for name, value in before.items()}.items()
+        assert (after["made_by"], after["source_sha256"]) == ("kontur convert", sha256(folder / source))
+        source, before = step, after
+
+
+def test_formats_that_shorten_carry_on_the_shortened_text(folder):
+    segment(folder, "--output", "out.mha", "--mesh", "out.stl")
+    for source, output in (("out.mha", "b.nii"), ("out.stl", "b.ply")):
+        kontur("convert", source, output, cwd=folder)
+        assert provenance(folder / output)["source_shortened"] == provenance(folder / source)["shortened"]
+
+
+def test_very_many_conversions_do_not_pile_up(folder):
+    source = "ball.json"
+    for step in range(40):
+        assert kontur("convert", source, f"{step}.json", cwd=folder).returncode == 0
+        source = f"{step}.json"
+    assert len(provenance(folder / source)) == 100
+
+
+def test_inspect_shows_people_how_a_file_was_made(folder):
+    kontur("convert", "ball.json", "again.json", cwd=folder)
+    assert "provenance\n    made_by: kontur convert\n" in kontur("inspect", "again.json", cwd=folder).stdout
+    assert "provenance" not in kontur("inspect", "ball.json", cwd=folder).stdout
 
 
 def test_the_phantom_says_which_noise(folder):

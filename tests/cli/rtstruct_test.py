@@ -53,6 +53,8 @@ def test_segment_cuts_the_surface_on_the_images_slices(tmp_path, images):
     [equipment] = pydicom.dcmread(tmp_path / "rs.dcm").ContributingEquipmentSequence
     digest = hashlib.sha256(contours.read_bytes()).hexdigest()
     assert f"contour_files_sha256: {digest}" in equipment.ContributionDescription
+    assert kontur("convert", tmp_path / "rs.dcm", tmp_path / "again.json").returncode == 0
+    assert json.loads((tmp_path / "again.json").read_text())["provenance"]["source_contour_files_sha256"] == digest
     areas = {float(line[3]): float(line[2]) for line in found}
     assert sorted(areas) == [107.5, 110.0, 112.5]
     for z, area in areas.items():

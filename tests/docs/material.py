@@ -57,7 +57,8 @@ def write_material(folder):
     write_dicom(folder / "dicom_folder", image)
     shutil.copytree(folder / "dicom_folder", folder / "P002" / "dicom")
     liver = kontur.segment(CASE.contours, GRID, mesh=True)
-    kontur.write_mask(folder / "liver.nii.gz", liver.mask)
+    for name in ("liver.nii.gz", "tumour.nii.gz"):
+        kontur.write_mask(folder / name, liver.mask)
     kontur.write_mesh(folder / "liver.stl", liver.mesh)
     wrapper = pathlib.Path(__file__).parent / "kontur"
     subprocess.run([wrapper, "open", folder / "ct.nii.gz", "--project", folder / "work.kontur"], check=True, capture_output=True)

@@ -68,12 +68,12 @@ TEST(Reconcile, TheNewestContourKeepsAllTrust) {
 
 TEST(Reconcile, TheHeavierContourYieldsLess) {
     const auto least_trust = [](double weight, std::int32_t contour) {
-        const ContourSet set = three_great_circles(1.5);
-        std::vector<BoundaryPoint> points = prepare(set).points;
-        reconcile(points, find_crossings(set), {.weights = {1, 1, weight}});
+        ContourSet set = three_great_circles(1.5);
+        set.contours[2].weight = weight;
         double least = 1;
-        for (const BoundaryPoint& p : points)
-            if (p.contour == contour) least = std::min(least, p.trust);
+        for (const BoundaryPoint& p : reconciled(set, Conflicts::reconcile))
+            if (p.contour == contour)
+                least = std::min(least, p.trust / set.contours[static_cast<std::size_t>(contour)].weight);
         return least;
     };
     EXPECT_NEAR(least_trust(1, 2), least_trust(1, 0), 1e-3);

@@ -9,6 +9,8 @@ import sys
 import tempfile
 import zlib
 
+import nibabel
+
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "malformed"))
 import malformed_files as sound  # noqa: E402
@@ -17,6 +19,9 @@ import malformed_files as sound  # noqa: E402
 def nifti():
     yield from (sound.nifti_bytes(version, (3, 2, 2), dtype) for version in (1, 2) for dtype in ("u1", "i2", "f4"))
     yield gzip.compress(sound.nifti_bytes(1, (3, 2, 2)), mtime=0)
+    image = nibabel.Nifti1Image.from_bytes(sound.nifti_bytes(1, (3, 2, 2)))
+    image.header.extensions.append(nibabel.nifti1.Nifti1Extension("comment", b"kontur\nmade_by: hand\noptions: a=b c\n"))
+    yield image.to_bytes()
 
 
 def nrrd():

@@ -5,11 +5,13 @@
 
 #include "fuzz/scratch_folder.h"
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/csv.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/image.h"
 #include "kontur/io/mesh.h"
+#include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/measure/contour_check.h"
 
@@ -25,6 +27,12 @@ void require(bool holds, const char* what) {
     std::abort();
 }
 
+/// What a file says of itself goes on into others.
+void provenance(const std::filesystem::path& path) {
+    for (const auto& [name, value] : read_provenance(path))
+        require(printable_utf8(name + value) == name + value, "provenance can be written again");
+}
+
 /// Takes every choice that a careful user would be asked for, so that more of the readers is reached.
 void image(const std::string& name, Bytes bytes) {
     ReadImageOptions options;
@@ -32,11 +40,13 @@ void image(const std::string& name, Bytes bytes) {
     options.prefer = NiftiTransform::sform;
     options.allow_missing_geometry = true;
     options.max_voxels = options.dicom.max_voxels = kMaxVoxels;
-    const Image image = read_image(scratch().file(name, bytes), options);
+    const auto path = scratch().file(name, bytes);
+    const Image image = read_image(path, options);
     check_grid(image.grid);
     require(std::visit([](const auto& v) { return static_cast<std::int64_t>(v.size()); }, image.samples) ==
                 image.grid.voxel_count(),
             "as many samples as voxels");
+    provenance(path);
 }
 
 void check(const ContourSet& contours) {
@@ -44,13 +54,19 @@ void check(const ContourSet& contours) {
     if (contours.contours.size() <= 50) check_contour_set(contours);
 }
 
-void contours(const std::string& name, Bytes bytes) { check(read_contours(scratch().file(name, bytes)).contours); }
+void contours(const std::string& name, Bytes bytes) {
+    const auto path = scratch().file(name, bytes);
+    check(read_contours(path).contours);
+    provenance(path);
+}
 
 void mesh(const std::string& name, Bytes bytes) {
-    const TriangleMesh mesh = read_mesh(scratch().file(name, bytes));
+    const auto path = scratch().file(name, bytes);
+    const TriangleMesh mesh = read_mesh(path);
     for (const Vec3& p : mesh.points) require(is_finite(p), "points are finite");
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t corner : triangle) require(corner < mesh.points.size(), "triangles have corners");
+    provenance(path);
 }
 
 }  // namespace
@@ -63,9 +79,12 @@ void dicom_seg(Bytes bytes) {
     const auto path = scratch().file("x.dcm", bytes);
     const DicomSegmentation found = read_dicom_segmentation(path, kMaxVoxels);
     for (const DicomSegment& segment : found.segments) read_dicom_seg(path, segment.number, kMaxVoxels);
+    require(read_dicom_seg_masks(path, kMaxVoxels).size() == found.segments.size(), "a mask for each segment");
 }
 void rtstruct(Bytes bytes) {
-    for (const Roi& roi : read_rtstruct(scratch().file("x.dcm", bytes)).rois) check(roi.contours);
+    const auto path = scratch().file("x.dcm", bytes);
+    for (const Roi& roi : read_rtstruct(path).rois) check(roi.contours);
+    provenance(path);
 }
 void contour_json(Bytes bytes) { contours("x.json", bytes); }
 void markups(Bytes bytes) { contours("x.mrk.json", bytes); }

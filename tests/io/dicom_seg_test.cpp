@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kontur/io/image.h"
 #include "support/damage.h"
 #include "support/expect_error.h"
@@ -114,6 +116,28 @@ TEST_F(WriteDicomSeg, TakesMirroredTurnedAndCroppedMasks) {
     EXPECT_EQ(read_image(path()).samples, Image::Samples(expected));
 }
 
+TEST_F(WriteDicomSeg, KeepsEveryVoxelOfOverlappingMasks) {
+    use_images("odd");
+    std::vector<Mask> masks;
+    for (int bit = 1; bit <= 2; bit *= 2) {
+        masks.push_back({grid_, std::get<std::vector<std::uint8_t>>(random_labels().samples)});
+        for (std::uint8_t& value : masks.back().values) value = (value & bit) != 0;  // 3 is in both
+    }
+    auto segments = three_segments();
+    segments.pop_back();
+    write_dicom_seg_masks(path(), masks, segments, series_);
+    const std::vector<Mask> again = read_dicom_seg_masks(path());
+    ASSERT_EQ(again.size(), 2u);
+    EXPECT_EQ(again[0].values, masks[0].values);
+    EXPECT_EQ(again[1].values, masks[1].values);
+    EXPECT_GT(read_dicom_segmentation(path()).segments[0].shared_voxels, 0);
+    EXPECT_KONTUR_ERROR(write_dicom_seg_masks(path(), masks, three_segments(), series_), ErrorKind::invalid_input,
+                        "there are 2 masks for 3 segments");
+    masks[1].values.assign(masks[1].values.size(), 0);
+    EXPECT_KONTUR_ERROR(write_dicom_seg_masks(path(), masks, segments, series_), ErrorKind::invalid_input,
+                        "the segment 'two' has no voxels");
+}
+
 TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
     use_images("axial");
     Image labels = random_labels();
@@ -125,6 +149,14 @@ TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
     segments.push_back({.number = 7, .label = "seven"});
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, segments, series_), ErrorKind::invalid_input,
                         "segment 7 'seven' has no voxels");
+    const Vec3 first_slice = labels.grid.index_to_mm.translation;
+    const auto& values = std::get<std::vector<std::uint8_t>>(labels.samples);
+    const auto of_last_slice =
+        std::count_if(values.end() - grid_.size.i * grid_.size.j, values.end(), [](auto v) { return v != 0; });
+    labels.grid.index_to_mm.translation = grid_.center_mm(0, 0, 1);
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+                        std::to_string(of_last_slice) + " of the mask's ");
+    labels.grid.index_to_mm.translation = first_slice;
     labels.grid.index_to_mm.translation.x += 0.35;
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
                         "they are up to 0.5 of a voxel off; the limit is 0.05");
@@ -167,6 +199,32 @@ TEST_F(ReadDicomSeg, ReadsOverlappingSegmentsOneByOne) {
     for (std::size_t n = 0; n < first.size(); ++n) ASSERT_EQ(first[n] != 0, expected[n] == 1) << n;
     EXPECT_KONTUR_ERROR(read_mask(path(), 2), ErrorKind::invalid_input,
                         "there is no segment 2; there are: 1 'L\xC3\xA4sion', 4 'node'");
+}
+
+TEST_F(ReadDicomSeg, GivesEachSegmentItsOwnMaskAndSaysWhichOverlap) {
+    make("overlapping");
+    const std::vector<std::uint8_t> labels = truth();
+    const std::vector<Mask> masks = read_dicom_seg_masks(path());
+    ASSERT_EQ(masks.size(), 2u);
+    std::int64_t shared = 0, first = 0, second = 0;
+    const std::size_t voxels = masks[0].values.size();
+    ASSERT_EQ(labels.size(), 2 * voxels);
+    for (std::size_t n = 0; n < voxels; ++n) {
+        ASSERT_EQ(masks[0].values[n] != 0, labels[n] == 1) << n;
+        ASSERT_EQ(masks[1].values[n], labels[voxels + n]) << n;
+        shared += masks[0].values[n] && masks[1].values[n];
+        first += masks[0].values[n];
+        second += masks[1].values[n];
+    }
+    ASSERT_GT(shared, 0);
+    const DicomSegmentation about = read_dicom_segmentation(path());
+    EXPECT_EQ(about.segments[0].voxels, first);
+    EXPECT_EQ(about.segments[1].voxels, second);
+    for (const DicomSegment& segment : about.segments) EXPECT_EQ(segment.shared_voxels, shared);
+    ASSERT_EQ(about.notes.size(), 1u);
+    EXPECT_NE(about.notes[0].find(" voxels of 4 'node'"), std::string::npos) << about.notes[0];
+    EXPECT_KONTUR_ERROR(read_dicom_seg_masks(path(), masks[0].grid.voxel_count()), ErrorKind::too_large, "2 masks of");
+    EXPECT_TRUE(read_dicom_segmentation(make("shuffled")).notes.empty());
 }
 
 TEST_F(ReadDicomSeg, CountsFractionsFromOneHalfOn) {
@@ -212,7 +270,14 @@ TEST(DicomSegReal, OfAnotherProgramEqualsItsLabelMap) {
     EXPECT_LT(corner_distance_mm(liver.grid, truth.grid), 1e-3);
     EXPECT_EQ(liver.values, truth.values);
     EXPECT_KONTUR_ERROR(read_image(folder / "partial_overlaps.dcm"), ErrorKind::invalid_input, "overlap; choose one");
-    EXPECT_EQ(read_dicom_segmentation(folder / "partial_overlaps.dcm").segments.size(), 5u);
+    const DicomSegmentation about = read_dicom_segmentation(folder / "partial_overlaps.dcm");
+    const std::vector<Mask> masks = read_dicom_seg_masks(folder / "partial_overlaps.dcm");
+    ASSERT_EQ(about.segments.size(), 5u);
+    ASSERT_EQ(masks.size(), 5u);
+    for (std::size_t s = 0; s < masks.size(); ++s) {
+        EXPECT_EQ(masks[s].values, read_mask(folder / "partial_overlaps.dcm", about.segments[s].number).values);
+        EXPECT_EQ(std::count(masks[s].values.begin(), masks[s].values.end(), 1), about.segments[s].voxels);
+    }
 }
 
 }  // namespace

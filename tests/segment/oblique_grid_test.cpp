@@ -15,16 +15,6 @@
 namespace kontur {
 namespace {
 
-Box3 inside_box(const Mask& mask) {
-    Box3 box;
-    const Index3& n = mask.grid.size;
-    for (std::int64_t k = 0; k < n.k; ++k)
-        for (std::int64_t j = 0; j < n.j; ++j)
-            for (std::int64_t i = 0; i < n.i; ++i)
-                if (mask.values[mask.grid.offset(i, j, k)]) box.extend(mask.grid.center_mm(i, j, k));
-    return box;
-}
-
 /// `count` planes along each of three oblique directions at right angles, evenly over the box.
 std::vector<Plane> oblique_planes(const Box3& box, int count) {
     const Vec3 normals[] = {normalized({2, 1, 2}), normalized({-2, 2, 1}), normalized({1, 2, -2})};
@@ -58,7 +48,7 @@ TEST_P(ObliqueGrid, GivesTheMaskBackThatWasTraced) {
     ASSERT_EQ(std::copysign(1.0, axes.determinant()), GetParam().handedness);
     // Threshold masks are frayed: neither specks nor voxel steps are worth a contour's points.
     const TraceOptions tracing{.step_mm = 0, .tolerance_mm = 0.4, .min_area_mm2 = 20};
-    const ContourSet contours = trace(truth, oblique_planes(inside_box(truth), 12), tracing);
+    const ContourSet contours = trace(truth, oblique_planes(bounding_box(truth), 12), tracing);
     const Mask mask = segment(contours, truth.grid).mask;
     const Comparison found = compare(mask, truth);
     std::cout << "measured: Dice " << found.dice << "\n";

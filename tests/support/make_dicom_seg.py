@@ -2,7 +2,8 @@
 """make_dicom_seg.py CASE FILE TRUTH: writes a DICOM segmentation of two segments on 6 slices of 7 x 5 pixels.
 
 CASE: "shuffled" (frames in no order, those without voxels left out), "overlapping", "fractional", or what is wrong:
-"irregular", "turned", "unlisted", "short", "kind". TRUTH gets the label map that it shows (uint8, i fastest).
+"irregular", "turned", "unlisted", "short", "kind". TRUTH gets the label map that it shows (uint8, i fastest); of
+overlapping ones, segment 1 is in front, and the mask of segment 4 follows.
 """
 
 import random
@@ -87,4 +88,5 @@ d["PixelData"].VR = "OB"
 d.save_as(path, write_like_original=False)
 first = min(k for _, k in frames)
 labels = np.where(masks[1], 1, np.where(masks[4], 4, 0)).astype("u1")[first:]
-open(truth_path, "wb").write(labels.tobytes())
+overlapped = masks[4][first:].astype("u1") if case == "overlapping" else b""
+open(truth_path, "wb").write(labels.tobytes() + bytes(overlapped))

@@ -142,8 +142,9 @@ private:
 
     void interpolate_band() {
         for (const BandCell& band : band_) fine_.reserve(lowest(band.cell), highest(band.cell));
-        for_each_cell([&](const BandCell& band) {
-            thread_local std::vector<double> values;
+        for_each_cell([&](std::size_t b) {
+            const BandCell& band = band_[b];
+            std::vector<double> values;
             cubics_.interpolate(band.cell, values);
             const Index3& s = coarse_.stride();
             for_each_point(band.cell, [&](const Index3& p) {
@@ -195,12 +196,12 @@ private:
     /// Computes the values in doubt that have not been; true if there were any.
     bool resolve_doubts() {
         std::vector<std::vector<Index3>> found(band_.size());
-        for_each_cell([&](BandCell& band) {
+        for_each_cell([&](std::size_t b) {
+            BandCell& band = band_[b];
             if (band.doubt_mm <= band.resolved_mm) return;
             band.resolved_mm = band.doubt_mm;
-            std::vector<Index3>& in_doubt = found[static_cast<std::size_t>(&band - band_.data())];
             for_each_point(band.cell, [&](const Index3& p) {
-                if (!is_node(p) && std::abs(fine_.value(p)) < band.doubt_mm) in_doubt.push_back(p);
+                if (!is_node(p) && std::abs(fine_.value(p)) < band.doubt_mm) found[b].push_back(p);
             });
         });
         std::vector<Index3> points;
@@ -246,12 +247,12 @@ private:
         return p.i % coarse_.stride().i == 0 && p.j % coarse_.stride().j == 0 && p.k % coarse_.stride().k == 0;
     }
 
-    /// Calls visit(band cell) for all, in parallel.
+    /// Calls visit(number) for all cells of the band, in parallel.
     template <typename Visit>
     void for_each_cell(const Visit& visit) {
         parallel_for(static_cast<std::int64_t>(band_.size()), 32, threads_, [&](std::int64_t begin, std::int64_t end) {
             progress_.check();
-            for (; begin < end; ++begin) visit(band_[static_cast<std::size_t>(begin)]);
+            for (; begin < end; ++begin) visit(static_cast<std::size_t>(begin));
         });
     }
 

@@ -74,13 +74,10 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
 /// The caps and leak probes, and which of them have become constraints.
 class ActiveCaps {
 public:
-    explicit ActiveCaps(const PreparedContours& contours) : caps_(contours.caps), first_probe_(caps_.size()) {
-        for (const Cap& cap : caps_)
-            active_.push_back(cap.from_start || (contours.coplanar && cap.kind == ConstraintKind::cap));
-        caps_.insert(caps_.end(), contours.leak_probes.begin(), contours.leak_probes.end());
-        active_.resize(caps_.size(), false);
-        values_.resize(caps_.size(), std::numeric_limits<double>::quiet_NaN());
-        for (const Cap& cap : caps_) positions_.push_back(cap.position);
+    explicit ActiveCaps(const PreparedContours& contours) : first_probe_(contours.caps.size()) {
+        for (const Cap& cap : contours.caps)
+            caps_.push_back({cap, cap.from_start || (contours.coplanar && cap.kind == ConstraintKind::cap)});
+        for (const Cap& probe : contours.leak_probes) caps_.push_back({probe});
     }
 
     /// Activates the caps that the function violates; true if there are new ones. Of the leak probes that the last function
@@ -95,32 +92,40 @@ public:
     }
 
     void append_to(std::vector<PointConstraint>& points) const {
-        for (std::size_t i = 0; i < caps_.size(); ++i)
-            if (active_[i]) points.push_back({caps_[i].position, caps_[i].value_mm, caps_[i].kind, caps_[i].trust});
+        for (const auto& [cap, active, value_mm] : caps_)
+            if (active) points.push_back({cap.position, cap.value_mm, cap.kind, cap.trust});
     }
-    std::size_t count() const { return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true)); }
+    std::size_t count() const {
+        return static_cast<std::size_t>(
+            std::count_if(caps_.begin(), caps_.end(), [](const Watched& w) { return w.active; }));
+    }
 
 private:
+    struct Watched {
+        Cap cap;
+        bool active = false;
+        double value_mm = std::numeric_limits<double>::quiet_NaN();  ///< of the last function for which it was computed
+    };
+
     bool is_doubtful(std::size_t i) const {
         constexpr std::size_t kSampleEvery = 4;
-        return i < first_probe_ || i % kSampleEvery == 0 || !(values_[i] < caps_[i].value_mm / 2);
+        return i < first_probe_ || i % kSampleEvery == 0 || !(caps_[i].value_mm < caps_[i].cap.value_mm / 2);
     }
 
     void evaluate(const ImplicitFunction& function, const Indices& indices, int threads) {
+        std::vector<Vec3> positions;
+        for (const std::size_t i : indices) positions.push_back(caps_[i].cap.position);
         std::vector<double> values(indices.size());
-        function.values(pick(positions_, indices), values, threads);
+        function.values(positions, values, threads);
         for (std::size_t n = 0; n < indices.size(); ++n) {
-            const std::size_t i = indices[n];
-            values_[i] = values[n];
-            active_[i] = active_[i] || !caps_[i].allows(values[n]);
+            Watched& watched = caps_[indices[n]];
+            watched.value_mm = values[n];
+            watched.active = watched.active || !watched.cap.allows(values[n]);
         }
     }
 
-    std::vector<Cap> caps_;
+    std::vector<Watched> caps_;
     std::size_t first_probe_;  ///< of the leaks; behind all others
-    std::vector<Vec3> positions_;
-    std::vector<double> values_;  ///< of the last function for which they were computed; NaN before
-    std::vector<bool> active_;
 };
 
 /// The solves of one fit, with what they share and what they leave behind.

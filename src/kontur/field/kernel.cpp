@@ -49,23 +49,39 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& 
 }
 
 // phi'(r) / r is 3 r for r^3 and 1 / r for r.
-KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
-    alignas(64) double gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
+/// The gradients, and in `out` the values where they are wanted, too. Inlined into one function for each, so that either is
+/// compiled for every instruction set.
+template <bool kWithValues>
+[[gnu::always_inline]] inline void sum_triharmonic_slopes(const Sources& s, const Lanes& t, double* __restrict out,
+                                                          Lanes& slope) {
+    alignas(64) double sum[kLanes] = {}, gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
-        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = 3 * s.w[j];
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j], w3 = 3 * s.w[j];
         for (int l = 0; l < kLanes; ++l) {
             const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
-            const double factor = w * std::sqrt(dx * dx + dy * dy + dz * dz);
+            const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
+            const double factor = w3 * r;
+            if constexpr (kWithValues) sum[l] += w * (r2 * r);
             gx[l] += factor * dx;
             gy[l] += factor * dy;
             gz[l] += factor * dz;
         }
     }
     for (int l = 0; l < kLanes; ++l) {
-        out.x[l] = gx[l];
-        out.y[l] = gy[l];
-        out.z[l] = gz[l];
+        if constexpr (kWithValues) out[l] = sum[l];
+        slope.x[l] = gx[l];
+        slope.y[l] = gy[l];
+        slope.z[l] = gz[l];
     }
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_gradient(const Sources& s, const Lanes& t, Lanes& slope) {
+    sum_triharmonic_slopes<false>(s, t, nullptr, slope);
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_both(const Sources& s, const Lanes& t, double* __restrict out,
+                                                       Lanes& slope) {
+    sum_triharmonic_slopes<true>(s, t, out, slope);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
@@ -85,28 +101,6 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic_gradient(const Sources& s, cons
         out.x[l] = gx[l];
         out.y[l] = gy[l];
         out.z[l] = gz[l];
-    }
-}
-
-KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_both(const Sources& s, const Lanes& t, double* __restrict out, Lanes& slope) {
-    alignas(64) double sum[kLanes] = {}, gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
-    for (std::size_t j = 0; j < s.count; ++j) {
-        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j], w3 = 3 * s.w[j];
-        for (int l = 0; l < kLanes; ++l) {
-            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
-            const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
-            const double factor = w3 * r;
-            sum[l] += w * (r2 * r);
-            gx[l] += factor * dx;
-            gy[l] += factor * dy;
-            gz[l] += factor * dz;
-        }
-    }
-    for (int l = 0; l < kLanes; ++l) {
-        out[l] = sum[l];
-        slope.x[l] = gx[l];
-        slope.y[l] = gy[l];
-        slope.z[l] = gz[l];
     }
 }
 

@@ -13,15 +13,27 @@ struct Doubt {
     double weight;  ///< added to 1 in the middle
 };
 
-std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> crossings, const ReconcileOptions& options) {
+/// How much each contour is trusted where it has not yielded to another; 1 without points.
+std::vector<double> trust_by_contour(const std::vector<BoundaryPoint>& points) {
+    std::vector<double> trust;
+    for (const BoundaryPoint& point : points) {
+        if (point.contour < 0) continue;
+        const auto contour = static_cast<std::size_t>(point.contour);
+        if (trust.size() <= contour) trust.resize(contour + 1, 0);
+        trust[contour] = std::max(trust[contour], point.trust);
+    }
+    std::replace(trust.begin(), trust.end(), 0.0, 1.0);
+    return trust;
+}
+
+std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> crossings, const std::vector<double>& trusts,
+                                                  const ReconcileOptions& options) {
     std::vector<std::vector<Doubt>> doubts;
     const auto add = [&](std::size_t contour, const Doubt& doubt) {
         if (doubts.size() <= contour) doubts.resize(contour + 1);
         doubts[contour].push_back(doubt);
     };
-    const auto weight = [&](std::size_t contour) {
-        return contour < options.weights.size() ? options.weights[contour] : 1.0;
-    };
+    const auto trust = [&](std::size_t contour) { return contour < trusts.size() ? trusts[contour] : 1.0; };
     for (const Crossing& crossing : crossings) {
         if (!crossing.matched || !(crossing.disagreement_mm > 0)) continue;
         const double relative = crossing.disagreement_mm / options.offset_mm;
@@ -34,9 +46,9 @@ std::vector<std::vector<Doubt>> doubts_by_contour(std::span<const Crossing> cros
             add(older, doubt(1));
             continue;
         }
-        const double both = weight(older) + weight(newer);
-        add(older, doubt(2 * weight(newer) / both));
-        add(newer, doubt(2 * weight(older) / both));
+        const double both = trust(older) + trust(newer);
+        add(older, doubt(2 * trust(newer) / both));
+        add(newer, doubt(2 * trust(older) / both));
     }
     return doubts;
 }
@@ -66,7 +78,7 @@ std::string_view name(Conflicts conflicts) noexcept {
 
 void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options) {
     if (options.conflicts == Conflicts::exact) return;
-    const std::vector<std::vector<Doubt>> doubts = doubts_by_contour(crossings, options);
+    const std::vector<std::vector<Doubt>> doubts = doubts_by_contour(crossings, trust_by_contour(points), options);
     for (BoundaryPoint& point : points)
         if (const auto contour = static_cast<std::size_t>(point.contour); contour < doubts.size())
             point.trust *= trust_at(point.position, doubts[contour]);

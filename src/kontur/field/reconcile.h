@@ -23,14 +23,14 @@ struct ReconcileOptions {
     double offset_mm = 1;   ///< length of the normal constraints, > 0: disagreements far below it do not matter
     double strength = 100;  ///< a point in the middle of a disagreement as large as the offset gets 1 / (1 + strength) trust
     double reach = 3;       ///< how far around a crossing, in multiples of the disagreement, contours yield
-    std::vector<double> weights{};  ///< of the contours (Contour::weight): of two that both yield, the heavier yields less
 };
 
 /// Lowers the trust in the points about every crossing at which contours disagree, in proportion to the square of the
 /// disagreement, as measurement errors would have it, and fading with the distance from the crossing: smoothing follows the
-/// measured disagreement, and only there. Elsewhere contours keep their trust. A contour of twice the other's weight yields
-/// half as much as the other: with weights v and w the first gets 2 w / (v + w) times what contours of equal weight yield. `crossings` are those of find_crossings on
-/// the set that the points were made from. O(points * crossings of their contour).
+/// measured disagreement, and only there. Elsewhere contours keep their trust. Of two that both yield, the one that is
+/// trusted more (Contour::weight) yields less: with trusts v and w the first gets 2 w / (v + w) times what equal ones yield.
+/// `crossings` are those of find_crossings on the set that the points were made from. O(points * crossings of their
+/// contour).
 void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options);
 
 }  // namespace kontur

@@ -41,7 +41,8 @@ public:
 
     const DicomSegmentation& description() const { return description_; }
     const std::vector<SegFrame>& frames() const { return frames_; }
-    const DicomSegment& segment(std::int64_t number) const { return description_.segments[index_of_.at(number)]; }
+    std::size_t index_of(std::int64_t number) const { return index_of_.at(number); }
+    const DicomSegment& segment(std::int64_t number) const { return description_.segments[index_of(number)]; }
 
     /// Calls `visit(n)` for every pixel n of the frame that is inside.
     template <class Visit>
@@ -56,13 +57,42 @@ public:
         }
     }
 
+    /// How many each segment has, and how many of them others have, too.
     void count_voxels() {
-        for (std::size_t f = 0; f < frames_.size(); ++f)
-            for_each_inside(
-                f, [&, &voxels = description_.segments[index_of_.at(frames_[f].segment)].voxels](std::size_t) { ++voxels; });
+        std::map<std::int64_t, std::vector<std::size_t>> frames_at;  // by slice
+        for (std::size_t f = 0; f < frames_.size(); ++f) frames_at[frames_[f].k].push_back(f);
+        for (const auto& [k, frames] : frames_at) count_slice(frames);
+        if (const std::string overlap = shared_voxels_of(description_.segments); !overlap.empty())
+            description_.notes.push_back("segments overlap: " + overlap);
     }
 
 private:
+    void count_slice(const std::vector<std::size_t>& frames) {
+        constexpr std::int64_t kShared = -1;
+        std::vector<std::int64_t> owner(static_cast<std::size_t>(description_.grid.size.i * description_.grid.size.j));
+        const auto visit_all = [&](const auto& visit) {
+            for (const std::size_t f : frames)
+                for_each_inside(f, [&, number = frames_[f].segment](std::size_t n) { visit(number, owner[n]); });
+        };
+        visit_all([](std::int64_t number, std::int64_t& its_owner) {
+            its_owner = its_owner == 0 || its_owner == number ? number : kShared;
+        });
+        visit_all([&](std::int64_t number, std::int64_t its_owner) {
+            DicomSegment& segment = description_.segments[index_of(number)];
+            ++segment.voxels;
+            segment.shared_voxels += its_owner == kShared;
+        });
+    }
+
+    static std::string shared_voxels_of(const std::vector<DicomSegment>& segments) {
+        std::string text;
+        for (const DicomSegment& segment : segments)
+            if (segment.shared_voxels > 0)
+                text += fmt::format("{}{} of {} voxels of {} '{}'", text.empty() ? "" : ", ", segment.shared_voxels,
+                                    segment.voxels, segment.number, segment.label);
+        return text;
+    }
+
     DcmItem& dataset() { return *file_.getDataset(); }
 
     void check_kind() {
@@ -254,13 +284,31 @@ std::vector<T> label_map(const SegFile& file, std::optional<std::int64_t> only, 
         T* const slice = labels.data() + grid.offset(0, 0, frame.k);
         file.for_each_inside(f, [&](std::size_t n) {
             if (slice[n] != 0 && slice[n] != frame.segment)
-                throw Error(ErrorKind::invalid_input,
-                            fmt::format("the segments {} '{}' and {} '{}' overlap; choose one", +slice[n],
-                                        file.segment(slice[n]).label, frame.segment, file.segment(frame.segment).label));
+                throw Error(
+                    ErrorKind::invalid_input,
+                    fmt::format("the segments {} '{}' and {} '{}' overlap; choose one with the option label", +slice[n],
+                                file.segment(slice[n]).label, frame.segment, file.segment(frame.segment).label));
             slice[n] = static_cast<T>(frame.segment);
         });
     }
     return labels;
+}
+
+std::vector<Mask> masks_of(const SegFile& file, std::int64_t max_voxels, const Progress& progress) {
+    const Grid& grid = file.description().grid;
+    const auto count = static_cast<std::int64_t>(file.description().segments.size());
+    if (count > 0 && grid.voxel_count() > max_voxels / count)
+        throw Error(ErrorKind::too_large, fmt::format("{} masks of {} voxels are more than the limit of {} voxels", count,
+                                                      grid.voxel_count(), max_voxels));
+    std::vector<Mask> masks(static_cast<std::size_t>(count),
+                            {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))});
+    for (std::size_t f = 0; f < file.frames().size(); ++f) {
+        progress.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
+        const SegFrame& frame = file.frames()[f];
+        std::uint8_t* const slice = masks[file.index_of(frame.segment)].values.data() + grid.offset(0, 0, frame.k);
+        file.for_each_inside(f, [&](std::size_t n) { slice[n] = 1; });
+    }
+    return masks;
 }
 
 template <class Body>
@@ -304,6 +352,11 @@ DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::in
         else image.samples = label_map<std::uint16_t>(file, segment, progress);
         return DicomSeg{std::move(image), found.notes};
     });
+}
+
+std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels,
+                                       const Progress& progress) {
+    return named_after(path, [&] { return masks_of(SegFile(path, max_voxels), max_voxels, progress); });
 }
 
 }  // namespace kontur

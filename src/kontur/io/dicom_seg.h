@@ -23,6 +23,7 @@ struct DicomSegment {
     std::string algorithm_name = "";
     std::optional<std::array<std::uint8_t, 3>> color = std::nullopt;  ///< sRGB
     std::int64_t voxels = 0;                                          ///< set by reading
+    std::int64_t shared_voxels = 0;  ///< those of them that lie in other segments, too; set by reading
 };
 
 /// What a DICOM segmentation says about itself, and how much each segment holds.
@@ -37,9 +38,10 @@ struct DicomSegmentation {
 /// True for a file that starts as a DICOM file does and says that it is a segmentation. Reads a few elements only.
 bool is_dicom_seg(const std::filesystem::path& path);
 
-/// Reads all but the voxels' places. Binary segmentations and fractional ones, which count as inside from one half on (a
-/// note says so). Frames lie in any order, with any slices left out. Throws Error(unsupported) for other kinds of
-/// segmentation, frames that are not parallel or not on one regular lattice; Error(corrupt_file) and Error(too_large).
+/// Reads all but the voxels' places; a note says which segments overlap. Binary segmentations and fractional ones, which
+/// count as inside from one half on (a note says so). Frames lie in any order, with any slices left out. Throws
+/// Error(unsupported) for other kinds of segmentation, frames that are not parallel or not on one regular lattice;
+/// Error(corrupt_file) and Error(too_large).
 DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000);
 
 struct DicomSeg {
@@ -51,6 +53,11 @@ struct DicomSeg {
 /// two, when segments overlap, and for a segment that is not there, listing those that are.
 DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment = {},
                         std::int64_t max_voxels = 2'200'000'000, const Progress& progress = {});
+
+/// The voxels of each segment, in the order of `read_dicom_segmentation` and on its grid, whether they overlap or not.
+/// Throws Error(too_large) when all masks together have more than `max_voxels`.
+std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000,
+                                       const Progress& progress = {});
 
 /// How segments were made, for those who audit them (DICOM PS3.3 table 10-19).
 struct DicomAlgorithm {
@@ -69,10 +76,16 @@ struct WriteDicomSegOptions {
 /// study, frame of reference, and for each frame its source slice. Each segment covers the voxels of `labels` whose value is
 /// its number; in the file they are numbered from 1 in the order given, as DICOM wants it. The frames are all slices of the
 /// images, so a mask comes back on their grid. `labels` may be turned, mirrored or cropped against the images as long as its
-/// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in mm, for a value without a
-/// segment and for a segment without voxels; Error(too_large) beyond DICOM's 4 GiB; Error(io). Source: DICOM PS3.3 A.51 and
-/// C.8.20.
+/// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in voxels, and how many lie
+/// outside of the images, for a value without a segment and for a segment without voxels; Error(too_large) beyond DICOM's 4
+/// GiB; Error(io). Source: DICOM PS3.3 A.51 and C.8.20.
 void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
                      const DicomSeries& images, const WriteDicomSegOptions& options = {}, const Progress& progress = {});
+
+/// The same for segments that may overlap: one mask for each, in the order given, whatever their numbers are. Throws
+/// Error(invalid_input) also when there are not as many masks as segments.
+void write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
+                           const std::vector<DicomSegment>& segments, const DicomSeries& images,
+                           const WriteDicomSegOptions& options = {}, const Progress& progress = {});
 
 }  // namespace kontur

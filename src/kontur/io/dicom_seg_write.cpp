@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "kontur/base/error.h"
@@ -39,32 +41,47 @@ std::string decimals(std::initializer_list<double> values) {
     return text;
 }
 
-/// The labels' voxels in the order of the images': which label lies at each voxel of the images.
+/// Where the voxels of the images lie in a label map or a mask.
 class Lookup {
 public:
-    Lookup(const Image& labels, const Grid& images) : labels_(labels), images_(images) {
-        const Affine3 to_index = labels.grid.index_to_mm.inverse();
+    Lookup(const Grid& labels, const Grid& images) : labels_(labels), images_(images) {
+        const Affine3 to_index = labels.index_to_mm.inverse();
         to_label_ = compose(to_index, images.index_to_mm);
         check_lattices();
     }
 
-    /// By voxel of the images, i fastest.
-    std::vector<std::uint16_t> values() const {
-        std::vector<std::uint16_t> values;
+    /// `value_at(offset)` by voxel of the images, i fastest; 0 outside of the labels. Throws Error(invalid_input) when
+    /// voxels of the labels that are not 0 lie outside of the images, where no frame could hold them.
+    template <class Value, class ValueAt>
+    std::vector<Value> values(const ValueAt& value_at) const {
+        std::vector<Value> values;
         values.reserve(static_cast<std::size_t>(images_.voxel_count()));
         for (std::int64_t k = 0; k < images_.size.k; ++k)
             for (std::int64_t j = 0; j < images_.size.j; ++j)
-                for (std::int64_t i = 0; i < images_.size.i; ++i) values.push_back(at(i, j, k));
+                for (std::int64_t i = 0; i < images_.size.i; ++i) {
+                    const std::optional<std::size_t> offset = offset_at(i, j, k);
+                    values.push_back(offset ? static_cast<Value>(value_at(*offset)) : Value{});
+                }
+        check_all_found(values, value_at);
         return values;
     }
 
 private:
-    /// 0 outside of the labels.
-    std::uint16_t at(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    template <class Value, class ValueAt>
+    void check_all_found(const std::vector<Value>& values, const ValueAt& value_at) const {
+        const auto found = std::count_if(values.begin(), values.end(), [](Value value) { return value != 0; });
+        std::ptrdiff_t all = 0;
+        for (std::size_t offset = 0; offset < static_cast<std::size_t>(labels_.voxel_count()); ++offset)
+            all += value_at(offset) != 0;
+        if (all > found)
+            throw invalid(fmt::format("{} of the mask's {} voxels lie outside of the images", all - found, all));
+    }
+
+    std::optional<std::size_t> offset_at(std::int64_t i, std::int64_t j, std::int64_t k) const {
         const Vec3 p = to_label_.apply({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-        const Index3 n{std::llround(p.x), std::llround(p.y), std::llround(p.z)}, &size = labels_.grid.size;
-        if (n.i < 0 || n.j < 0 || n.k < 0 || n.i >= size.i || n.j >= size.j || n.k >= size.k) return 0;
-        return static_cast<std::uint16_t>(sample(labels_, labels_.grid.offset(n.i, n.j, n.k)));
+        const Index3 n{std::llround(p.x), std::llround(p.y), std::llround(p.z)}, &size = labels_.size;
+        if (n.i < 0 || n.j < 0 || n.k < 0 || n.i >= size.i || n.j >= size.j || n.k >= size.k) return std::nullopt;
+        return labels_.offset(n.i, n.j, n.k);
     }
 
     /// A voxel of one grid is a voxel of the other, everywhere, within a twentieth of a voxel.
@@ -87,7 +104,7 @@ private:
                         std::max(off, spread), kTolerance));
     }
 
-    const Image& labels_;
+    const Grid& labels_;
     const Grid& images_;
     Affine3 to_label_;
 };
@@ -108,6 +125,14 @@ void check_segments(const Image& labels, const std::vector<DicomSegment>& segmen
     for (const DicomSegment& segment : segments)
         if (!counts.contains(segment.number))
             throw invalid(fmt::format("segment {} '{}' has no voxels", segment.number, segment.label));
+}
+
+void check_masks(const std::vector<Mask>& masks, const std::vector<DicomSegment>& segments) {
+    if (masks.size() != segments.size())
+        throw invalid(fmt::format("there are {} masks for {} segments", masks.size(), segments.size()));
+    for (std::size_t s = 0; s < masks.size(); ++s)
+        if (std::none_of(masks[s].values.begin(), masks[s].values.end(), [](std::uint8_t v) { return v != 0; }))
+            throw invalid(fmt::format("the segment '{}' has no voxels", segments[s].label));
 }
 
 class SegWriter {
@@ -133,8 +158,9 @@ public:
         put(document_, DCM_PixelRepresentation, 0);
         put(document_, DCM_LossyImageCompression, "00");
         put(document_, DCM_SegmentationType, "BINARY");
-        put(document_, DCM_SegmentsOverlap, "NO");
     }
+
+    void put_overlap(bool overlap) { put(document_, DCM_SegmentsOverlap, overlap ? "YES" : "NO"); }
 
     void put_segment(const DicomSegment& segment, std::size_t number, const DicomAlgorithm& algorithm) {
         DcmItem& item = append_item(document_, DCM_SegmentSequence);
@@ -266,17 +292,14 @@ Grid grid_of(const std::vector<DicomHeader>& slices) {
     return grid;
 }
 
-}  // namespace
+/// `voxels_of(s)`: of the images, whether each lies in segment s.
+using VoxelsOf = std::function<std::vector<bool>(std::size_t)>;
 
-void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
-                     const DicomSeries& images, const WriteDicomSegOptions& options, const Progress& progress) {
-    dcmtk::set_up();
-    const std::vector<DicomHeader> slices = read_slice_headers(images);
+void write_segments(const std::filesystem::path& path, const std::vector<DicomSegment>& segments,
+                    const std::vector<DicomHeader>& slices, const DicomSeries& images, const WriteDicomSegOptions& options,
+                    const Progress& progress, const VoxelsOf& voxels_of) {
     const Grid grid = grid_of(slices);
-    check_segments(labels, segments);
-    const std::vector<std::uint16_t> values = Lookup(labels, grid).values();
     BitRow bits(checked_bits(grid, segments.size()));
-
     DcmFileFormat file;
     DcmItem& document = *file.getDataset();
     dcmtk::start_document(document, images, UID_SegmentationStorage, "SEG", options.series_description);
@@ -286,17 +309,55 @@ void write_dicom_seg(const std::filesystem::path& path, const Image& labels, con
     writer.put_image_references();
     writer.put_dimensions();
     writer.put_shared_groups(grid.index_to_mm.column(2));
+    std::vector<bool> taken(static_cast<std::size_t>(grid.voxel_count()));
+    bool overlap = false;
     for (std::size_t s = 0; s < segments.size(); ++s) {
         writer.put_segment(segments[s], s + 1, options.algorithm);
+        const std::vector<bool> inside = voxels_of(s);
         for (std::int64_t k = 0; k < grid.size.k; ++k) {
             progress.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
             writer.put_frame(s + 1, static_cast<std::size_t>(k));
-            for (std::size_t n = grid.offset(0, 0, k); n < grid.offset(0, 0, k + 1); ++n)
-                bits.append(values[n] == segments[s].number);
+            for (std::size_t n = grid.offset(0, 0, k); n < grid.offset(0, 0, k + 1); ++n) {
+                bits.append(inside[n]);
+                overlap = overlap || (inside[n] && taken[n]);
+                taken[n] = taken[n] || inside[n];
+            }
         }
     }
+    writer.put_overlap(overlap);
     document.putAndInsertUint8Array(DCM_PixelData, bits.bytes().data(), static_cast<unsigned long>(bits.bytes().size()));
     dcmtk::save(file, path, EXS_LittleEndianExplicit);
+}
+
+}  // namespace
+
+void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
+                     const DicomSeries& images, const WriteDicomSegOptions& options, const Progress& progress) {
+    dcmtk::set_up();
+    const std::vector<DicomHeader> slices = read_slice_headers(images);
+    const Grid grid = grid_of(slices);
+    check_segments(labels, segments);
+    const auto values =
+        Lookup(labels.grid, grid).values<std::uint16_t>([&](std::size_t offset) { return sample(labels, offset); });
+    write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
+        std::vector<bool> inside(values.size());
+        std::transform(values.begin(), values.end(), inside.begin(),
+                       [number = segments[s].number](std::uint16_t value) { return value == number; });
+        return inside;
+    });
+}
+
+void write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
+                           const std::vector<DicomSegment>& segments, const DicomSeries& images,
+                           const WriteDicomSegOptions& options, const Progress& progress) {
+    dcmtk::set_up();
+    const std::vector<DicomHeader> slices = read_slice_headers(images);
+    const Grid grid = grid_of(slices);
+    check_masks(masks, segments);
+    write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
+        const Mask& mask = masks[s];
+        return Lookup(mask.grid, grid).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });
+    });
 }
 
 }  // namespace kontur

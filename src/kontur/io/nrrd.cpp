@@ -77,6 +77,16 @@ std::string_view type_name() {
 
 std::string vector_text(const Vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
 
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '\n') safe += "\\n";
+        else if (c == '\\') safe += "\\\\";
+        else if (c != '\r') safe += c;
+    }
+    return safe;
+}
+
 std::string header_text(const ImageView& image) {
     const Affine3& affine = image.grid.index_to_mm;
     const Index3& size = image.grid.size;
@@ -88,7 +98,7 @@ std::string header_text(const ImageView& image) {
                         vector_text(affine.column(2)));
     text += "kinds: domain domain domain\nendian: little\nencoding: gzip\n";
     text += fmt::format("space origin: {}\n", vector_text(affine.translation));
-    for (const auto& [name, value] : image.provenance) text += fmt::format("kontur_{}:={}\n", name, value);
+    for (const auto& [name, value] : image.provenance) text += fmt::format("kontur_{}:={}\n", name, escaped(value));
     return text;
 }
 
@@ -100,16 +110,6 @@ void write(const fs::path& path, const ImageView& image, const std::string& more
         deflater.write(bytes_of(image));
         deflater.finish();
     });
-}
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '\n') safe += "\\n";
-        else if (c == '\\') safe += "\\\\";
-        else if (c != '\r') safe += c;
-    }
-    return safe;
 }
 
 /// First and last index along each axis of the voxels with this value, as 3D Slicer writes it; "0 -1" when there are none.

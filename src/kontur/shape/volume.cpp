@@ -53,6 +53,16 @@ bool is_label(double value) { return std::trunc(value) == value && std::abs(valu
 
 }  // namespace
 
+Box3 bounding_box(const Mask& mask) {
+    Box3 box;
+    const Index3& n = mask.grid.size;
+    for (std::int64_t k = 0; k < n.k; ++k)
+        for (std::int64_t j = 0; j < n.j; ++j)
+            for (std::int64_t i = 0; i < n.i; ++i)
+                if (mask.values[mask.grid.offset(i, j, k)]) box.extend(mask.grid.center_mm(i, j, k));
+    return box;
+}
+
 double sample(const Image& image, std::size_t offset) {
     return std::visit([&](const auto& samples) { return static_cast<double>(samples[offset]); }, image.samples);
 }

@@ -16,6 +16,9 @@ struct Mask {
     std::vector<std::uint8_t> values;
 };
 
+/// The box of the centres of the voxels inside, in mm; empty when there are none.
+Box3 bounding_box(const Mask& mask);
+
 /// A scalar image (CT, MR, label map) in the narrowest of these sample types that holds its values exactly; intensities
 /// are already rescaled (Hounsfield units for CT). 64-bit and double sources become float.
 struct Image {

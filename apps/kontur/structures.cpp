@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "kontur/base/error.h"
+#include "kontur/io/image.h"
+#include "kontur/io/nrrd.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+DicomSegment to_dicom(const NrrdSegment& segment) {
+    return {.number = segment.label_value, .label = segment.name, .color = to_rgb8(segment.color)};
+}
+
+std::vector<NrrdSegment> nrrd_segments(const fs::path& path) {
+    return has_extension(path, ".nrrd") ? read_nrrd_segments(path) : std::vector<NrrdSegment>{};
+}
+
+bool has_layers(const std::vector<NrrdSegment>& segments) {
+    return std::any_of(segments.begin(), segments.end(), [](const NrrdSegment& s) { return s.layer != 0; });
+}
+
+/// Segments of several layers, each of which is a label map.
+Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& segments, const Progress& progress) {
+    std::map<std::int64_t, Image> layers;
+    Structures found;
+    for (const NrrdSegment& segment : segments) {
+        if (!layers.contains(segment.layer)) {
+            ReadImageOptions options = input.options;
+            options.frame = segment.layer;
+            layers.emplace(segment.layer, read_image(input.path, options, progress));
+        }
+        found.segments.push_back(to_dicom(segment));
+        found.masks.push_back(select_label(layers.at(segment.layer), static_cast<double>(segment.label_value)));
+    }
+    return found;
+}
+
+/// A segment without voxels cannot be written, and says nothing.
+Structures without_empty(Structures found, const ImageInput& input) {
+    Structures kept;
+    for (std::size_t s = 0; s < found.masks.size(); ++s) {
+        const std::vector<std::uint8_t>& values = found.masks[s].values;
+        if (std::find(values.begin(), values.end(), 1) == values.end()) {
+            input.options.on_note(fmt::format("the segment '{}' has no voxels and is left out", found.segments[s].label));
+            continue;
+        }
+        kept.segments.push_back(std::move(found.segments[s]));
+        kept.masks.push_back(std::move(found.masks[s]));
+    }
+    return kept;
+}
+
+/// "liver" for folder/liver.nii.gz.
+std::string stem(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.substr(0, name.find('.', 1));
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& color) {
+    std::array<std::uint8_t, 3> result{};
+    std::transform(color.begin(), color.end(), result.begin(),
+                   [](double level) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(level, 0.0, 1.0))); });
+    return result;
+}
+
+Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Progress& progress) {
+    if (label && is_dicom_seg(input.path)) {
+        DicomSeg found = read_dicom_seg(input.path, label, input.options.max_voxels, progress);
+        for (const std::string& note : found.notes) input.options.on_note(note);
+        return std::move(found.labels);
+    }
+    Image image = read_image(input.path, input.options, progress);
+    if (!label) return image;
+    if (!count_labels(image).contains(*label))
+        throw Error(ErrorKind::invalid_input, fmt::format("{} has no label {}", input.path.string(), *label));
+    const auto keep = [label](auto& values) {
+        for (auto& value : values)
+            if (static_cast<std::int64_t>(value) != *label) value = 0;
+    };
+    std::visit(keep, image.samples);
+    return image;
+}
+
+std::vector<DicomSegment> named_segments(const ImageInput& source) {
+    if (is_dicom_seg(source.path)) return read_dicom_segmentation(source.path).segments;
+    std::vector<DicomSegment> segments;
+    for (const NrrdSegment& segment : nrrd_segments(source.path))
+        if (segment.layer == source.options.frame.value_or(0)) segments.push_back(to_dicom(segment));
+    return segments;
+}
+
+std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& source) {
+    const std::vector<DicomSegment> named = named_segments(source);
+    std::vector<DicomSegment> segments;
+    for (const auto& [label, voxels] : count_labels(image)) {
+        const auto known = std::find_if(named.begin(), named.end(), [&, l = label](const auto& s) { return s.number == l; });
+        if (known != named.end()) segments.push_back(*known);
+        else segments.push_back({.number = label, .label = fmt::format("label {}", label), .color = kStructureColor});
+    }
+    return segments;
+}
+
+bool may_overlap(const ImageInput& input) {
+    if (!is_dicom_seg(input.path)) return !input.options.frame && has_layers(nrrd_segments(input.path));
+    const auto segments = read_dicom_segmentation(input.path).segments;
+    return std::any_of(segments.begin(), segments.end(), [](const DicomSegment& s) { return s.shared_voxels > 0; });
+}
+
+Structures read_structures(const ImageInput& input, const Progress& progress) {
+    if (is_dicom_seg(input.path)) {
+        const DicomSegmentation about = read_dicom_segmentation(input.path, input.options.max_voxels);
+        for (const std::string& note : about.notes) input.options.on_note(note);
+        return without_empty({about.segments, read_dicom_seg_masks(input.path, input.options.max_voxels, progress)}, input);
+    }
+    if (may_overlap(input)) return without_empty(read_layers(input, nrrd_segments(input.path), progress), input);
+    const Image image = read_image(input.path, input.options, progress);
+    const std::vector<DicomSegment> named = named_segments(input);
+    Structures found{segments_of(image, input), {}};
+    for (DicomSegment& segment : found.segments) {
+        found.masks.push_back(select_label(image, static_cast<double>(segment.number)));
+        if (named.empty())
+            segment.label =
+                found.segments.size() == 1 ? stem(input.path) : fmt::format("{} label {}", stem(input.path), segment.number);
+    }
+    return found;
+}
+
+}  // namespace kontur::app

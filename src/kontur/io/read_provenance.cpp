@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/read_provenance.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kontur/base/printable.h"
+#include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_series.h"
+#include "kontur/io/input_file.h"
+#include "kontur/io/json_file.h"
+#include "kontur/io/nifti_header.h"
+#include "kontur/io/nrrd_header.h"
+#include "kontur/io/text_header.h"
+
+namespace kontur {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostHeaderBytes = std::size_t{1} << 16;  ///< of text; what kontur writes is far shorter
+constexpr std::string_view kShortened = "shortened";
+
+bool is_word(std::string_view name) {
+    const auto belongs = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    return !name.empty() && std::all_of(name.begin(), name.end(), belongs);
+}
+
+/// "NAME: VALUE" as an entry; nullopt for any other text.
+std::optional<std::pair<std::string, std::string>> entry_of(std::string_view text) {
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string_view::npos || !is_word(text.substr(0, colon))) return std::nullopt;
+    return std::pair{std::string(text.substr(0, colon)), std::string(text.substr(colon + 2))};
+}
+
+std::vector<std::string_view> split(std::string_view text, std::string_view separator) {
+    std::vector<std::string_view> parts;
+    while (!text.empty()) {
+        const std::size_t end = text.find(separator);
+        parts.push_back(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + separator.size());
+    }
+    return parts;
+}
+
+/// The lines that begin so and go on "NAME: VALUE".
+Provenance from_lines(std::string_view text, std::string_view begin) {
+    Provenance found;
+    for (const std::string_view line : split(text, "\n"))
+        if (line.starts_with(begin))
+            if (auto entry = entry_of(line.substr(begin.size()))) found.push_back(std::move(*entry));
+    return found;
+}
+
+Provenance from_shortened(std::string_view text) {
+    if (text.empty()) return {};
+    return {{std::string(kShortened), std::string(text)}};
+}
+
+std::string head_of(const fs::path& path, std::size_t most_bytes) {
+    InputFile file(path);
+    std::string text(most_bytes, '\0');
+    text.resize(file.read_some(text.data(), text.size()));
+    return text;
+}
+
+Provenance from_json(const fs::path& path) {
+    const nlohmann::json document = read_json_file(path);
+    Provenance found;
+    if (!document.is_object()) return found;
+    for (const char* key : {"provenance", "kontur"})
+        if (const auto made = document.find(key); made != document.end() && made->is_object())
+            for (const auto& [name, value] : made->items())
+                if (value.is_string()) found.emplace_back(name, value.get<std::string>());
+    return found;
+}
+
+Provenance from_stl(const fs::path& path) {
+    constexpr std::size_t kTitleBytes = 80;
+    constexpr std::string_view kBegin = "kontur ", kUnit = "UNIT=mm ";
+    const std::string head = head_of(path, kTitleBytes);
+    const std::string_view title = std::string_view(head).substr(0, head.find('\0'));
+    const std::size_t unit = title.find(kUnit);
+    if (!title.starts_with(kBegin) || unit == std::string_view::npos) return {};
+    return from_shortened(title.substr(unit + kUnit.size()));
+}
+
+Provenance from_metaimage(const fs::path& path) {
+    constexpr std::string_view kBegin = "kontur ";
+    InputFile file(path);
+    while (const auto line = file.read_line(kMostHeaderBytes)) {
+        const std::size_t equals = line->find('=');
+        const std::string_view key = trimmed(std::string_view(*line).substr(0, equals));
+        if (equals == std::string::npos || key == "ElementDataFile") break;
+        const std::string_view value = trimmed(std::string_view(*line).substr(equals + 1));
+        if (key == "Comment" && value.starts_with(kBegin)) return from_shortened(value.substr(kBegin.size()));
+    }
+    return {};
+}
+
+Provenance from_nrrd(const fs::path& path) {
+    constexpr std::string_view kBegin = "kontur_";
+    InputFile file(path);
+    Provenance found;
+    for (const auto& [name, value] : read_nrrd_header(file).keys)
+        if (name.starts_with(kBegin)) found.emplace_back(name.substr(kBegin.size()), value);
+    return found;
+}
+
+std::uint32_t number_at(std::span<const unsigned char, 4> bytes, bool big_endian) {
+    std::uint32_t number = 0;
+    for (std::size_t n = 0; n < 4; ++n) number = number << 8 | bytes[big_endian ? n : 3 - n];
+    return number;
+}
+
+/// Walks through the extensions between header and voxels.
+Provenance from_nifti(const fs::path& path) {
+    constexpr std::uint32_t kCommentCode = 6;
+    constexpr std::string_view kBegin = "kontur\n";
+    InputFile file(path);
+    if (file.at_gzip()) file.inflate();
+    std::array<unsigned char, 544> header{};
+    file.read(header.data(), 4);
+    const NiftiKind kind = nifti_kind(std::span(header).first<4>());
+    if (kind.version == 0) return {};
+    const std::size_t header_bytes = nifti_header_bytes(kind.version) + 4;  // the last 4 tell of extensions
+    if (file.read_some(header.data() + 4, header_bytes - 4) < header_bytes - 4 || header[header_bytes - 4] == 0) return {};
+    const double left = parse_nifti_header(header, kind).vox_offset - static_cast<double>(header_bytes);
+    if (!(left > 0)) return {};
+    auto bytes_left = static_cast<std::size_t>(std::min(left, static_cast<double>(kMostHeaderBytes)));
+    std::array<unsigned char, 8> start{};
+    while (bytes_left >= start.size() && file.read_some(start.data(), start.size()) == start.size()) {
+        const std::size_t size = number_at(std::span(start).first<4>(), kind.big_endian);
+        if (size < start.size() || size > bytes_left) return {};
+        std::string text(size - start.size(), '\0');
+        if (file.read_some(text.data(), text.size()) < text.size()) return {};
+        if (number_at(std::span(start).last<4>(), kind.big_endian) == kCommentCode && text.starts_with(kBegin))
+            return from_lines(std::string_view(text).substr(0, text.find('\0')), "");
+        bytes_left -= size;
+    }
+    return {};
+}
+
+/// kontur's contribution, "NAME: VALUE; NAME: VALUE". What names nothing belongs to the value before it.
+Provenance from_dicom(const fs::path& path) {
+    dcmtk::set_up();
+    DcmFileFormat file;
+    dcmtk::load(file, path, DCM_PixelData);
+    Provenance found;
+    for (DcmItem* equipment : dcmtk::items(*file.getDataset(), DCM_ContributingEquipmentSequence)) {
+        if (dcmtk::text(*equipment, DCM_Manufacturer) != "kontur") continue;
+        for (const std::string_view part : split(dcmtk::text(*equipment, DCM_ContributionDescription), "; ")) {
+            if (auto entry = entry_of(part)) found.push_back(std::move(*entry));
+            else if (!found.empty()) found.back().second += "; " + std::string(part);
+        }
+    }
+    return found;
+}
+
+Provenance as_written(const fs::path& path) {
+    const std::string name = lower_case(path.filename().string());
+    const auto has = [&](std::string_view extension) { return name.ends_with(extension); };
+    if (fs::is_directory(path)) return {};
+    if (has(".json")) return from_json(path);
+    if (has(".ply")) return from_lines(head_of(path, kMostHeaderBytes), "comment kontur ");
+    if (has(".obj")) return from_lines(head_of(path, kMostHeaderBytes), "# kontur ");
+    if (has(".stl")) return from_stl(path);
+    if (has(".mha") || has(".mhd")) return from_metaimage(path);
+    if (has(".nrrd") || has(".nhdr")) return from_nrrd(path);
+    if (looks_like_dicom(path)) return from_dicom(path);
+    if (has(".nii") || has(".nii.gz")) return from_nifti(path);
+    return {};
+}
+
+}  // namespace
+
+Provenance read_provenance(const fs::path& path) {
+    Provenance provenance = as_written(path);
+    std::erase_if(provenance, [](const auto& entry) { return !is_word(entry.first); });
+    for (auto& [name, value] : provenance) value = printable_utf8(value);
+    return provenance;
+}
+
+}  // namespace kontur

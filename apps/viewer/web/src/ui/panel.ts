@@ -43,7 +43,7 @@ export class Panel {
       el("div", { class: "panel-title" }, el("span", {}, "Surface")),
       this.quality,
     );
-    project.on(["structures", "contours", "selection", "surfaces"], () => this.update());
+    project.on(["structures", "contours", "selection", "surfaces", "stages"], () => this.update());
   }
 
   private update(): void {
@@ -166,6 +166,7 @@ export class Panel {
     this.quality.replaceChildren(...this.qualityEntries(surface));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
+    this.element.dataset["structure"] = String(structure?.id ?? 0);
   }
 
   private qualityEntries(surface: Surface | undefined): HTMLElement[] {

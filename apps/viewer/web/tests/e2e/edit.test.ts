@@ -221,12 +221,9 @@ describe("files", () => {
     await viewer.page.click("[data-test=import-mask]");
     await viewer.page.waitForFunction(() => document.querySelectorAll(".structure").length === 2);
     await viewer.page.waitForFunction(() => document.querySelectorAll(".contour-row").length > 15);
+    await viewer.page.waitForSelector(".panel:not([data-structure='1'])");
     await viewer.surfaceShown();
-    // The figure shown first may still be the preview's.
-    await viewer.page.waitForFunction((want) => {
-      const shown = Number.parseFloat(document.querySelector(".figure strong")!.textContent!);
-      return Math.abs(shown - want) < 0.03 * want;
-    }, drawn);
+    near(await viewer.volume(), drawn, 0.03 * drawn, "volume");
     await viewer.page.keyboard.press("Control+z");
     await viewer.waitForContours(2);
   });

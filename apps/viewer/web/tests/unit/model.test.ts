@@ -148,7 +148,13 @@ test("a preview keeps the figures of the last refined surface; no surface has no
   const project = new Project();
   project.start(session());
   project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 9, volume_ml: 12 });
+  const heard: string[] = [];
+  for (const topic of ["surfaces", "stages"] as const) project.on([topic], () => heard.push(topic));
+  project.setSurface({ structure: 1, revision: 1, stage: "outdated", triangles: 9 });
+  assert.equal(project.surfaces.get(1)!.volume_ml, 12);
+  assert.deepEqual(heard, ["stages"], "it is the same surface: no slice is asked for");
   project.setSurface({ structure: 1, revision: 2, stage: "preview", triangles: 5 });
+  assert.deepEqual(heard, ["stages", "surfaces"]);
   assert.equal(project.surfaces.get(1)!.volume_ml, 12);
   assert.equal(project.surfaces.get(1)!.stage, "preview");
   project.setSurface({ structure: 1, revision: 3, stage: "none", triangles: 0 });

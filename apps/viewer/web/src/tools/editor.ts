@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { heightOver } from "../geometry/plane";
-import { dot, scale, sub, type Vec3 } from "../geometry/vec";
+import { add, dot, scale, sub, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
@@ -491,7 +491,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     const contour = this.project.selectedContour;
     if (!contour) return this.services.tell("Select a contour first: click its line, or its row in the list.");
     try {
-      const offset_mm = steps * this.navigation.step(view);
+      const onward = Math.sign(dot(contour.plane.normal, this.navigation.direction(view))) || 1;
+      const offset_mm = steps * onward * this.navigation.step(view);
       const copy = await this.services.call<{ contour: Contour }>("contour.copy", { id: contour.id, offset_mm });
       this.project.select({ contour: copy.contour.id, point: null });
       this.navigation.setCrosshair(sub(this.navigation.crosshair, scale(contour.plane.normal, heightOver(copy.contour.plane, this.navigation.crosshair))));
@@ -529,16 +530,17 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     };
   }
 
-  /** Moves the crosshair along the other plane's normal only, as far as that shows in this view. */
+  /** Moves the crosshair across the other plane's line, and not off the slice that is seen. */
   private slideGesture(screen: Screen, slid: ViewName, pointer: Point2): Gesture {
     const { normal } = this.navigation.cameras[slid].axes;
+    const { u, v } = screen.axes;
+    const across = add(scale(u, dot(normal, u)), scale(v, dot(normal, v)));
     let last = pointer;
     return {
       move: (at) => {
         const by = sub(toWorld(screen, at), toWorld(screen, last));
         last = at;
-        const depth = this.navigation.depth(slid).at;
-        this.navigation.scrollTo(slid, depth + dot(by, normal));
+        this.navigation.setCrosshair(add(this.navigation.crosshair, scale(across, dot(by, normal) / dot(across, across))));
       },
       end: (at) => {
         if (gap(at, pointer) <= 2) this.navigation.setCrosshair(toWorld(screen, at)); // a click, not a drag

@@ -151,8 +151,8 @@ export class Panel {
     structure.append(...[...project.structures.values()].map((entry) => el("option", { value: String(entry.id), selected: entry.id === contour.structure }, entry.name)));
     structure.onchange = () => call("contour.set", { id: contour.id, structure: Number(structure.value) });
     this.actions.replaceChildren(
-      button({ icon: ICONS.copyUp, label: "Next slice", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", onclick: () => copySelected(1) }),
-      button({ icon: ICONS.copyDown, label: "Previous", title: "Copy to the previous slice (Shift+C)", class: "tool", onclick: () => copySelected(-1) }),
+      button({ icon: ICONS.copyDown, label: "Next slice", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", onclick: () => copySelected(1) }),
+      button({ icon: ICONS.copyUp, label: "Previous", title: "Copy to the previous slice (Shift+C)", class: "tool", onclick: () => copySelected(-1) }),
       button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", onclick: () => editor.deleteSelected() }),
       el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       structure,

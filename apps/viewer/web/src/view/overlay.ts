@@ -7,7 +7,7 @@ import type { Contour, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
 import { PLANE_COLORS, tinted, withAlpha } from "./palette";
 
-const SHADE = "rgba(8, 10, 13, 0.75)";
+const SHADE = "rgba(8, 10, 13, 0.8)";
 const INK = "#e8edf2";
 
 /** Draws vectors over a slice, in CSS pixels of `screen`. */
@@ -140,7 +140,7 @@ export class OverlayPainter {
     ctx.textAlign = align;
     ctx.textBaseline = baseline;
     ctx.lineJoin = "round";
-    ctx.lineWidth = 3;
+    ctx.lineWidth = 4;
     ctx.strokeStyle = SHADE;
     ctx.strokeText(text, x, y);
     ctx.fillStyle = INK;

@@ -19,19 +19,22 @@ test("the whole image fits into a view of any shape", () => {
 test("scrolling moves by whole slices and stops at the image's ends", () => {
   const navigation = started();
   navigation.scroll("axial", 3);
-  near(navigation.crosshair, [0, 0, 6]);
+  near(navigation.crosshair, [0, 0, -6]);
   navigation.scroll("axial", 1000);
-  near(navigation.crosshair, [0, 0, 50]);
+  near(navigation.crosshair, [0, 0, -50]);
   assert.deepEqual(navigation.slice("axial"), { number: 51, count: 51 });
   navigation.scroll("axial", -1000);
   assert.deepEqual(navigation.slice("axial"), { number: 1, count: 51 });
+  near(navigation.crosshair, [0, 0, 50]);
+  navigation.scroll("coronal", 1);
+  near(navigation.crosshair, [0, 2, 50]); // away from the viewer, who stands in front
 });
 
 test("scrolling from between two slices arrives on a slice", () => {
   const navigation = started();
-  navigation.setCrosshair([0, 0, 0.9]);
+  navigation.setCrosshair([0, 0, -0.9]);
   navigation.scroll("axial", 1);
-  near(navigation.crosshair, [0, 0, 2]);
+  near(navigation.crosshair, [0, 0, -2]);
 });
 
 test("scrolling an oblique view leaves the crosshair's place within it", () => {
@@ -39,7 +42,7 @@ test("scrolling an oblique view leaves the crosshair's place within it", () => {
   const { u, v } = navigation.cameras.oblique.axes;
   navigation.scroll("oblique", 5);
   near([dot(navigation.crosshair, u), dot(navigation.crosshair, v)], [0, 0]);
-  near([dot(navigation.crosshair, navigation.cameras.oblique.axes.normal)], [10]);
+  near([dot(navigation.crosshair, navigation.direction("oblique"))], [10]);
 });
 
 test("the crosshair cannot leave the image", () => {

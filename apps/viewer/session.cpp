@@ -207,17 +207,19 @@ json Session::surface_event(const Surface& surface) const {
                {"stage", std::string(name(surface.stage))},
                {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
                {"warnings", surface.warnings}};
+    if (surface.stage == SurfaceStage::refined || surface.stage == SurfaceStage::none) {
+        event["conflicts"] = json::array();
+        for (const Conflict& conflict : surface.conflicts)
+            event["conflicts"].push_back({{"at", to_json(conflict.at)},
+                                          {"distance_mm", conflict.disagreement_mm},
+                                          {"contours", {conflict.contour, conflict.other}}});
+    }
     if (surface.stage != SurfaceStage::refined) return event;
     event["volume_ml"] = surface.volume_ml;
     event["residual"] = {{"max_mm", surface.residual.max_mm},
                          {"rms_mm", surface.residual.rms_mm},
                          {"contour", surface.worst_contour},
                          {"at", to_json(surface.worst_at)}};
-    event["conflicts"] = json::array();
-    for (const Conflict& conflict : surface.conflicts)
-        event["conflicts"].push_back({{"at", to_json(conflict.at)},
-                                      {"distance_mm", conflict.disagreement_mm},
-                                      {"contours", {conflict.contour, conflict.other}}});
     return event;
 }
 

@@ -40,7 +40,12 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     Surface surface;
     surface.structure = task.structure;
     if (update.kind == EditorUpdate::Kind::problem && !task.set.contours.empty()) surface.warnings.push_back(update.problem);
-    if (update.surface.mesh.triangles.empty()) return surface;
+    if (update.surface.mesh.triangles.empty()) {
+        if (!update.surface.refined || task.set.contours.empty()) return surface;
+        surface.warnings.push_back("These contours give no surface: where they contradict each other, none is followed.");
+        surface.conflicts = conflicts(task);
+        return surface;
+    }
     surface.stage = update.surface.refined ? SurfaceStage::refined : SurfaceStage::preview;
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
     if (!update.surface.refined) return surface;

@@ -38,12 +38,12 @@ struct Surface {
     SurfaceStage stage = SurfaceStage::none;
     std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
     std::vector<std::string> warnings;
+    std::vector<Conflict> conflicts;  ///< the largest first; known when refined, and when there is no surface
     // Known when refined:
     double volume_ml = 0;
     Residual residual;
     Id worst_contour = 0;  ///< where the residual is largest
     Vec3 worst_at;
-    std::vector<Conflict> conflicts;  ///< the largest first
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.

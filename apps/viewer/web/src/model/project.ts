@@ -39,7 +39,11 @@ export class Project extends Emitter<Topic> {
       this.structures.delete(id);
       this.surfaces.delete(id);
     }
-    for (const contour of contours?.set ?? []) this.contours.set(contour.id, contour);
+    for (const contour of contours?.set ?? []) {
+      const goesOver = this.contours.has(contour.id) && this.contours.get(contour.id)!.structure !== contour.structure;
+      if (goesOver && contour.id === this.selection?.contour) this.active = contour.structure;
+      this.contours.set(contour.id, contour);
+    }
     for (const id of contours?.removed ?? []) this.contours.delete(id);
     this.history = history;
     this.draftContour = null;

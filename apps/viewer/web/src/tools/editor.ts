@@ -53,7 +53,6 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   pointerCloses = false;
   hover: Hover = null;
   linesShown = true;
-  private hidden = new Set<ViewName>();
   /** The sketch that was left last, and by what: undo or redo brings it back, until something else is done. */
   private leftSketch: { sketch: Sketch; by: "leaving" | "undo" } | null = null;
 
@@ -91,19 +90,10 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     this.emit("hover");
   }
 
-  isPlaneHidden(view: ViewName): boolean {
-    return this.hidden.has(view);
-  }
-
-  togglePlane(view: ViewName): void {
-    if (!this.hidden.delete(view)) this.hidden.add(view);
-    this.emit("hover");
-  }
-
   /** The other views' planes as lines on this one. */
   lines(view: ViewName, screen: Screen): PlaneLine[] {
     if (!this.linesShown) return [];
-    return VIEW_NAMES.filter((other) => other !== view && !this.hidden.has(other))
+    return VIEW_NAMES.filter((other) => other !== view)
       .map((other) => planeLine(screen, this.navigation.crosshair, other, this.navigation.cameras[other].axes))
       .filter((line): line is PlaneLine => line !== null);
   }

@@ -163,3 +163,14 @@ test("a preview keeps the figures of the last refined surface; no surface has no
   project.setSurface({ structure: 1, revision: 3, stage: "none", triangles: 0 });
   assert.equal(project.surfaces.get(1)!.volume_ml, undefined);
 });
+
+test("the active structure is that of the selected contour, wherever it goes", () => {
+  const project = new Project();
+  project.start(session({ structures: [1, 2].map((id) => ({ id, name: `S${id}`, color: "#e8b04a", visible: true })), contours: [square(5)] }));
+  project.select({ contour: 5, point: null });
+  project.apply({ event: "changed", contours: { set: [square(5, { structure: 2 })] }, history });
+  assert.equal(project.activeStructure?.id, 2);
+  project.activate(1);
+  project.apply({ event: "changed", contours: { set: [square(5, { structure: 2, hole: true })] }, history });
+  assert.equal(project.activeStructure?.id, 1, "chosen by the user meanwhile");
+});

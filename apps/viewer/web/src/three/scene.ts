@@ -19,6 +19,7 @@ interface Shown {
   mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
   fine: THREE.BufferGeometry;
   coarse: THREE.BufferGeometry | null;
+  style: string;
 }
 
 const LETTER_PIXELS = 26;
@@ -109,7 +110,7 @@ export class Scene {
       polygonOffsetUnits: 8,
     });
     const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
-    const shown = { mesh, fine: mesh.geometry, coarse: null };
+    const shown = { mesh, fine: mesh.geometry, coarse: null, style: "" };
     this.surfaces.set(structure, shown);
     this.scene.add(mesh);
     return shown;
@@ -127,8 +128,11 @@ export class Scene {
   }
 
   style(structure: number, color: string, visible: boolean, opacity: number): void {
-    const mesh = this.surfaces.get(structure)?.mesh;
-    if (!mesh) return;
+    const shown = this.surfaces.get(structure);
+    const wanted = `${color} ${visible} ${opacity}`;
+    if (!shown || shown.style === wanted) return;
+    shown.style = wanted;
+    const { mesh } = shown;
     mesh.material.color.set(color);
     mesh.material.transparent = opacity < 1;
     mesh.material.opacity = opacity;
@@ -166,6 +170,7 @@ export class Scene {
   }
 
   setMarks(places: readonly Vec3[]): void {
+    if (places.length === 0 && this.marks.children.length === 0) return;
     this.clear(this.marks);
     for (const place of places) {
       const ball = new THREE.Mesh(new THREE.SphereGeometry(this.extent_mm / 90, 16, 12), this.markMaterial());

@@ -123,7 +123,7 @@ void fill(viewer::Session& session, const OpenCommand& command, const Words& wor
         set = std::move(read.contours);
         if (set.name.empty()) set.name = bare_name(words.contours);
     }
-    session.add_structures(words.contours.empty() ? "New structure" : "Import contours", {set});
+    session.begin_with(set);
 }
 
 /// Best effort, and only where there is a screen: without one xdg-open starts a browser in the terminal.

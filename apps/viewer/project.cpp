@@ -146,6 +146,13 @@ void Project::save_image(const ImageReference& image) {
 std::string Project::page_state() { return setting("page"); }
 void Project::save_page_state(std::string_view text) { save_setting("page", text); }
 
+void Project::begin_with(const Commit& commit) {
+    Transaction transaction(database_);
+    store(commit, position_);
+    transaction.commit();
+    apply(commit);
+}
+
 void Project::commit(const Commit& commit) {
     const json changes{{"structures", to_json(commit.structures)}, {"contours", to_json(commit.contours)}};
     Transaction transaction(database_);

@@ -52,6 +52,8 @@ public:
     /// An id for the next structure or contour.
     Id new_id() { return next_id_++; }
 
+    /// What a new project begins with, before its first step: nobody can undo it.
+    void begin_with(const Commit& commit);
     /// Stores the step, drops what was undone before, and makes `after` present. Nothing changes when it throws.
     void commit(const Commit& commit);
     /// Goes back or forward one step and returns what that changed, `before` and `after` in the direction of the move;

@@ -207,17 +207,19 @@ json Session::surface_event(const Surface& surface) const {
                {"stage", std::string(name(surface.stage))},
                {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
                {"warnings", surface.warnings}};
+    if (surface.stage == SurfaceStage::refined || surface.stage == SurfaceStage::none) {
+        event["conflicts"] = json::array();
+        for (const Conflict& conflict : surface.conflicts)
+            event["conflicts"].push_back({{"at", to_json(conflict.at)},
+                                          {"distance_mm", conflict.disagreement_mm},
+                                          {"contours", {conflict.contour, conflict.other}}});
+    }
     if (surface.stage != SurfaceStage::refined) return event;
     event["volume_ml"] = surface.volume_ml;
     event["residual"] = {{"max_mm", surface.residual.max_mm},
                          {"rms_mm", surface.residual.rms_mm},
                          {"contour", surface.worst_contour},
                          {"at", to_json(surface.worst_at)}};
-    event["conflicts"] = json::array();
-    for (const Conflict& conflict : surface.conflicts)
-        event["conflicts"].push_back({{"at", to_json(conflict.at)},
-                                      {"distance_mm", conflict.disagreement_mm},
-                                      {"contours", {conflict.contour, conflict.other}}});
     return event;
 }
 
@@ -446,17 +448,14 @@ json Session::save_page(const Members& m) {
 
 json Session::ping(const Members&) { return json::object(); }
 
-std::vector<Id> Session::add_structures(const std::string& label, const std::vector<ContourSet>& sets) {
-    const std::scoped_lock lock(mutex_);
+Commit Session::new_structures(const std::string& label, const std::vector<ContourSet>& sets) {
     Commit added{label, {}, {}};
-    std::vector<Id> ids;
     State state = project_.state();
     for (const ContourSet& set : sets) {
         Structure structure{project_.new_id(), set.name.substr(0, kLongestName), next_color(state), true};
         if (structure.name.empty()) structure.name = free_name(state);
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});
-        ids.push_back(structure.id);
         for (const Contour& contour : set.contours) {
             DrawnContour drawn = as_drawn(contour);
             drawn.id = project_.new_id();
@@ -464,11 +463,28 @@ std::vector<Id> Session::add_structures(const std::string& label, const std::vec
             added.contours.push_back({drawn.id, {}, std::move(drawn)});
         }
     }
+    return added;
+}
+
+std::vector<Id> Session::add_structures(const std::string& label, const std::vector<ContourSet>& sets) {
+    const std::scoped_lock lock(mutex_);
+    const Commit added = new_structures(label, sets);
     clear_draft();
     project_.commit(added);
     tell_changes(added);
-    for (const Id id : ids) surfaces_.follow_later(surface_task(id));
+    std::vector<Id> ids;
+    for (const Change<Structure>& change : added.structures) {
+        ids.push_back(change.id);
+        surfaces_.follow_later(surface_task(change.id));
+    }
     return ids;
+}
+
+void Session::begin_with(const ContourSet& set) {
+    const std::scoped_lock lock(mutex_);
+    const Commit first = new_structures({}, {set});
+    project_.begin_with(first);
+    for (const Change<Structure>& change : first.structures) surfaces_.follow_later(surface_task(change.id));
 }
 
 void Session::commit(const Commit& commit) {
@@ -481,6 +497,7 @@ void Session::commit(const Commit& commit) {
         for (const Id id : touched) follow(id);
         throw;
     }
+    surfaces_.outdate(touched);
     if (!commit.is_empty()) tell_changes(commit);
     for (const Id id : touched) follow(id);
 }
@@ -512,8 +529,10 @@ void Session::tell_changes(const Commit& commit) {
 }
 
 void Session::announce(const Commit& commit) {
+    const std::set<Id> touched = touched_surfaces(commit);
+    surfaces_.outdate(touched);
     tell_changes(commit);
-    for (const Id id : touched_surfaces(commit)) follow(id);
+    for (const Id id : touched) follow(id);
 }
 
 std::set<Id> Session::touched_surfaces(const Commit& commit) {

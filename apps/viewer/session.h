@@ -64,6 +64,8 @@ public:
 
     /// One structure for each set, as one step of the history.
     std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets);
+    /// A new project's first structure, before its history.
+    void begin_with(const ContourSet& set);
 
     /// Whether the project was made by this session.
     bool is_new() const { return project_.is_new(); }
@@ -107,6 +109,7 @@ private:
     /// Stores a new or changed contour, or only shows it when the call is a draft.
     nlohmann::json put(const std::string& label, DrawnContour contour, const Members& m);
     nlohmann::json moved(const std::optional<Commit>& step);
+    Commit new_structures(const std::string& label, const std::vector<ContourSet>& sets);
     void commit(const Commit& commit);
     /// The same for a step that makes or changes one contour: its surface is computed while the disk is written.
     void commit_ahead(const Commit& step);

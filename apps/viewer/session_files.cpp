@@ -75,7 +75,15 @@ void write_picture(const fs::path& path, const ContourSet& set, const Image& ima
     PictureOptions options;
     options.facts = {{"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
                      {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
-    write_png(path, make_picture(*made.mesh, set, &image, options));
+    write_png(path, make_picture(*made.mesh, set, &image, options), provenance(set, image.grid, made.report));
+}
+
+/// Drawn by hand: what they were made of is the image alone.
+Provenance provenance_of_drawing(const ContourSet& set, const ImageReference& image) {
+    return {{"made_by", "kontur open"},
+            {"image_fingerprint", image.fingerprint},
+            {"contours_sha256", contours_sha256(set)},
+            {"version", KONTUR_VERSION}};
 }
 
 }  // namespace
@@ -91,7 +99,7 @@ public:
     /// News by the tenth: more would only cost the page time.
     Progress progress(const std::stop_token& stop) const {
         const auto tell = [this, last = std::make_shared<std::pair<std::string_view, int>>()](std::string_view stage,
-                                                                                             double done) {
+                                                                                              double done) {
             const std::pair<std::string_view, int> now{stage, static_cast<int>(10 * done)};
             if (*last == now) return;
             *last = now;
@@ -116,12 +124,15 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         download.file_name = file_name(project_.path().stem().string(), name);
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
-        const State now = state();
+        const auto [now, image] = [&] {
+            const std::scoped_lock lock(mutex_);
+            return std::pair(project_.state(), project_.image());
+        }();
         const Structure& chosen = structure_of(now, *structure);
         const ContourSet set = contour_set(now, *structure);
         if (is_one_of(name, kMasks)) write_mask_file(path, set, chosen, image_->grid, line.progress(stop));
         else if (is_one_of(name, kMeshes)) write_mesh_file(path, set, image_->grid, line.progress(stop));
-        else if (is_one_of(name, kContours)) write_contours(path, set);
+        else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
         else if (name == "picture.png") write_picture(path, set, *image_, line.progress(stop));
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
         download.file_name = file_name(chosen.name, name);

@@ -40,7 +40,12 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     Surface surface;
     surface.structure = task.structure;
     if (update.kind == EditorUpdate::Kind::problem && !task.set.contours.empty()) surface.warnings.push_back(update.problem);
-    if (update.surface.mesh.triangles.empty()) return surface;
+    if (update.surface.mesh.triangles.empty()) {
+        if (!update.surface.refined || task.set.contours.empty()) return surface;
+        surface.warnings.push_back("These contours give no surface: where they contradict each other, none is followed.");
+        surface.conflicts = conflicts(task);
+        return surface;
+    }
     surface.stage = update.surface.refined ? SurfaceStage::refined : SurfaceStage::preview;
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
     if (!update.surface.refined) return surface;
@@ -56,6 +61,8 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
 
 std::string_view name(SurfaceStage stage) noexcept {
     switch (stage) {
+        case SurfaceStage::outdated:
+            return "outdated";
         case SurfaceStage::preview:
             return "preview";
         case SurfaceStage::refined:
@@ -64,6 +71,21 @@ std::string_view name(SurfaceStage stage) noexcept {
             break;
     }
     return "none";
+}
+
+void Surfaces::outdate(const std::set<Id>& structures) {
+    const std::scoped_lock lock(mutex_);
+    for (const Id structure : structures) outdate_locked(structure);
+}
+
+void Surfaces::outdate_locked(Id structure) {
+    if (const auto follower = followers_.find(structure); follower != followers_.end()) follower->second.is_outdated = true;
+    const auto shown = latest_.find(structure);
+    if (shown == latest_.end() || shown->second->stage != SurfaceStage::refined) return;
+    Surface outdated = *shown->second;
+    outdated.stage = SurfaceStage::outdated;
+    shown->second = std::make_shared<const Surface>(std::move(outdated));
+    listener_.surface(shown->second);
 }
 
 void Surfaces::follow(SurfaceTask task) {
@@ -80,7 +102,8 @@ void Surfaces::follow_later(SurfaceTask task) {
 }
 
 void Surfaces::start_next() {
-    const bool is_busy = std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
+    const bool is_busy =
+        std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
     if (is_busy || later_.empty()) return;
     SurfaceTask task = std::move(later_.front());
     later_.pop_front();
@@ -89,7 +112,9 @@ void Surfaces::start_next() {
 
 void Surfaces::start(SurfaceTask task) {
     const Id structure = task.structure;
+    outdate_locked(structure);
     Follower& follower = followers_[structure];
+    follower.is_outdated = false;
     if (!follower.editor)
         follower.editor = std::make_unique<LiveEditor>(
             EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); });
@@ -119,21 +144,23 @@ std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
 void Surfaces::hear(Id structure, const EditorUpdate& update) {
     if (update.kind == EditorUpdate::Kind::progress) return show_progress(structure, update);
     SurfaceTask task;
-    bool is_done = false;
     {
         const std::scoped_lock lock(mutex_);
-        Follower& follower = followers_[structure];
-        follower.tasks.erase(follower.tasks.begin(), follower.tasks.lower_bound(update.edit));
-        task = follower.tasks.at(update.edit);
-        is_done = follower.tasks.size() == 1 && update.kind != EditorUpdate::Kind::preview;
-        if (is_done) follower.stage = {};
+        auto& tasks = followers_[structure].tasks;
+        tasks.erase(tasks.begin(), tasks.lower_bound(update.edit));
+        task = tasks.at(update.edit);
     }
-    publish(shown(task, update));
-    if (!is_done) return;
-    listener_.status("", std::nullopt);
+    Surface surface = shown(task, update);
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[structure];
-    if (follower.tasks.size() == 1) follower.is_working = false;  // there may be another edit by now
+    const bool is_newest = follower.tasks.size() == 1 && !follower.is_outdated;
+    // Of contours that have changed meanwhile it is only on the way to their surface.
+    if (!is_newest && surface.stage == SurfaceStage::refined) surface.stage = SurfaceStage::preview;
+    publish_locked(std::move(surface));
+    if (!is_newest || update.kind == EditorUpdate::Kind::preview) return;
+    follower.stage = {};
+    follower.is_working = false;
+    listener_.status("", std::nullopt);
     start_next();
 }
 
@@ -152,14 +179,12 @@ void Surfaces::show_progress(Id structure, const EditorUpdate& update) {
     listener_.status(text, tenths / 10.0);
 }
 
-void Surfaces::publish(Surface surface) {
-    std::shared_ptr<const Surface> published;
-    {
-        const std::scoped_lock lock(mutex_);
-        surface.revision = ++revision_;
-        published = latest_[surface.structure] = std::make_shared<const Surface>(std::move(surface));
-    }
-    listener_.surface(published);
+/// Under the lock, so that no change of contours comes between what is told of a surface and what it is.
+void Surfaces::publish_locked(Surface surface) {
+    surface.revision = ++revision_;
+    auto& latest = latest_[surface.structure];
+    latest = std::make_shared<const Surface>(std::move(surface));
+    listener_.surface(latest);
 }
 
 }  // namespace kontur::viewer

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,12 @@
 
 namespace kontur::viewer {
 
-enum class SurfaceStage { none, preview, refined };
+enum class SurfaceStage {
+    none,
+    outdated,  ///< the contours have changed since; the next one is on its way
+    preview,
+    refined,
+};
 std::string_view name(SurfaceStage stage) noexcept;
 
 /// Two contours that contradict each other at a place.
@@ -32,12 +38,12 @@ struct Surface {
     SurfaceStage stage = SurfaceStage::none;
     std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
     std::vector<std::string> warnings;
+    std::vector<Conflict> conflicts;  ///< the largest first; known when refined, and when there is no surface
     // Known when refined:
     double volume_ml = 0;
     Residual residual;
     Id worst_contour = 0;  ///< where the residual is largest
     Vec3 worst_at;
-    std::vector<Conflict> conflicts;  ///< the largest first
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -47,7 +53,7 @@ struct SurfaceTask {
     std::vector<Id> ids;
 };
 
-/// Called from the threads that compute.
+/// Called from the threads that compute, and from those that change contours. Must not call Surfaces.
 struct SurfaceListener {
     std::function<void(std::shared_ptr<const Surface>)> surface;
     /// What is being computed, and how much of it is done; an empty text when nothing is.
@@ -61,6 +67,9 @@ public:
     Surfaces(const Surfaces&) = delete;
     Surfaces& operator=(const Surfaces&) = delete;
 
+    /// The structures' contours change, and `follow` will say how: whoever is told of the change after this knows already
+    /// that the surfaces are those of before.
+    void outdate(const std::set<Id>& structures);
     /// The structure's contours are now these. Does not wait.
     void follow(SurfaceTask task);
     /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed.
@@ -75,8 +84,9 @@ private:
     struct Follower {
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
         bool is_working = false;
-        std::string_view stage;                      ///< what the status line was told last ...
-        int tenths = 0;                              ///< ... and how far it was
+        bool is_outdated = false;  ///< there will be another task
+        std::string_view stage;    ///< what the status line was told last ...
+        int tenths = 0;            ///< ... and how far it was
         std::unique_ptr<LiveEditor> editor;
     };
 
@@ -84,7 +94,8 @@ private:
     void start_next();
     void hear(Id structure, const EditorUpdate& update);
     void show_progress(Id structure, const EditorUpdate& update);
-    void publish(Surface surface);
+    void outdate_locked(Id structure);
+    void publish_locked(Surface surface);
 
     const SurfaceListener listener_;
     mutable std::mutex mutex_;

@@ -219,7 +219,7 @@ def test_a_spacing_that_makes_no_grid(folder, spacing):
 
 def limit_file_size(size):
     def limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # which ends the process, as it does in a user's shell
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
     return limit

@@ -3,8 +3,10 @@
 import concurrent.futures
 import gzip
 import json
+import math
 import os
 import pathlib
+import random
 import re
 import resource
 import signal
@@ -59,7 +61,7 @@ def test_the_session_describes_the_image(server):
     assert {"Abdomen", "Lung"} <= {preset["name"] for preset in session["presets"]}
     axial = session["views"]["axial"]
     assert axial["step_mm"] == pytest.approx(1.5) and axial["range_mm"] == pytest.approx([-24, 22.5])
-    assert session["history"] == {"undo": "New structure", "redo": None}
+    assert session["history"] == {"undo": None, "redo": None}
     for view in session["views"].values():
         frame = numpy.array([view["plane"][k] for k in ("u", "v", "normal")])
         assert numpy.allclose(frame @ frame.T, numpy.eye(3), atol=1e-12)
@@ -105,6 +107,41 @@ def test_drawing_gives_a_surface_and_outlines_in_every_view(server):
         line = arrays["outline_points"].reshape(-1, 2)
         assert numpy.abs(numpy.hypot(*(line - 32).T) * 0.5 - RADIUS).max() < 1.0
     assert len(head["crossings"]) >= 2
+
+
+def test_a_surface_is_outdated_before_anybody_is_told_of_an_edit(server):
+    """Else a page would show the figures of before as those of now."""
+    page = server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    before = page.wait_for_surface(structure)
+    for call, arguments in (("contour.translate", {"id": ids[1], "by": [2, 0, 0]}), ("contour.remove", {"ids": [ids[0]]}), ("undo", {}), ("undo", {})):
+        page.events.clear()
+        page.do(call, **arguments)
+        kinds = [event["event"] for event in page.events]
+        (told,) = [event for event in page.events[: kinds.index("changed")] if event["event"] == "surface" and event["stage"] == "outdated"]
+        assert told["revision"] == before["revision"] and "volume_ml" not in told
+        assert all(surface["stage"] in ("outdated", "preview") for surface in server.page().session["surfaces"])
+        before = page.wait_for_surface(structure)
+
+
+def test_no_surface_of_contours_from_before_is_told_as_refined(server):
+    """Edits in the midst of a refinement: what that still gives comes as a preview."""
+    page = server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    page.wait_for_surface(structure)
+    choose = random.Random(5)
+    is_refined = True
+    for _ in range(40):
+        page.do("contour.translate", id=ids[1], by=[choose.choice((-1, 1)), 0, 0])
+        time.sleep(choose.uniform(0, 0.3))
+        page.do("ping")
+        for event in page.events:
+            assert not (event["event"] == "changed" and is_refined)
+            if event["event"] == "surface":
+                is_refined = event["stage"] == "refined"
+        page.events.clear()
 
 
 def test_contours_are_listed_in_their_own_slice_only(server):
@@ -237,11 +274,51 @@ def test_exports_are_what_the_command_line_makes(server, tmp_path, image):
     assert numpy.array_equal(ours.affine, theirs.affine)
     stl_header = 80
     assert export("mesh.stl").read_bytes()[stl_header:] == (tmp_path / "own.stl").read_bytes()[stl_header:]
-    assert export("picture.png").read_bytes().startswith(b"\x89PNG")
+    picture = export("picture.png").read_bytes()
+    assert picture.startswith(b"\x89PNG")
+    made = json.loads(contours.read_text())["provenance"]
+    assert made["made_by"] == "kontur open" and made["image_fingerprint"].startswith("48x40x32-int16-")
+    assert json.loads(export("contours.mrk.json").read_text())["kontur"] == made
+    noted = dict(re.findall(rb"kontur (\w+)\0+([0-9a-f]{64})", picture))
+    assert noted[b"contours_sha256"].decode() == made["contours_sha256"] and b"grid_sha256" in noted
     status, _, body = server.request("GET", "/api/export/project.kontur")
     (tmp_path / "copy.kontur").write_bytes(body)
     with running(tmp_path, tmp_path / "copy.kontur") as other:
         assert other.page().contours == page.contours
+
+
+def test_an_export_that_nobody_waits_for_any_more_is_stopped(tmp_path, image):
+    plane_count, points = 40, 250
+    with running(tmp_path, image) as server:
+        page = server.page()
+        plane = page.session["views"]["axial"]["plane"]
+        for n in range(plane_count):  # so many points that a mask takes seconds
+            at = at_offset(plane, 0.5 * (n - plane_count // 2))
+            path = [{"at": p, "kind": "line"} for p in ring(at, 8 + 0.3 * math.sin(n), points)]
+            page.do("contour.add", structure=the_structure(page), plane=at, control=path)
+        page.wait_for_surface(the_structure(page))
+        target = f"/api/export/mask.nii.gz?structure={the_structure(page)}"
+
+        def exporting(page):
+            """Waits until the status line tells of an export, or of the end of one."""
+            while True:
+                event = page.receive()
+                if event.get("event") == "status":
+                    return event["text"].startswith("Exporting")
+
+        started = time.monotonic()
+        assert server.request("GET", target)[0] == 200
+        whole = time.monotonic() - started
+        page = server.page()
+        with socket.create_connection(("127.0.0.1", server.port)) as connection:
+            connection.sendall(f"GET {target} HTTP/1.1\r\nHost: {server.host}\r\nAuthorization: Bearer {server.token}\r\n\r\n".encode())
+            while not exporting(page):
+                pass
+        started = time.monotonic()
+        while exporting(page):
+            pass
+        assert time.monotonic() - started < 0.5 * whole, whole
+        wait_for(lambda: not list(server.folder.glob("kontur-*")), seconds=5)
 
 
 def test_imports_of_contours_and_masks(server, tmp_path):
@@ -414,6 +491,7 @@ def test_contours_come_with_the_image_and_the_project_lies_beside_them(tmp_path,
         assert other.project == tmp_path / "liver.kontur"
         opened = other.page()
         assert [c["points"] for c in opened.contours.values()] == [c["points"] for c in page.contours.values()]
+        assert opened.do("undo")["label"] is None and opened.contours, "nobody undoes what he has not done"
 
 
 def test_it_ends_when_asked(tmp_path, image):

@@ -115,6 +115,26 @@ TEST(Project, UndoAndRedoWalkThroughEveryStateAcrossReopening) {
     }
 }
 
+TEST(Project, WhatItBeginsWithIsKeptAndCannotBeUndone) {
+    const TemporaryFolder folder;
+    Id first = 0;
+    {
+        Project project(folder.path() / "a.kontur", kImage);
+        first = project.new_id();
+        project.begin_with({"", {{first, {}, Structure{first, "Structure 1", "#123456", true}}}, {}});
+        add_contour(project, first, 5);
+        EXPECT_EQ(project.undo()->label, "Draw");
+        EXPECT_FALSE(project.undo_label());
+        EXPECT_FALSE(project.undo());
+        EXPECT_TRUE(project.redo());
+    }
+    Project project(folder.path() / "a.kontur", kImage);
+    EXPECT_TRUE(project.undo());
+    EXPECT_FALSE(project.undo());
+    EXPECT_TRUE(project.state().structures.contains(first));
+    EXPECT_GT(project.new_id(), first);
+}
+
 TEST(Project, AnEditAfterUndoDropsWhatWasUndone) {
     const TemporaryFolder folder;
     Project project(folder.path() / "a.kontur", kImage);
@@ -263,7 +283,8 @@ TEST(Project, NoAcknowledgedEditIsLostByKill9) {
     }
     std::mt19937 random = kontur::test::random_of_this_test();
     std::uint32_t acknowledged = 0;
-    // A flush to the disk for each edit makes this slow; kill_test.py does it with the whole program, and 1000 times if asked.
+    // A flush to the disk for each edit makes this slow; kill_test.py does it with the whole program, and 1000 times if
+    // asked.
     for (int kill_number = 0; kill_number < 8; ++kill_number) {
         int ends[2];
         ASSERT_EQ(pipe(ends), 0);

@@ -82,6 +82,7 @@ export class App {
     const panel = new Panel({
       ...shared,
       call: (name, args = {}) => this.editor.edit(name, args),
+      addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),
       copySelected: (steps) => void this.editor.copySelected(this.active, steps),
@@ -202,6 +203,17 @@ export class App {
     if (!this.editor.redo()) this.editor.edit("redo", {});
   }
 
+  /** A new structure is for what is drawn next. */
+  private async addStructure(): Promise<void> {
+    try {
+      const { structure } = await this.socket.call<{ structure: { id: number } }>("structure.add");
+      this.project.select(null);
+      this.project.activate(structure.id);
+    } catch (error) {
+      this.failed(error);
+    }
+  }
+
   // Looking around
 
   private lay(): void {
@@ -263,7 +275,7 @@ export class App {
   private async askValue(at: Vec3): Promise<void> {
     const { value } = await this.socket.call<{ value: number | null }>("value", { at });
     const unit = this.session?.image.unit ?? "";
-    const shown = value === null ? "outside" : `${Number.isInteger(value) ? value : value.toPrecision(4)} ${unit}`.trim();
+    const shown = value === null ? "outside" : `${unit === "HU" ? Math.round(value) : Number(value.toPrecision(4))} ${unit}`.trim();
     this.status.setCursor(`${place(at)}  ·  ${shown}`);
   }
 

@@ -77,13 +77,19 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     return { axes, center: projected(this.plane(view), center), mm_per_pixel: fit / zoom, width, height };
   }
 
-  /** How far the crosshair can go along the view's normal from the image's centre, in mm, and where it is. */
+  /** Where scrolling on leads: down, from the head to the feet, or else away from the viewer. */
+  direction(view: ViewName): Vec3 {
+    return scale(this.cameras[view].axes.normal, this.views[view].plane.normal[2] > 0.5 ? -1 : 1);
+  }
+
+  /** How far the crosshair can go in the view's direction from the image's centre, in mm, and where it is. */
   depth(view: ViewName): { from: number; to: number; at: number } {
-    const { normal } = this.cameras[view].axes;
-    const [from, to] = this.isTurned(view)
-      ? extent(this.image!.corners, normal, this.views[view].plane.origin)
-      : this.views[view].range_mm;
-    return { from, to, at: dot(sub(this.crosshair, this.views[view].plane.origin), normal) };
+    const direction = this.direction(view);
+    const { origin, normal } = this.views[view].plane;
+    const [first, last] = this.views[view].range_mm;
+    const ends: [number, number] = dot(direction, normal) > 0 ? [first, last] : [-last, -first];
+    const [from, to] = this.isTurned(view) ? extent(this.image!.corners, direction, origin) : ends;
+    return { from, to, at: dot(sub(this.crosshair, origin), direction) };
   }
 
   isTurned(view: ViewName): boolean {
@@ -103,12 +109,12 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     this.scrollTo(view, from + (Math.round((at - from) / step) + steps) * step);
   }
 
-  /** Moves the crosshair along the view's normal to `depth_mm` from the image's centre, as far as the image goes. */
+  /** Moves the crosshair in the view's direction to `depth_mm` from the image's centre, as far as the image goes. */
   scrollTo(view: ViewName, depth_mm: number): void {
     const { from, to, at } = this.depth(view);
     const target = Math.min(Math.max(depth_mm, from), to);
     if (Math.abs(target - at) < 1e-9) return;
-    this.crosshair = add(this.crosshair, scale(this.cameras[view].axes.normal, target - at));
+    this.crosshair = add(this.crosshair, scale(this.direction(view), target - at));
     this.emit("planes");
   }
 

@@ -2,7 +2,7 @@
 import type { Changed, Contour, History, Session, Structure, Surface } from "../net/protocol";
 import { Emitter } from "./emitter";
 
-type Topic = "contours" | "structures" | "surfaces" | "history" | "selection" | "draft";
+type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft";
 
 export interface Selection {
   contour: number;
@@ -39,7 +39,11 @@ export class Project extends Emitter<Topic> {
       this.structures.delete(id);
       this.surfaces.delete(id);
     }
-    for (const contour of contours?.set ?? []) this.contours.set(contour.id, contour);
+    for (const contour of contours?.set ?? []) {
+      const goesOver = this.contours.has(contour.id) && this.contours.get(contour.id)!.structure !== contour.structure;
+      if (goesOver && contour.id === this.selection?.contour) this.active = contour.structure;
+      this.contours.set(contour.id, contour);
+    }
     for (const id of contours?.removed ?? []) this.contours.delete(id);
     this.history = history;
     this.draftContour = null;
@@ -51,8 +55,9 @@ export class Project extends Emitter<Topic> {
     if (!this.structures.has(surface.structure)) return;
     const before = this.surfaces.get(surface.structure);
     // While the hand moves only previews come; the figures of the last refined surface stay until there are new ones.
-    this.surfaces.set(surface.structure, surface.stage === "preview" ? { ...before, ...surface } : surface);
-    this.emit("surfaces");
+    const keepsFigures = surface.stage === "preview" || surface.stage === "outdated";
+    this.surfaces.set(surface.structure, keepsFigures ? { ...before, ...surface } : surface);
+    this.emit(surface.revision === before?.revision ? "stages" : "surfaces");
   }
 
   /** The contour as the pointer holds it just now, instead of the stored one. */

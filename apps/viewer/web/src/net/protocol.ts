@@ -64,7 +64,7 @@ export interface Surface {
   event?: "surface";
   structure: number;
   revision: number;
-  stage: "preview" | "refined" | "none";
+  stage: "preview" | "refined" | "outdated" | "none";
   triangles: number;
   volume_ml?: number;
   residual?: { max_mm: number; rms_mm: number; contour: number; at: Vec3 };

@@ -5,6 +5,8 @@ import { boxSection } from "../geometry/plane";
 import type { Plane } from "../geometry/plane";
 import { add, distance, mix, scale, type Vec3 } from "../geometry/vec";
 import { tinted } from "../view/palette";
+import { coarseTriangles } from "./coarse";
+import { Pace } from "./pace";
 
 export interface MeshData {
   positions: Float32Array;
@@ -12,7 +14,16 @@ export interface MeshData {
   triangles: Uint32Array;
 }
 
+/** A surface, and the same with fewer triangles for when it must be drawn fast. */
+interface Shown {
+  mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
+  fine: THREE.BufferGeometry;
+  coarse: THREE.BufferGeometry | null;
+  style: string;
+}
+
 const LETTER_PIXELS = 26;
+const LOOK_MS = 3; // how often to look whether a frame is finished
 
 const vector = (p: Vec3): THREE.Vector3 => new THREE.Vector3(p[0], p[1], p[2]);
 
@@ -23,7 +34,7 @@ export class Scene {
   private readonly camera = new THREE.OrthographicCamera();
   private readonly controls: TrackballControls;
   private readonly light = new THREE.DirectionalLight(0xffffff, 2.1);
-  private readonly surfaces = new Map<number, THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>>();
+  private readonly surfaces = new Map<number, Shown>();
   private readonly materials = new Map<string, THREE.Material>();
   private readonly lines = new THREE.Group();
   private readonly planes = new THREE.Group();
@@ -31,28 +42,38 @@ export class Scene {
   private readonly letters = new THREE.Group();
   private readonly extent_mm: number;
   private readonly center: Vec3;
-  private queued = false;
+  private readonly pace: Pace;
   private aspect = 1;
   private touched = false; // the user has turned, zoomed or shifted the view: it stays as he wants it
 
-  /** Throws where the browser has no WebGL. */
+  /** Throws where the browser has no WebGL. `begin` is called as a frame begins, and what it returns when that is finished. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly corners: readonly Vec3[],
+    private readonly begin: () => () => void,
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
+    let isHeld = false;
+    window.addEventListener("pointerdown", () => (isHeld = true), { capture: true });
+    for (const type of ["pointerup", "pointercancel"]) window.addEventListener(type, () => (isHeld = false), { capture: true });
+    this.pace = new Pace({
+      render: (fine) => this.render(fine),
+      isHeld: () => isHeld,
+      later: (act, ms) => window.setTimeout(act, ms),
+      now: () => performance.now(),
+    });
     this.center = scale(corners.reduce(add), 1 / corners.length);
     this.extent_mm = Math.max(...corners.map((corner) => distance(corner, this.center)));
     this.scene.add(new THREE.HemisphereLight(0xdfe8f5, 0x2a2f38, 1.5), this.light, this.lines, this.planes, this.marks, this.letters);
     this.scene.add(this.imageBox());
     this.controls = new TrackballControls(this.camera, canvas);
     Object.assign(this.controls, { rotateSpeed: 3, zoomSpeed: 1.2, panSpeed: 0.9, staticMoving: true });
-    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("change", () => this.pace.changed());
     this.controls.addEventListener("start", () => (this.touched = true));
     this.viewFrom([0.55, -1, 0.45], this.center, this.extent_mm);
     canvas.addEventListener("pointermove", () => this.controls.update());
     canvas.addEventListener("wheel", () => requestAnimationFrame(() => this.controls.update()));
-    this.canvas.addEventListener("webglcontextrestored", () => this.draw());
+    this.canvas.addEventListener("webglcontextrestored", () => this.pace.changed());
   }
 
   resize(width: number, height: number): void {
@@ -62,7 +83,7 @@ export class Scene {
     this.aspect = width / height;
     this.setFrustum();
     this.controls.handleResize();
-    this.draw();
+    this.pace.changed();
   }
 
   setMesh(structure: number, data: MeshData): void {
@@ -70,14 +91,16 @@ export class Scene {
     geometry.setAttribute("position", new THREE.BufferAttribute(data.positions, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(data.normals, 3));
     geometry.setIndex(new THREE.BufferAttribute(data.triangles, 1));
-    const mesh = this.surfaces.get(structure) ?? this.addMesh(structure);
-    mesh.geometry.dispose();
-    mesh.geometry = geometry;
+    const shown = this.surfaces.get(structure) ?? this.addMesh(structure);
+    shown.fine.dispose();
+    shown.coarse?.dispose();
+    Object.assign(shown, { fine: geometry, coarse: null });
+    shown.mesh.geometry = geometry;
     if (!this.touched && !this.isInSight()) this.frame();
-    this.draw();
+    this.pace.changed();
   }
 
-  private addMesh(structure: number): THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial> {
+  private addMesh(structure: number): Shown {
     const material = new THREE.MeshStandardMaterial({
       roughness: 0.62,
       metalness: 0,
@@ -87,30 +110,35 @@ export class Scene {
       polygonOffsetUnits: 8,
     });
     const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
-    this.surfaces.set(structure, mesh);
+    const shown = { mesh, fine: mesh.geometry, coarse: null, style: "" };
+    this.surfaces.set(structure, shown);
     this.scene.add(mesh);
-    return mesh;
+    return shown;
   }
 
   removeMesh(structure: number): void {
-    const mesh = this.surfaces.get(structure);
-    if (!mesh) return;
-    this.scene.remove(mesh);
-    mesh.geometry.dispose();
-    mesh.material.dispose();
+    const shown = this.surfaces.get(structure);
+    if (!shown) return;
+    this.scene.remove(shown.mesh);
+    shown.fine.dispose();
+    shown.coarse?.dispose();
+    shown.mesh.material.dispose();
     this.surfaces.delete(structure);
-    this.draw();
+    this.pace.changed();
   }
 
   style(structure: number, color: string, visible: boolean, opacity: number): void {
-    const mesh = this.surfaces.get(structure);
-    if (!mesh) return;
+    const shown = this.surfaces.get(structure);
+    const wanted = `${color} ${visible} ${opacity}`;
+    if (!shown || shown.style === wanted) return;
+    shown.style = wanted;
+    const { mesh } = shown;
     mesh.material.color.set(color);
     mesh.material.transparent = opacity < 1;
     mesh.material.opacity = opacity;
     mesh.material.depthWrite = opacity >= 1;
     mesh.visible = visible;
-    this.draw();
+    this.pace.changed();
   }
 
   /** The structures that have a mesh. */
@@ -124,7 +152,7 @@ export class Scene {
       const geometry = new THREE.BufferGeometry().setFromPoints(points.map(vector));
       this.lines.add(new THREE.LineLoop(geometry, this.lineMaterial(tinted(color, selected ? 0.95 : 0.6), 1)));
     }
-    this.draw();
+    this.pace.changed(true);
   }
 
   setPlanes(planes: { plane: Plane; color: string }[]): void {
@@ -138,17 +166,18 @@ export class Scene {
       const rim = new THREE.BufferGeometry().setFromPoints(points);
       this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(color, 0.6)));
     }
-    this.draw();
+    this.pace.changed(true);
   }
 
   setMarks(places: readonly Vec3[]): void {
+    if (places.length === 0 && this.marks.children.length === 0) return;
     this.clear(this.marks);
     for (const place of places) {
       const ball = new THREE.Mesh(new THREE.SphereGeometry(this.extent_mm / 90, 16, 12), this.markMaterial());
       ball.position.copy(vector(place));
       this.marks.add(ball);
     }
-    this.draw();
+    this.pace.changed(true);
   }
 
   /** Turns the camera to look at the surfaces, or at the whole image without any. */
@@ -161,7 +190,7 @@ export class Scene {
 
   private surfaceSphere(): THREE.Sphere | null {
     const box = new THREE.Box3();
-    for (const mesh of this.surfaces.values()) if (mesh.visible) box.expandByObject(mesh);
+    for (const { mesh } of this.surfaces.values()) if (mesh.visible) box.expandByObject(mesh);
     return box.isEmpty() ? null : box.getBoundingSphere(new THREE.Sphere());
   }
 
@@ -187,14 +216,14 @@ export class Scene {
     }
     this.setFrustum();
     this.controls.update();
-    this.draw();
+    this.pace.changed();
   }
 
   /** Where a ray through this place of the canvas (0 to 1) meets a surface. */
   pick(x: number, y: number): Vec3 | null {
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2(2 * x - 1, 1 - 2 * y), this.camera);
-    const hit = ray.intersectObjects([...this.surfaces.values()].filter((mesh) => mesh.visible))[0];
+    const hit = ray.intersectObjects([...this.surfaces.values()].map(({ mesh }) => mesh).filter((mesh) => mesh.visible))[0];
     return hit ? hit.point.toArray() : null;
   }
 
@@ -206,18 +235,32 @@ export class Scene {
     this.camera.updateProjectionMatrix();
   }
 
-  private draw(): void {
-    if (this.queued) return;
-    this.queued = true;
-    requestAnimationFrame(() => {
-      this.queued = false;
-      if (this.canvas.clientWidth === 0) return; // another view is shown alone; resize() draws when this one comes back
-      this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
-      this.light.target.position.copy(this.controls.target);
-      this.light.target.updateMatrixWorld();
-      this.sizeLetters();
-      this.renderer.render(this.scene, this.camera);
-      this.canvas.dataset["frames"] = String(Number(this.canvas.dataset["frames"] ?? 0) + 1);
+  private async render(fine: boolean): Promise<void> {
+    await new Promise((resolve) => requestAnimationFrame(resolve));
+    if (this.canvas.clientWidth === 0) return; // another view is shown alone; resize() draws when this one comes back
+    for (const shown of this.surfaces.values()) shown.mesh.geometry = fine ? shown.fine : (shown.coarse ??= coarse(shown.fine));
+    this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
+    this.light.target.position.copy(this.controls.target);
+    this.light.target.updateMatrixWorld();
+    this.sizeLetters();
+    const drawn = this.begin();
+    this.renderer.render(this.scene, this.camera);
+    await this.finished();
+    drawn();
+  }
+
+  /** Settles when the graphics processor, or what stands in for it, has drawn all that it was told. */
+  private finished(): Promise<void> {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    return new Promise((resolve) => {
+      const look = () => {
+        if (fence && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return void setTimeout(look, LOOK_MS);
+        gl.deleteSync(fence);
+        resolve();
+      };
+      setTimeout(look, 0);
     });
   }
 
@@ -271,6 +314,16 @@ export class Scene {
       this.letters.add(sprite);
     }
   }
+}
+
+function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {
+  const geometry = new THREE.BufferGeometry();
+  const positions = fine.getAttribute("position"), triangles = fine.getIndex();
+  if (!triangles) return geometry;
+  geometry.setAttribute("position", positions);
+  geometry.setAttribute("normal", fine.getAttribute("normal"));
+  geometry.setIndex(new THREE.BufferAttribute(coarseTriangles(positions.array as Float32Array, triangles.array as Uint32Array), 1));
+  return geometry;
 }
 
 function directionLetter(at: Vec3, from: Vec3): string {

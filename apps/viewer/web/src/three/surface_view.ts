@@ -65,7 +65,7 @@ export class SurfaceView {
       try {
         if (!hasWebGl()) throw new Error("no WebGL");
         const { Scene } = await import("./scene");
-        this.scene ??= new Scene(this.canvas, image.corners);
+        this.scene ??= new Scene(this.canvas, image.corners, () => this.frameBegins());
         this.element.dataset["webgl"] = "yes";
       } catch {
         this.element.dataset["webgl"] = "no";
@@ -120,7 +120,6 @@ export class SurfaceView {
   private remove(id: number): void {
     this.scene?.removeMesh(id);
     this.shownRevisions.delete(id);
-    this.tellState();
   }
 
   private fetchesOf(structure: number): Latest<void> {
@@ -135,15 +134,16 @@ export class SurfaceView {
       this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles") });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();
-      this.tellState();
     } catch (error) {
       // "not_found": the surface went while it was asked for, which an event has said or will say
       if (!(error instanceof ServerError && (error.kind === "not_found" || error.kind === "cancelled"))) this.services.failed(error);
     }
   }
 
-  private tellState(): void {
-    this.element.dataset["revisions"] = [...this.shownRevisions].map(([id, revision]) => `${id}:${revision}`).join(" ");
+  /** Tests and measurements wait for what the finished frame shows. */
+  private frameBegins(): () => void {
+    const revisions = [...this.shownRevisions].map(([id, revision]) => `${id}:${revision}`).join(" ");
+    return () => (this.element.dataset["revisions"] = revisions);
   }
 
   private showHint(): void {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { heightOver } from "../geometry/plane";
-import { dot, scale, sub, type Vec3 } from "../geometry/vec";
+import { add, dot, scale, sub, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
@@ -53,7 +53,6 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   pointerCloses = false;
   hover: Hover = null;
   linesShown = true;
-  private hidden = new Set<ViewName>();
   /** The sketch that was left last, and by what: undo or redo brings it back, until something else is done. */
   private leftSketch: { sketch: Sketch; by: "leaving" | "undo" } | null = null;
 
@@ -91,19 +90,10 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     this.emit("hover");
   }
 
-  isPlaneHidden(view: ViewName): boolean {
-    return this.hidden.has(view);
-  }
-
-  togglePlane(view: ViewName): void {
-    if (!this.hidden.delete(view)) this.hidden.add(view);
-    this.emit("hover");
-  }
-
   /** The other views' planes as lines on this one. */
   lines(view: ViewName, screen: Screen): PlaneLine[] {
     if (!this.linesShown) return [];
-    return VIEW_NAMES.filter((other) => other !== view && !this.hidden.has(other))
+    return VIEW_NAMES.filter((other) => other !== view)
       .map((other) => planeLine(screen, this.navigation.crosshair, other, this.navigation.cameras[other].axes))
       .filter((line): line is PlaneLine => line !== null);
   }
@@ -491,7 +481,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     const contour = this.project.selectedContour;
     if (!contour) return this.services.tell("Select a contour first: click its line, or its row in the list.");
     try {
-      const offset_mm = steps * this.navigation.step(view);
+      const onward = Math.sign(dot(contour.plane.normal, this.navigation.direction(view))) || 1;
+      const offset_mm = steps * onward * this.navigation.step(view);
       const copy = await this.services.call<{ contour: Contour }>("contour.copy", { id: contour.id, offset_mm });
       this.project.select({ contour: copy.contour.id, point: null });
       this.navigation.setCrosshair(sub(this.navigation.crosshair, scale(contour.plane.normal, heightOver(copy.contour.plane, this.navigation.crosshair))));
@@ -529,16 +520,17 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     };
   }
 
-  /** Moves the crosshair along the other plane's normal only, as far as that shows in this view. */
+  /** Moves the crosshair across the other plane's line, and not off the slice that is seen. */
   private slideGesture(screen: Screen, slid: ViewName, pointer: Point2): Gesture {
     const { normal } = this.navigation.cameras[slid].axes;
+    const { u, v } = screen.axes;
+    const across = add(scale(u, dot(normal, u)), scale(v, dot(normal, v)));
     let last = pointer;
     return {
       move: (at) => {
         const by = sub(toWorld(screen, at), toWorld(screen, last));
         last = at;
-        const depth = this.navigation.depth(slid).at;
-        this.navigation.scrollTo(slid, depth + dot(by, normal));
+        this.navigation.setCrosshair(add(this.navigation.crosshair, scale(across, dot(by, normal) / dot(across, across))));
       },
       end: (at) => {
         if (gap(at, pointer) <= 2) this.navigation.setCrosshair(toWorld(screen, at)); // a click, not a drag

@@ -118,5 +118,5 @@ export class Keyboard {
 
 function isField(target: EventTarget | null): boolean {
   if (target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement) return true;
-  return target instanceof HTMLInputElement && target.type !== "range" && target.type !== "checkbox";
+  return target instanceof HTMLInputElement && (target.type === "text" || target.type === "number");
 }

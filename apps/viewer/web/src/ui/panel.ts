@@ -16,6 +16,7 @@ export interface PanelServices {
   project: Project;
   editor: Editor;
   call(name: string, args?: Record<string, unknown>): void;
+  addStructure(): void;
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
   show(contour: Contour): void;
@@ -35,7 +36,7 @@ export class Panel {
 
   constructor(private readonly services: PanelServices) {
     const { project } = services;
-    const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", onclick: () => services.call("structure.add") });
+    const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", onclick: services.addStructure });
     this.element.append(
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
       this.list,
@@ -43,7 +44,7 @@ export class Panel {
       el("div", { class: "panel-title" }, el("span", {}, "Surface")),
       this.quality,
     );
-    project.on(["structures", "contours", "selection", "surfaces"], () => this.update());
+    project.on(["structures", "contours", "selection", "surfaces", "stages"], () => this.update());
   }
 
   private update(): void {
@@ -151,8 +152,9 @@ export class Panel {
     structure.append(...[...project.structures.values()].map((entry) => el("option", { value: String(entry.id), selected: entry.id === contour.structure }, entry.name)));
     structure.onchange = () => call("contour.set", { id: contour.id, structure: Number(structure.value) });
     this.actions.replaceChildren(
-      button({ icon: ICONS.copyUp, label: "Next slice", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", onclick: () => copySelected(1) }),
-      button({ icon: ICONS.copyDown, label: "Previous", title: "Copy to the previous slice (Shift+C)", class: "tool", onclick: () => copySelected(-1) }),
+      el("span", {}, "Copy to"),
+      button({ icon: ICONS.copyDown, label: "next", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", onclick: () => copySelected(1) }),
+      button({ icon: ICONS.copyUp, label: "previous", title: "Copy to the previous slice (Shift+C)", class: "tool", onclick: () => copySelected(-1) }),
       button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", onclick: () => editor.deleteSelected() }),
       el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       structure,
@@ -166,12 +168,13 @@ export class Panel {
     this.quality.replaceChildren(...this.qualityEntries(surface));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
+    this.element.dataset["structure"] = String(structure?.id ?? 0);
   }
 
   private qualityEntries(surface: Surface | undefined): HTMLElement[] {
     if (!surface || surface.stage === "none") {
-      const warnings = (surface?.warnings ?? []).map((text) => el("p", { class: "warning-text" }, text));
-      return warnings.length > 0 ? warnings : [el("p", { class: "empty" }, "No surface yet.")];
+      const troubles = surface ? this.troubles(surface) : [];
+      return troubles.length > 0 ? troubles : [el("p", { class: "empty" }, "No surface yet.")];
     }
     const entries: HTMLElement[] = [];
     if (surface.volume_ml !== undefined) entries.push(figure("Volume", `${volume(surface.volume_ml)} ml`));
@@ -180,10 +183,15 @@ export class Panel {
       entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
       entries.push(this.place(`largest residual ${residual.max_mm.toFixed(2)} mm`, residual.at, "Go to where the surface is farthest from a contour", "residual"));
     }
-    for (const { at, distance_mm } of surface.conflicts ?? [])
-      entries.push(this.place(`contours disagree by ${distance_mm.toFixed(1)} mm`, at, "Go to where two contours contradict each other", "conflict"));
-    for (const text of surface.warnings ?? []) entries.push(el("p", { class: "warning-text" }, text));
-    return entries;
+    return [...entries, ...this.troubles(surface)];
+  }
+
+  private troubles({ conflicts = [], warnings = [] }: Surface): HTMLElement[] {
+    const title = "Go to where two contours contradict each other";
+    return [
+      ...warnings.map((text) => el("p", { class: "warning-text" }, text)),
+      ...conflicts.map(({ at, distance_mm }) => this.place(`contours disagree by ${distance_mm.toFixed(1)} mm`, at, title, "conflict")),
+    ];
   }
 
   private place(label: string, at: Vec3, title: string, kind: "residual" | "conflict"): HTMLElement {

@@ -59,7 +59,10 @@ export class Toolbar {
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", onclick: services.redo });
     this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", onclick: () => navigation.toggleLinked() });
     this.presets.onchange = () => this.choosePreset();
-    this.center.onchange = this.width.onchange = () => this.typeWindow();
+    for (const field of [this.center, this.width]) {
+      field.onchange = () => this.typeWindow();
+      field.onkeydown = (event) => event.key === "Enter" && field.blur(); // keys are the tools' again
+    }
     this.element.append(
       el("span", { class: "brand" }, "kontur"),
       this.title,

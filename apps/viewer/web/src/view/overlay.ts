@@ -7,16 +7,22 @@ import type { Contour, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
 import { PLANE_COLORS, tinted, withAlpha } from "./palette";
 
-const SHADE = "rgba(8, 10, 13, 0.75)";
+const SHADE = "rgba(8, 10, 13, 0.8)";
 const INK = "#e8edf2";
 
-/** Draws vectors over a slice, in CSS pixels of `screen`. */
+const USUAL_FONT_PIXELS = 13;
+
+/** Draws vectors over a slice, in CSS pixels of `screen`; lines and marks grow with the letters. */
 export class OverlayPainter {
+  private readonly scale: number;
+
   constructor(
     private readonly ctx: CanvasRenderingContext2D,
     private readonly screen: Screen,
-    private readonly fontPixels = 13,
-  ) {}
+    private readonly fontPixels = USUAL_FONT_PIXELS,
+  ) {
+    this.scale = fontPixels / USUAL_FONT_PIXELS;
+  }
 
   /** Where the computed surfaces cut the plane: thin, filled. */
   outlines(header: SliceHeader, points: Float32Array, slice: PixelPlane, colorOf: (structure: number) => string): void {
@@ -86,7 +92,7 @@ export class OverlayPainter {
     const { ctx } = this;
     const color = PLANE_COLORS[view];
     ctx.globalAlpha = state.faint ? 0.35 : state.strong ? 1 : 0.72;
-    const free = 14; // around the crosshair, so that what lies under it can be seen
+    const free = 14 * this.scale; // around the crosshair, so that what lies under it can be seen
     for (const end of ends) {
       const size = Math.hypot(end[0] - crosshair[0], end[1] - crosshair[1]);
       if (size <= free) continue;
@@ -99,10 +105,10 @@ export class OverlayPainter {
     if (state.handles)
       for (const [x, y] of handles) {
         ctx.beginPath();
-        ctx.arc(x, y, state.strong ? 5.5 : 4, 0, 2 * Math.PI);
+        ctx.arc(x, y, this.scale * (state.strong ? 5.5 : 4), 0, 2 * Math.PI);
         ctx.fillStyle = "#14181d";
         ctx.fill();
-        ctx.lineWidth = 1.6;
+        ctx.lineWidth = 1.6 * this.scale;
         ctx.strokeStyle = color;
         ctx.stroke();
       }
@@ -140,7 +146,7 @@ export class OverlayPainter {
     ctx.textAlign = align;
     ctx.textBaseline = baseline;
     ctx.lineJoin = "round";
-    ctx.lineWidth = 3;
+    ctx.lineWidth = 4;
     ctx.strokeStyle = SHADE;
     ctx.strokeText(text, x, y);
     ctx.fillStyle = INK;
@@ -170,31 +176,31 @@ export class OverlayPainter {
 
   private stroke(path: Path2D, color: string, width: number): void {
     this.ctx.strokeStyle = color;
-    this.ctx.lineWidth = width;
+    this.ctx.lineWidth = this.scale * width;
     this.ctx.stroke(path);
   }
 
   private handle([x, y]: Point2, selected: boolean, hovered: boolean, color: string): void {
     const { ctx } = this;
     ctx.beginPath();
-    ctx.arc(x, y, selected || hovered ? 5.2 : 3.7, 0, 2 * Math.PI);
+    ctx.arc(x, y, this.scale * (selected || hovered ? 5.2 : 3.7), 0, 2 * Math.PI);
     ctx.fillStyle = selected ? color : "#ffffff";
     ctx.fill();
-    ctx.lineWidth = 1.4;
+    ctx.lineWidth = 1.4 * this.scale;
     ctx.strokeStyle = selected ? "#ffffff" : "rgba(8, 10, 13, 0.9)";
     ctx.stroke();
   }
 
   private diamond([x, y]: Point2, color: string): void {
     const { ctx } = this;
-    const r = 3.3;
+    const r = 3.3 * this.scale;
     ctx.beginPath();
     ctx.moveTo(x, y - r);
     ctx.lineTo(x + r, y);
     ctx.lineTo(x, y + r);
     ctx.lineTo(x - r, y);
     ctx.closePath();
-    ctx.lineWidth = 2;
+    ctx.lineWidth = 2 * this.scale;
     ctx.lineJoin = "miter";
     ctx.strokeStyle = SHADE;
     ctx.stroke();
@@ -205,8 +211,8 @@ export class OverlayPainter {
   private ring([x, y]: Point2, radius: number, color: string, width: number): void {
     const { ctx } = this;
     ctx.beginPath();
-    ctx.arc(x, y, radius, 0, 2 * Math.PI);
-    ctx.lineWidth = width;
+    ctx.arc(x, y, this.scale * radius, 0, 2 * Math.PI);
+    ctx.lineWidth = this.scale * width;
     ctx.strokeStyle = color;
     ctx.stroke();
   }

@@ -127,23 +127,21 @@ async function measureScrolls(viewer: Viewer, label: string): Promise<void> {
     await page.mouse.move(...(await viewer.at(view, 5, 5)));
     const waits: number[] = [];
     for (let i = 0; i < SCROLLS; ++i) {
-      const wait = page.evaluate(
-        (name) =>
-          new Promise<number>((resolve) => {
-            const pane = document.querySelector<HTMLElement>(`[data-view=${name}]`)!;
-            let start = 0;
-            const observer = new MutationObserver(() => {
-              if (start === 0) return;
-              observer.disconnect();
-              requestAnimationFrame(() => resolve(performance.now() - start));
-            });
-            observer.observe(pane, { attributes: true, attributeFilter: ["data-slices"] });
-            pane.addEventListener("wheel", (event) => (start = event.timeStamp), { capture: true, once: true });
-          }),
-        view,
-      );
+      await page.evaluate((name) => {
+        const pane = document.querySelector<HTMLElement>(`[data-view=${name}]`)!;
+        const scrolled = { ms: 0 };
+        pane.addEventListener("wheel", (event) => {
+          const observer = new MutationObserver(() => {
+            observer.disconnect();
+            requestAnimationFrame(() => (scrolled.ms = performance.now() - event.timeStamp));
+          });
+          observer.observe(pane, { attributes: true, attributeFilter: ["data-slices"] });
+        }, { capture: true, once: true });
+        Object.assign(window, { scrolled });
+      }, view);
       await page.mouse.wheel(0, i % 20 < 10 ? 120 : -120);
-      waits.push(await wait);
+      const ms = await page.waitForFunction(() => (window as unknown as { scrolled: { ms: number } }).scrolled.ms);
+      waits.push((await ms.jsonValue()) as number);
     }
     const box = (await viewer.pane(view).boundingBox())!;
     line(`scroll ${view}, ${label}, ${box.width.toFixed(0)} x ${box.height.toFixed(0)} pixels`, waits);

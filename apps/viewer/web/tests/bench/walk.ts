@@ -133,10 +133,11 @@ try {
 
   // Scrolls through the axial slices until the metastasis is there, and brings the other views along.
   let middle = await user.middle("axial");
-  for (let slices = 0; Math.abs(middle[2] - target[2]) > 2 && slices < 200; ++slices) {
-    await page.mouse.wheel(0, middle[2] < target[2] ? -120 : 120);
+  const reaches = (slices: number) => Math.abs(middle[2] - target[2]) < 2 || slices === 200;
+  for (let slices = 0; !reaches(slices); ++slices) {
+    await page.mouse.wheel(0, middle[2] < target[2] ? -120 : 120); // down leads to the feet
     await user.waits(WHEEL_MS);
-    if (slices % 4 === 3) middle = await user.middle("axial");
+    middle = await user.middle("axial");
   }
   const place = await user.placeOf("axial", target, middle);
   await page.keyboard.down("Shift");

@@ -25,6 +25,9 @@ const near = (actual: number, expected: number, tolerance: number, what: string)
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected} to within ${tolerance}`);
 const isOrange = (r: number, g: number, b: number): boolean => Math.abs(r - 255) < 12 && Math.abs(g - 143) < 14 && Math.abs(b - 63) < 24;
 
+/** A drawn line is light, in a tint of its structure's amber. */
+const isContour = (r: number, g: number, b: number): boolean => r > 225 && r - b > 12 && r - b < 130 && r - g < 60;
+
 /** Draws by hand around the ball, or a circle of another radius. */
 async function drawBall(view: string, radius_mm = BALL_RADIUS_MM, contours = 1): Promise<number> {
   const radius = await viewer.pixels(view, radius_mm);
@@ -135,6 +138,101 @@ describe("contours", () => {
   });
 });
 
+describe("structures", () => {
+  test("a hole takes its inside away; hidden contours still count, hidden structures are out of sight", async () => {
+    const { page } = viewer;
+    await drawBall("axial");
+    await drawBall("coronal", BALL_RADIUS_MM, 2);
+    await viewer.surfaceShown();
+    const whole = await viewer.volume();
+    await drawBall("axial", 0.5 * BALL_RADIUS_MM, 3);
+    await page.keyboard.press("h");
+    await page.waitForSelector(".hole-flag");
+    await viewer.surfaceShown();
+    const hollow = await viewer.volume();
+    assert.ok(hollow < 0.97 * whole, `${hollow} of ${whole} ml`);
+
+    const row = page.locator(".contour-row").first();
+    const lines = () => viewer.countPixels("axial", isContour);
+    const drawn = await lines();
+    await row.hover();
+    await row.locator("button[title=Hide]").click();
+    await page.waitForSelector(".contour-row.off");
+    await page.mouse.move(0, 0);
+    await viewer.slicesShown();
+    assert.ok((await lines()) < drawn, "the axial view no longer shows it");
+    assert.equal(await viewer.volume(), hollow);
+
+    await page.locator(".structure-row button[title=Hide]").click();
+    await page.waitForSelector(".structure-row button[title=Show]");
+    await viewer.slicesShown();
+    await page.waitForFunction(() => document.querySelector<HTMLElement>("[data-view=sagittal]")!.dataset["revisions"] === "");
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("Control+z");
+    await page.waitForFunction(() => !document.querySelector(".contour-row.off"));
+  });
+
+  test("several, each with its name, colour and surface; contours change over", async () => {
+    const { page } = viewer;
+    await drawBall("axial");
+    await page.click("[data-test=add-structure]");
+    await page.waitForSelector(".structure:nth-child(2) .structure-row.active");
+    const second = page.locator(".structure").nth(1);
+    await second.locator(".name").fill("Lesion");
+    await page.keyboard.press("Enter");
+    await viewer.waitForStep("undo", "Rename");
+    await second.locator(".color").fill("#3366ff");
+    await viewer.waitForStep("undo", "Colour Lesion");
+    await drawBall("coronal", 0.8 * BALL_RADIUS_MM, 2);
+    assert.equal(await second.locator(".contour-row").count(), 1);
+    await viewer.surfaceShown();
+    const small = await viewer.volume();
+    const isBlue = (r: number, g: number, b: number): boolean => b > 90 && b > 1.4 * g && b > 2 * r;
+    assert.ok((await viewer.countPixels("coronal", isBlue)) > 0, "its outline has its colour");
+    assert.equal((await viewer.export("mask.nii.gz")).name, "Lesion.nii.gz");
+    await page.locator(".contour-row").first().click();
+    await page.locator(".contour-actions select").selectOption({ label: "Lesion" });
+    await viewer.waitForStep("undo", "Change a contour");
+    await page.waitForFunction(() => document.querySelectorAll(".structure")[1]!.querySelectorAll(".contour-row").length === 2);
+    await viewer.surfaceShown();
+    assert.ok((await viewer.volume()) > 1.1 * small);
+  });
+});
+
+describe("live-wire", () => {
+  for (const view of ["axial", "oblique"])
+    test(`finds the ball's edge from clicks beside it on the ${view} view`, async () => {
+      const { page } = viewer;
+      if (view === "oblique") {
+        const box = (await viewer.pane("axial").boundingBox())!;
+        const line = 0.33 * Math.min(box.width, box.height);
+        await page.keyboard.press("v");
+        await viewer.drag("axial", [[line * Math.SQRT1_2, line * Math.SQRT1_2], [line, line * 0.3]]);
+        await page.waitForSelector("[data-view=oblique][data-turned=true]");
+        await viewer.slicesShown();
+      }
+      await page.keyboard.press("l");
+      const beside = (await viewer.pixels(view, BALL_RADIUS_MM)) + 3;
+      for (const place of circle(beside, 6).slice(0, 6)) await viewer.click(view, ...place);
+      await page.keyboard.press("Enter");
+      await viewer.waitForContours(1);
+      const distances = (await points()).map((p) => Math.hypot(...p));
+      const voxel_mm = 4;
+      near(Math.max(...distances), BALL_RADIUS_MM, voxel_mm, "the farthest point");
+      near(Math.min(...distances), BALL_RADIUS_MM, voxel_mm, "the nearest point");
+    });
+});
+
+describe("contours without a surface", () => {
+  test("are told, with the places where they contradict each other", async () => {
+    await drawBall("axial");
+    await drawBall("coronal", 0.5 * BALL_RADIUS_MM, 2);
+    await viewer.page.waitForSelector(".panel[data-stage=none]");
+    await viewer.page.locator("[data-test=conflict]").first().waitFor();
+    assert.match((await viewer.page.locator(".quality").textContent())!, /give no surface/);
+  });
+});
+
 describe("a contour that is being drawn", () => {
   test("has points that undo and redo, comes back after Esc, and after the tab was closed", async () => {
     const { page } = viewer;
@@ -182,6 +280,38 @@ describe("views", () => {
     await page.waitForSelector("[data-view=coronal][data-turned=false]");
   });
 
+  test("the window follows a right drag, a preset and typed numbers", async () => {
+    const { page } = viewer;
+    const numbers = () => page.locator(".toolbar .number").evaluateAll((inputs) => inputs.map((input) => Number((input as HTMLInputElement).value)));
+    const [center, width] = await numbers();
+    await viewer.drag("axial", [[0, 0], [20, 10], [40, 20]], "right");
+    const [darker, wider] = await numbers();
+    assert.ok(darker! > center! && wider! > width!, `${darker} / ${wider} from ${center} / ${width}`);
+    const before = await viewer.pane("axial").screenshot();
+    await page.locator(".toolbar .number").nth(1).fill("20");
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("l");
+    await page.waitForSelector("[data-test=tool-wire][aria-pressed=true]");
+    await viewer.slicesShown();
+    assert.notDeepEqual(await viewer.pane("axial").screenshot(), before);
+  });
+
+  test("every button says what it does, and ? lists mouse and keyboard", async () => {
+    const { page } = viewer;
+    const silent = await page.locator("button").evaluateAll((buttons) => buttons.filter((one) => !(one as HTMLButtonElement).title).length);
+    assert.equal(silent, 0);
+    await page.keyboard.press("?");
+    const sheet = page.locator("[data-test=help-dialog]");
+    await sheet.waitFor();
+    const box = (await sheet.boundingBox())!;
+    assert.ok(box.y >= 0 && box.y + box.height <= 720, "it fits at 1280 x 720");
+    for (const words of ["Shift + move", "copy to the next", "insert a point"]) assert.ok((await sheet.textContent())!.includes(words));
+    await page.keyboard.press("l"); // the sheet has the keyboard
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("[data-test=help-dialog]", { state: "detached" });
+    assert.equal(await page.locator("[data-test=tool-wire]").getAttribute("aria-pressed"), "true");
+  });
+
   test("zoom and shift one slice, or all that are linked", async () => {
     const { page } = viewer;
     const scales = () => Promise.all(["axial", "coronal", "oblique"].map(async (view) => Number(await viewer.pane(view).getAttribute("data-pixels-per-mm"))));
@@ -221,12 +351,9 @@ describe("files", () => {
     await viewer.page.click("[data-test=import-mask]");
     await viewer.page.waitForFunction(() => document.querySelectorAll(".structure").length === 2);
     await viewer.page.waitForFunction(() => document.querySelectorAll(".contour-row").length > 15);
+    await viewer.page.waitForSelector(".panel:not([data-structure='1'])");
     await viewer.surfaceShown();
-    // The figure shown first may still be the preview's.
-    await viewer.page.waitForFunction((want) => {
-      const shown = Number.parseFloat(document.querySelector(".figure strong")!.textContent!);
-      return Math.abs(shown - want) < 0.03 * want;
-    }, drawn);
+    near(await viewer.volume(), drawn, 0.03 * drawn, "volume");
     await viewer.page.keyboard.press("Control+z");
     await viewer.waitForContours(2);
   });

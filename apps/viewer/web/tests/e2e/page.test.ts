@@ -35,6 +35,7 @@ const undoTitle = () => viewer.page.locator("[data-test=undo]").getAttribute("ti
 describe("the page", () => {
   test("shows a hint, four slices and what lies under the pointer", async () => {
     await viewer.closeHint();
+    assert.ok(await viewer.page.locator("[data-test=undo]").isDisabled(), "nothing has been done");
     const inside = await viewer.countPixels("axial", (r, g, b) => r === g && g === b && r > 90);
     assert.ok(inside > 1000, `${inside} bright pixels in the axial slice`);
     await viewer.page.mouse.move(...(await viewer.at("axial", 10, 10)));

@@ -9,7 +9,8 @@ import { chromium, type Browser, type Page } from "playwright-core";
 
 export const KONTUR = process.env["KONTUR_CLI"] ?? "kontur";
 const CHROMIUM = process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium";
-const SOFTWARE_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+/** As Chromium does where there is no graphics processor: WebGL in software, and the page itself without it. */
+const SOFTWARE_WEBGL = ["--enable-unsafe-swiftshader"];
 export const NO_WEBGL = ["--disable-gpu", "--disable-software-rasterizer"];
 /** Long, because other programs may keep the machine busy; every wait is for a state. */
 const PATIENCE_MS = 60_000;

@@ -19,19 +19,22 @@ test("the whole image fits into a view of any shape", () => {
 test("scrolling moves by whole slices and stops at the image's ends", () => {
   const navigation = started();
   navigation.scroll("axial", 3);
-  near(navigation.crosshair, [0, 0, 6]);
+  near(navigation.crosshair, [0, 0, -6]);
   navigation.scroll("axial", 1000);
-  near(navigation.crosshair, [0, 0, 50]);
+  near(navigation.crosshair, [0, 0, -50]);
   assert.deepEqual(navigation.slice("axial"), { number: 51, count: 51 });
   navigation.scroll("axial", -1000);
   assert.deepEqual(navigation.slice("axial"), { number: 1, count: 51 });
+  near(navigation.crosshair, [0, 0, 50]);
+  navigation.scroll("coronal", 1);
+  near(navigation.crosshair, [0, 2, 50]); // away from the viewer, who stands in front
 });
 
 test("scrolling from between two slices arrives on a slice", () => {
   const navigation = started();
-  navigation.setCrosshair([0, 0, 0.9]);
+  navigation.setCrosshair([0, 0, -0.9]);
   navigation.scroll("axial", 1);
-  near(navigation.crosshair, [0, 0, 2]);
+  near(navigation.crosshair, [0, 0, -2]);
 });
 
 test("scrolling an oblique view leaves the crosshair's place within it", () => {
@@ -39,7 +42,7 @@ test("scrolling an oblique view leaves the crosshair's place within it", () => {
   const { u, v } = navigation.cameras.oblique.axes;
   navigation.scroll("oblique", 5);
   near([dot(navigation.crosshair, u), dot(navigation.crosshair, v)], [0, 0]);
-  near([dot(navigation.crosshair, navigation.cameras.oblique.axes.normal)], [10]);
+  near([dot(navigation.crosshair, navigation.direction("oblique"))], [10]);
 });
 
 test("the crosshair cannot leave the image", () => {
@@ -148,9 +151,26 @@ test("a preview keeps the figures of the last refined surface; no surface has no
   const project = new Project();
   project.start(session());
   project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 9, volume_ml: 12 });
+  const heard: string[] = [];
+  for (const topic of ["surfaces", "stages"] as const) project.on([topic], () => heard.push(topic));
+  project.setSurface({ structure: 1, revision: 1, stage: "outdated", triangles: 9 });
+  assert.equal(project.surfaces.get(1)!.volume_ml, 12);
+  assert.deepEqual(heard, ["stages"], "it is the same surface: no slice is asked for");
   project.setSurface({ structure: 1, revision: 2, stage: "preview", triangles: 5 });
+  assert.deepEqual(heard, ["stages", "surfaces"]);
   assert.equal(project.surfaces.get(1)!.volume_ml, 12);
   assert.equal(project.surfaces.get(1)!.stage, "preview");
   project.setSurface({ structure: 1, revision: 3, stage: "none", triangles: 0 });
   assert.equal(project.surfaces.get(1)!.volume_ml, undefined);
+});
+
+test("the active structure is that of the selected contour, wherever it goes", () => {
+  const project = new Project();
+  project.start(session({ structures: [1, 2].map((id) => ({ id, name: `S${id}`, color: "#e8b04a", visible: true })), contours: [square(5)] }));
+  project.select({ contour: 5, point: null });
+  project.apply({ event: "changed", contours: { set: [square(5, { structure: 2 })] }, history });
+  assert.equal(project.activeStructure?.id, 2);
+  project.activate(1);
+  project.apply({ event: "changed", contours: { set: [square(5, { structure: 2, hole: true })] }, history });
+  assert.equal(project.activeStructure?.id, 1, "chosen by the user meanwhile");
 });

@@ -220,6 +220,23 @@ test("dragging the coronal plane's line moves the crosshair across it only", () 
   near(navigation.crosshair, [0, 20, 0], 1e-9);
 });
 
+test("dragging the line of a tilted plane follows the pointer, and leaves the slice that is seen", () => {
+  const { navigation, drag } = editing("edit", []);
+  navigation.rotate("coronal", "sagittal", 0.4);
+  drag([100, 200], [100, 240]);
+  near(navigation.crosshair, [0, 20, 0], 1e-9);
+});
+
+test("the next slice lies onward, whichever way the contour looks", async () => {
+  for (const [normal, offset_mm] of [[[0, 0, 1], -2], [[0, 0, -1], 2]] as const) {
+    const drawn = square(5);
+    const { editor, project, edits } = editing("edit", [{ ...drawn, plane: { ...drawn.plane, normal } }]);
+    project.select({ contour: 5, point: null });
+    void editor.copySelected("axial", 1);
+    assert.deepEqual(edits().map(({ name, args }) => [name, args["offset_mm"]]), [["contour.copy", offset_mm]]);
+  }
+});
+
 test("a click on a plane's line moves the crosshair there", () => {
   const { navigation, drag } = editing("edit", []);
   drag([100, 200], [101, 200]);

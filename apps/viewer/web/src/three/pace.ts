@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+
+export interface PaceServices {
+  /** Draws; settles when the frame is finished. */
+  render(fine: boolean): Promise<void>;
+  /** Whether a hand is at work: a fine frame then waits. */
+  isHeld(): boolean;
+  later(act: () => void, ms: number): void;
+  now(): number;
+}
+
+const SLOW_MS = 25; // a fine frame that takes longer makes other work wait
+const REST_MS = 250;
+
+/**
+ * Decides when the 3D view is drawn: when something has changed, one frame at a time. Where a fine frame takes long, as
+ * without a graphics processor, it comes when all has been at rest for a while, and what cannot wait for it is drawn roughly.
+ */
+export class Pace {
+  private waiting: "nothing" | "rest" | "frame" = "nothing";
+  private isDrawing = false;
+  private fineMs = 0;
+  private restsFrom = 0;
+  private isTimed = false;
+
+  constructor(private readonly services: PaceServices) {}
+
+  get isSlow(): boolean {
+    return this.fineMs > SLOW_MS;
+  }
+
+  /** Something looks different; `canWait` where slices matter more to the user than this view. */
+  changed(canWait = false): void {
+    this.restsFrom = this.services.now() + REST_MS;
+    if (!canWait || !this.isSlow) this.waiting = "frame";
+    else if (this.waiting === "nothing") this.waiting = "rest";
+    this.go();
+  }
+
+  private go(): void {
+    if (this.isDrawing) return;
+    if (this.waiting === "frame") void this.draw(!this.isSlow);
+    else if (this.waiting === "rest") this.waitForRest();
+  }
+
+  private waitForRest(): void {
+    if (this.isTimed) return;
+    this.isTimed = true;
+    this.services.later(() => {
+      this.isTimed = false;
+      if (this.isDrawing || this.waiting !== "rest") return;
+      if (this.services.isHeld() || this.services.now() < this.restsFrom) return this.waitForRest();
+      void this.draw(true);
+    }, REST_MS);
+  }
+
+  private async draw(fine: boolean): Promise<void> {
+    this.isDrawing = true;
+    this.waiting = fine ? "nothing" : "rest";
+    const start = this.services.now();
+    await this.services.render(fine);
+    if (fine) this.fineMs = this.services.now() - start;
+    this.isDrawing = false;
+    this.go();
+  }
+}

@@ -26,15 +26,15 @@ std::vector<py::ssize_t> leading_shape(const py::array& points) {
 std::string filled_in(std::string help, const std::string& options) {
     const std::pair<std::string_view, std::string_view> marks[] = {
         {"@options\n", options},
-        {"@progress\n", "progress, stop : optional\n    As for `segment`.\n"},
-        {"@on_note\n",
-         "on_note : callable, optional\n    Called with each sentence on what the reader decided for you; when left out "
-         "they are "
-         "warnings of the\n    logger 'kontur'.\n"},
-        {"@provenance\n",
-         "provenance : dict of str to str, optional\n    How it was made, for the file's text, such as what `provenance` "
-         "gives; in "
-         "DICOM the description of\n    kontur's contribution.\n"},
+        {"@progress\n", R"(progress, stop : optional
+    As for `segment`.
+)"},
+        {"@on_note\n", R"(on_note : callable, optional
+    Called with each sentence on what the reader decided for you; when left out they are warnings of the logger 'kontur'.
+)"},
+        {"@provenance\n", R"(provenance : dict of str to str, optional
+    How it was made, for the file's text, such as what `provenance` gives; in DICOM the description of kontur's contribution.
+)"},
     };
     for (const auto& [mark, text] : marks)
         if (const std::size_t at = help.find(mark); at != std::string::npos) help.replace(at, mark.size(), text);

@@ -100,9 +100,8 @@ inline void append(std::string& text, const KeywordText& keywords) { text += key
 template <class Other>
 void append(std::string&, const Other&) {}
 
-/// `help` with the keywords' part in place of its line "@options", and with what many functions say of "@progress" (and
-/// stop),
-/// "@on_note" and "@provenance".
+/// `help` with the keywords' part in place of its line "@options", and what many functions say in place of the lines
+/// "@progress", "@on_note" and "@provenance".
 std::string filled_in(std::string help, const std::string& options);
 
 template <class... Extra>

@@ -178,9 +178,8 @@ Contour
            py::arg("contour"), py::arg("least_segments") = 0);
     define(m, "find_caps", "Limits to extrapolation beyond the last contours: list of Cap.", &find_caps,
            py::arg("contours"));
-    define(
-        m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.",
-        [](const ContourSet& set) { return find_leak_probes(set); }, py::arg("contours"));
+    define(m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.", [](const ContourSet& set) { return find_leak_probes(set); },
+           py::arg("contours"));
 
     const auto preparing = prepare_keywords();
     define(

@@ -44,8 +44,7 @@ color : (int, int, int), optional
     segment.def_readonly("voxels", &DicomSegment::voxels, "int: set by reading.");
     segment.def_readonly("shared_voxels", &DicomSegment::shared_voxels,
                          "int: those of them that lie in other segments, too; set by reading.");
-    segment.def("__repr__",
-                [](const DicomSegment& s) { return py::str("<DicomSegment {}: {!r}>").format(s.number, s.label); });
+    segment.def("__repr__", [](const DicomSegment& s) { return py::str("<DicomSegment {}: {!r}>").format(s.number, s.label); });
 
     py::class_<DicomSegmentation> segmentation(m, "DicomSegmentation", "What a DICOM segmentation says about itself.");
     segmentation.def_readonly("grid", &DicomSegmentation::grid, "Grid: from the first to the last stored slice.");
@@ -125,12 +124,13 @@ list of Mask
     const auto algorithm = [](auto member) {
         return [member](WriteDicomSegOptions & options) -> auto& { return options.algorithm.*member; };
     };
-    const auto keywords = Keywords<WriteDicomSegOptions>()
-                              .field("series_description", &WriteDicomSegOptions::series_description, "")
-                              .field("algorithm_name", algorithm(&DicomAlgorithm::name),
-                                     "How the segments were made, for those who audit them; empty: nothing is said.")
-                              .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
-                              .field("algorithm_parameters", algorithm(&DicomAlgorithm::parameters), "Free text.");
+    const auto keywords =
+        Keywords<WriteDicomSegOptions>()
+            .field("series_description", &WriteDicomSegOptions::series_description, "")
+            .field("algorithm_name", algorithm(&DicomAlgorithm::name),
+                   "How the segments were made, for those who audit them; empty: nothing is said.")
+            .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
+            .field("algorithm_parameters", algorithm(&DicomAlgorithm::parameters), "Free text.");
     define(
         m, "write_dicom_seg", R"(Writes a binary DICOM segmentation that refers to the images it was made on.
 

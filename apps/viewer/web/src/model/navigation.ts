@@ -92,6 +92,11 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     return { from, to, at: dot(sub(this.crosshair, origin), direction) };
   }
 
+  /** The view that looks along this normal, or against it, when it is not turned. */
+  unturnedViewAlong(normal: Vec3): ViewName | null {
+    return VIEW_NAMES.find((view) => Math.abs(dot(this.views[view].plane.normal, normal)) > 0.9999) ?? null;
+  }
+
   isTurned(view: ViewName): boolean {
     return dot(this.cameras[view].axes.normal, this.views[view].plane.normal) < 1 - 1e-9;
   }

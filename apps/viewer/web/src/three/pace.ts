@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 export interface PaceServices {
-  /** Draws; settles when the frame is finished. */
-  render(fine: boolean): Promise<void>;
+  /** Settles when the browser wants the next frame. */
+  frame(): Promise<void>;
+  /** Draws; settles when the frame is finished, and says whether there was anything to draw on. */
+  render(fine: boolean): Promise<boolean>;
   /** Whether a hand is at work: a fine frame then waits. */
   isHeld(): boolean;
   later(act: () => void, ms: number): void;
@@ -56,11 +58,15 @@ export class Pace {
 
   private async draw(fine: boolean): Promise<void> {
     this.isDrawing = true;
-    this.waiting = fine ? "nothing" : "rest";
-    const start = this.services.now();
-    await this.services.render(fine);
-    if (fine) this.fineMs = this.services.now() - start;
-    this.isDrawing = false;
+    try {
+      await this.services.frame();
+      this.waiting = fine ? "nothing" : "rest";
+      const start = this.services.now();
+      const isDrawn = await this.services.render(fine);
+      if (fine && isDrawn) this.fineMs = this.services.now() - start;
+    } finally {
+      this.isDrawing = false;
+    }
     this.go();
   }
 }

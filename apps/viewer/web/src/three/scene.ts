@@ -54,9 +54,10 @@ export class Scene {
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
     let isHeld = false;
-    window.addEventListener("pointerdown", () => (isHeld = true), { capture: true });
-    for (const type of ["pointerup", "pointercancel"]) window.addEventListener(type, () => (isHeld = false), { capture: true });
+    for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel"] as const)
+      window.addEventListener(type, (event) => (isHeld = event.buttons !== 0), { capture: true });
     this.pace = new Pace({
+      frame: () => new Promise((resolve) => requestAnimationFrame(() => resolve())),
       render: (fine) => this.render(fine),
       isHeld: () => isHeld,
       later: (act, ms) => window.setTimeout(act, ms),
@@ -235,9 +236,8 @@ export class Scene {
     this.camera.updateProjectionMatrix();
   }
 
-  private async render(fine: boolean): Promise<void> {
-    await new Promise((resolve) => requestAnimationFrame(resolve));
-    if (this.canvas.clientWidth === 0) return; // another view is shown alone; resize() draws when this one comes back
+  private async render(fine: boolean): Promise<boolean> {
+    if (this.canvas.clientWidth === 0) return false; // another view is shown alone; resize() draws when this one comes back
     for (const shown of this.surfaces.values()) shown.mesh.geometry = fine ? shown.fine : (shown.coarse ??= coarse(shown.fine));
     this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
     this.light.target.position.copy(this.controls.target);
@@ -247,6 +247,7 @@ export class Scene {
     this.renderer.render(this.scene, this.camera);
     await this.finished();
     drawn();
+    return true;
   }
 
   /** Settles when the graphics processor, or what stands in for it, has drawn all that it was told. */

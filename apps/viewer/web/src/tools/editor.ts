@@ -352,6 +352,8 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     this.leftSketch = null;
     try {
       const structure = this.project.structures.has(sketch.structure) ? sketch.structure : await this.addStructure();
+      // Those placed a moment ago may not lie on the edge yet; those that do stay there.
+      if (sketch.points.some((point) => point.kind === "wire")) sketch.adopt((await this.path(sketch, sketch.points)).control);
       const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
       const { contour } = await this.services.call<{ contour: Contour }>("contour.add", { structure, plane, control: sketch.points });
       if (!this.sketch) this.project.select({ contour: contour.id, point: null });

@@ -133,12 +133,11 @@ export class Panel {
   /** The view whose unturned planes the contour is parallel to, and where along them it lies. */
   private planeOf(contour: Contour): { name: ViewName | null; position: string } {
     const { normal, origin } = contour.plane;
+    const name = this.services.navigation.unturnedViewAlong(normal);
     const axis = [0, 1, 2].find((i) => Math.abs(normal[i]!) > 0.9999);
-    const name = axis === undefined ? null : (["sagittal", "coronal", "axial"] as const)[axis]!;
-    const along = axis === undefined ? dot(origin, normal) : origin[axis]!;
-    const letter = axis === undefined ? "" : (["RL", "AP", "IS"] as const)[axis]![along >= 0 ? 1 : 0]!;
-    const mm = axis === undefined ? along.toFixed(1) : Math.abs(along).toFixed(1);
-    return { name, position: `${letter} ${mm}`.trim() };
+    if (axis === undefined) return { name, position: dot(origin, normal).toFixed(1) };
+    const letter = (["RL", "AP", "IS"] as const)[axis]![origin[axis]! >= 0 ? 1 : 0]!;
+    return { name, position: `${letter} ${Math.abs(origin[axis]!).toFixed(1)}` };
   }
 
   private updateActions(): void {

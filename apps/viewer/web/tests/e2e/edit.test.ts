@@ -217,9 +217,8 @@ describe("live-wire", () => {
       await page.keyboard.press("Enter");
       await viewer.waitForContours(1);
       const distances = (await points()).map((p) => Math.hypot(...p));
-      const voxel_mm = 4;
-      near(Math.max(...distances), BALL_RADIUS_MM, voxel_mm, "the farthest point");
-      near(Math.min(...distances), BALL_RADIUS_MM, voxel_mm, "the nearest point");
+      near(Math.max(...distances), BALL_RADIUS_MM, 1.5, "the farthest point");
+      near(Math.min(...distances), BALL_RADIUS_MM, 1.5, "the nearest point");
     });
 });
 

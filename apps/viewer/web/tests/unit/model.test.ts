@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { toScreen, toWorld } from "../../src/geometry/screen";
 import { dot } from "../../src/geometry/vec";
 import { Project } from "../../src/model/project";
-import { near, session, square, started } from "./support";
+import { near, session, SKEW, square, started } from "./support";
 
 const history = { undo: null, redo: null };
 
@@ -91,6 +91,15 @@ test("going to a point moves views that are zoomed in elsewhere, and only those"
   navigation.goTo([60, 0, 4], { axial: navigation.screen("axial", 300, 300), coronal: navigation.screen("coronal", 300, 300) });
   near(toScreen(navigation.screen("axial", 300, 300), [60, 0, 4]), [150, 150], 1e-6);
   assert.equal(navigation.cameras.coronal, before);
+});
+
+test("a contour drawn on a tilted image's axial slices belongs to the axial view", () => {
+  const navigation = started();
+  assert.equal(navigation.unturnedViewAlong([0, 0, -1]), "axial");
+  assert.equal(navigation.unturnedViewAlong(SKEW.normal), "oblique");
+  navigation.rotate("axial", "sagittal", 0.3);
+  assert.equal(navigation.unturnedViewAlong(navigation.cameras.axial.axes.normal), null);
+  assert.equal(navigation.unturnedViewAlong([0, 0, 1]), "axial");
 });
 
 test("what is saved brings every view back", () => {

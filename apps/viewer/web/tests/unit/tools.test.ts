@@ -96,7 +96,7 @@ interface Call {
 }
 
 /** An editor whose server answers every call with what it was told. */
-function editing(tool: ToolName, contours = [square(5)]) {
+function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 => p) {
   const calls: Call[] = [];
   const project = new Project();
   project.start(session({ contours }));
@@ -104,7 +104,7 @@ function editing(tool: ToolName, contours = [square(5)]) {
   const editor = new Editor(navigation, project, {
     call: (name, args = {}) => {
       calls.push({ name, args });
-      const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, index }));
+      const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));
       return Promise.resolve({ control, points: control.map((point) => point.at), contour: square(9) } as never);
     },
     screenOf: () => screen,
@@ -146,6 +146,15 @@ test("clicks place points of the tool's kind, and a click on the first point clo
   assert.equal(editor.sketch, null);
   const control = edits()[0]!.args["control"] as SketchPoint[];
   assert.deepEqual(control.map((point) => point.kind), ["wire", "wire", "wire"]);
+});
+
+test("points on an edge lie there, however fast the contour is closed", async () => {
+  const { editor, drag, edits, settled } = editing("wire", [], ([x, y, z]) => [5 * Math.round(x / 5), 5 * Math.round(y / 5), z]);
+  for (const p of [[103, 98], [304, 102], [297, 303]] as Point2[]) drag(p);
+  editor.close();
+  await settled();
+  const control = edits()[0]!.args["control"] as SketchPoint[];
+  assert.deepEqual(control.map((point) => point.at), [[-50, -50, 0], [50, -50, 0], [50, 50, 0]]);
 });
 
 test("a hand-drawn stretch in between keeps the contour open, and a second tool continues it", async () => {

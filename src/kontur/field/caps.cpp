@@ -40,9 +40,11 @@ public:
         append_rounded_end(inside, caps);
     }
 
-    /// How far the object may go on beyond the section; 0 where other contours tell.
+    /// Whether no other contour says how the object goes on.
+    bool is_last() const { return !leads_on_ && !next_; }
+
+    /// How far the object may go on beyond a last section.
     double height(const std::vector<Probe>& inside) const {
-        if (leads_on_ || next_) return 0;
         const double deepest = deepest_of(inside);
         const double widest = std::isinf(previous_distance_) ? deepest : 1.5 * deepest;
         return std::max(std::min(previous_distance_, widest), 1.25 * reach_);
@@ -161,6 +163,20 @@ void append_leak_probes(const Section& section, const Ball3& ball, double step, 
     for (const std::vector<Cap>& row : rows) probes.insert(probes.end(), row.begin(), row.end());
 }
 
+/// Beside the cap of a last section at the cap's height, and over it at twice the height: its dome can be pierced between
+/// its points.
+void append_end_probes(const Section& section, double sign, const Side& side, const Ball3& ball, double step, int threads,
+                       std::vector<Cap>& caps) {
+    const std::vector<Probe> inside = probes(section);
+    if (inside.empty()) return;
+    const double height = side.height(inside);
+    Section end = section;
+    end.plane.origin += sign * height * section.plane.normal;
+    append_leak_probes(end, ball, step, threads, caps);
+    end.plane.origin += sign * height * section.plane.normal;
+    for (const Probe& probe : inside) caps.push_back({end.plane.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
+}
+
 }  // namespace
 
 std::vector<Cap> find_caps(const ContourSet& set) {
@@ -187,20 +203,10 @@ std::vector<Cap> find_leak_probes(const ContourSet& set, int threads) {
     for (const Section& section : sections) {
         if (!has_open_contour(set, section.plane, tolerance) && !is_incomplete(section, sections, 0.075 * diameter))
             append_leak_probes(section, reached, diameter / 16, threads, probes);
-        // What goes on beyond the last plane ends at its cap, and beside it there is nothing.
-        const std::vector<Probe> inside = kontur::probes(section);
         for (const double sign : {-1.0, 1.0}) {
             Side side(sections, section, sign, tolerance);
             side.consider_rest(set);
-            const double height = side.height(inside);
-            if (height == 0) continue;
-            Section end = section;
-            end.plane.origin += sign * height * section.plane.normal;
-            append_leak_probes(end, reached, diameter / 16, threads, probes);
-            // The cap's dome can be pierced between its points: over it, too, nothing is left.
-            end.plane.origin += sign * height * section.plane.normal;
-            for (const Probe& probe : inside)
-                probes.push_back({end.plane.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
+            if (side.is_last()) append_end_probes(section, sign, side, reached, diameter / 16, threads, probes);
         }
     }
     return probes;

@@ -98,6 +98,9 @@ private:
     int* count_;
 };
 
+// What holds a socket or connection on a pool's thread hands it back to `io` by moving it: whoever lets go last destroys it,
+// and that changes what only the thread of `io` may touch.
+
 /// One open page: messages in, one at a time, and replies and events out.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
 public:
@@ -127,9 +130,10 @@ public:
 private:
     void greet() {
         core_.sockets.insert(this);
-        asio::post(core_.calls, [self = shared_from_this()] {
-            auto greeting = std::make_shared<const std::string>(self->core_.session.greeting());
-            asio::post(self->core_.io, [self, greeting] {
+        asio::post(core_.calls, [self = shared_from_this()]() mutable {
+            ServerCore& core = self->core_;
+            auto greeting = std::make_shared<const std::string>(core.session.greeting());
+            asio::post(core.io, [self = std::move(self), greeting] {
                 self->is_greeted_ = true;
                 self->send(greeting);
                 for (const auto& message : self->held_back_) self->send(message);
@@ -151,9 +155,10 @@ private:
     /// The next message is read only when this one is answered, so a flood waits in the sender's socket.
     void take() {
         if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
-        asio::post(core_.calls, [self = shared_from_this(), message = beast::buffers_to_string(buffer_.data())] {
-            auto reply = std::make_shared<const std::string>(self->core_.session.call(message));
-            asio::post(self->core_.io, [self, reply] {
+        asio::post(core_.calls, [self = shared_from_this(), message = beast::buffers_to_string(buffer_.data())]() mutable {
+            ServerCore& core = self->core_;
+            auto reply = std::make_shared<const std::string>(core.session.call(message));
+            asio::post(core.io, [self = std::move(self), reply] {
                 self->send(reply);
                 self->read();
             });
@@ -296,9 +301,10 @@ private:
         stop_ = std::stop_source();
         watch();
         asio::post(core_.work, [self = shared_from_this(), make = std::move(make), stop = stop_]() mutable {
-            const std::stop_callback end(self->core_.ending.get_token(), [&] { stop.request_stop(); });
+            ServerCore& core = self->core_;
+            const std::stop_callback end(core.ending.get_token(), [&] { stop.request_stop(); });
             auto reply = std::make_shared<HttpReply>(make(stop.get_token()));
-            asio::post(self->core_.io, [self, reply] {
+            asio::post(core.io, [self = std::move(self), reply] {
                 beast::error_code ignored;
                 self->stream_.socket().cancel(ignored);  // the watch
                 self->reply(std::move(*reply));

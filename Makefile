@@ -36,18 +36,20 @@ tsan: setup ## run every test under ThreadSanitizer
 	@cmake --build --preset tsan -j $(JOBS)
 	@ctest --preset tsan -j $(JOBS)
 
-fuzzer: setup
+fuzzer:
+	@tools/setup clang
 	@cmake --preset fuzz >/dev/null
 	@cmake --build --preset fuzz -j $(JOBS) --target kontur_fuzz
 
-torture-short: fuzzer ## fuzz every parser and the pipeline for 30 s each (needs clang)
+torture-short: fuzzer ## fuzz every parser and the pipeline for 30 s each (installs clang)
 	@tools/torture 30
 
 torture: build fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads
 	@KONTUR_MALFORMED_ALL=1 KONTUR_BIG=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 ctest --preset release -R '^(malformed|determinism|big)\.'
 	@tools/torture 3600
 
-tidy: setup ## clang-tidy over the library and the programs (needs clang-tidy)
+tidy: ## clang-tidy over the library and the programs (installs clang-tidy)
+	@tools/setup clang-tidy
 	@cmake --preset dev >/dev/null
 	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -n 1 -P $(JOBS) clang-tidy -p build/dev --quiet
 

@@ -44,7 +44,8 @@ color : (int, int, int), optional
     segment.def_readonly("voxels", &DicomSegment::voxels, "int: set by reading.");
     segment.def_readonly("shared_voxels", &DicomSegment::shared_voxels,
                          "int: those of them that lie in other segments, too; set by reading.");
-    segment.def("__repr__", [](const DicomSegment& s) { return py::str("<DicomSegment {}: {!r}>").format(s.number, s.label); });
+    segment.def("__repr__",
+                [](const DicomSegment& s) { return py::str("<DicomSegment {}: {!r}>").format(s.number, s.label); });
 
     py::class_<DicomSegmentation> segmentation(m, "DicomSegmentation", "What a DICOM segmentation says about itself.");
     segmentation.def_readonly("grid", &DicomSegmentation::grid, "Grid: from the first to the last stored slice.");
@@ -124,13 +125,17 @@ list of Mask
     const auto algorithm = [](auto member) {
         return [member](WriteDicomSegOptions & options) -> auto& { return options.algorithm.*member; };
     };
-    const auto keywords =
-        Keywords<WriteDicomSegOptions>()
-            .field("series_description", &WriteDicomSegOptions::series_description, "")
-            .field("algorithm_name", algorithm(&DicomAlgorithm::name),
-                   "How the segments were made, for those who audit them; empty: nothing is said.")
-            .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
-            .field("algorithm_parameters", algorithm(&DicomAlgorithm::parameters), "Free text.");
+    const auto keywords = Keywords<WriteDicomSegOptions>()
+                              .field("series_description", &WriteDicomSegOptions::series_description, "")
+                              .field("algorithm_name", algorithm(&DicomAlgorithm::name),
+                                     "How the segments were made, for those who audit them; empty: nothing is said.")
+                              .field("algorithm_version", algorithm(&DicomAlgorithm::version), "")
+                              .field("algorithm_parameters", algorithm(&DicomAlgorithm::parameters), "Free text.");
+    const auto options_of = [keywords](const char* function, const py::kwargs& given, const py::object& provenance) {
+        WriteDicomSegOptions options = keywords.parse(function, given);
+        options.provenance = provenance_from(provenance);
+        return options;
+    };
     define(
         m, "write_dicom_seg", R"(Writes a binary DICOM segmentation that refers to the images it was made on.
 
@@ -147,11 +152,10 @@ images : DicomSeries
 @provenance
 @options
 )",
-        [keywords](const fs::path& path, const py::object& labels, const std::vector<DicomSegment>& segments,
-                   const DicomSeries& images, const py::object& progress, const py::object& stop,
-                   const py::object& provenance, const py::kwargs& given) {
-            WriteDicomSegOptions options = keywords.parse("write_dicom_seg", given);
-            options.provenance = provenance_from(provenance);
+        [options_of](const fs::path& path, const py::object& labels, const std::vector<DicomSegment>& segments,
+                     const DicomSeries& images, const py::object& progress, const py::object& stop,
+                     const py::object& provenance, const py::kwargs& given) {
+            const WriteDicomSegOptions options = options_of("write_dicom_seg", given, provenance);
             const Image volume = labels_from(labels);
             run_work({progress, stop},
                      [&](const Progress& p) { write_dicom_seg(path, volume, segments, images, options, p); });
@@ -174,11 +178,10 @@ images : DicomSeries
 @provenance
 @options
 )",
-        [keywords](const fs::path& path, const std::vector<Mask>& masks, const std::vector<DicomSegment>& segments,
-                   const DicomSeries& images, const py::object& progress, const py::object& stop,
-                   const py::object& provenance, const py::kwargs& given) {
-            WriteDicomSegOptions options = keywords.parse("write_dicom_seg_masks", given);
-            options.provenance = provenance_from(provenance);
+        [options_of](const fs::path& path, const std::vector<Mask>& masks, const std::vector<DicomSegment>& segments,
+                     const DicomSeries& images, const py::object& progress, const py::object& stop,
+                     const py::object& provenance, const py::kwargs& given) {
+            const WriteDicomSegOptions options = options_of("write_dicom_seg_masks", given, provenance);
             run_work({progress, stop},
                      [&](const Progress& p) { write_dicom_seg_masks(path, masks, segments, images, options, p); });
         },

@@ -54,10 +54,11 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
 }  // namespace
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
-    const FitOptions fit = fit_options(options, diameter_mm(contours));
+    const double diameter = diameter_mm(contours);
+    const FitOptions fit = fit_options(options, diameter);
     const ReconcileOptions reconcile{
         .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
-        .offset_mm = kOffsetFraction * diameter_mm(contours)};
+        .offset_mm = kOffsetFraction * diameter};
     return {prepare_options(options, fit), reconcile, fit};
 }
 

@@ -73,7 +73,7 @@ private:
 
     std::vector<Plane> random_planes(Drawing& drawing) {
         std::vector<Plane> planes;
-        switch (below(4)) {
+        switch (below(6)) {
             case 0: {  // parallel
                 const Vec3 normal = direction();
                 const int count = 5 + below(5);
@@ -99,6 +99,26 @@ private:
                 drawing.what += ", oblique planes";
                 drawing.least = 0.5;
                 break;
+            case 3: {  // two or three parallel ones, or a sweep by hand, each tilted a little against the others
+                const Vec3 normal = direction();
+                const double tilt = below(2) * between(0, 0.4);
+                const int count = tilt > 0 ? 3 + below(6) : 2 + below(2);
+                for (int i = 0; i < count; ++i)
+                    planes.push_back(make_plane((i + 0.5 - count / 2.0) * (36.0 / count) * normal,
+                                                normalized(normal + tilt * between(0, 1) * direction())));
+                drawing.what += ", " + std::to_string(count) + " planes tilted by up to " + std::to_string(tilt);
+                drawing.least = 0.2;
+                drawing.most = 2;
+                break;
+            }
+            case 4: {  // two that cross at a small angle
+                const Vec3 normal = direction();
+                planes = {make_plane({}, normal), make_plane({}, normalized(normal + between(0.05, 0.8) * direction()))};
+                drawing.what += ", two planes that cross";
+                drawing.least = 0.02;
+                drawing.most = 8;
+                break;
+            }
             default:  // a single one, or two that cross
                 for (int i = 0; i < 1 + below(2); ++i) planes.push_back(make_plane({}, direction()));
                 drawing.what += ", " + std::to_string(planes.size()) + " plane(s)";

@@ -13,77 +13,82 @@
 namespace kontur {
 namespace {
 
-constexpr double kParallel = 0.995;  // cosine between normals: planes tilted by less than 6 degrees count as parallel
+// Cosines between normals: planes tilted by less than 6 degrees count as parallel, by less than 37 degrees as slanted. A slanted
+// contour that crosses a plane leads on beyond it, but not in its normal's direction.
+constexpr double kParallel = 0.995, kSlanted = 0.8;
 
-/// One side of a section's plane.
+/// One side of a section's plane, and what the contour set tells about it.
 class Side {
 public:
-    Side(const std::vector<Section>& sections, const Section& section, double sign, double tolerance)
-        : section_(section), sign_(sign), tolerance_(tolerance) {
+    Side(const ContourSet& set, const std::vector<Section>& sections, const Section& section,
+         const std::vector<Probe>& inside, double sign, double tolerance)
+        : section_(section), inside_(inside), sign_(sign), tolerance_(tolerance) {
+        for (const Probe& probe : inside) deepest_ = std::max(deepest_, probe.depth);
         for (const Section& other : sections)
-            if (&other != &section_) consider(other);
-    }
-
-    /// What else was drawn on this side: open contours lead on, single points say how far the object reaches at least.
-    void consider_rest(const ContourSet& set) {
-        const auto ahead = [&](const Vec3& p) { return sign_ * section_.plane.distance_to(p); };
+            if (&other != &section) consider(other);
         for (const Contour& contour : set.contours)
             if (!contour.closed)
                 for (const Vec3& p : contour.points) leads_on_ = leads_on_ || ahead(p) > tolerance_;
-        for (const SurfacePoint& p : set.surface) reach_ = std::max(reach_, ahead(p.position));
-        for (const Vec3& p : set.interior) reach_ = std::max(reach_, ahead(p));
+        for (const SurfacePoint& p : set.surface) single_reach_ = std::max(single_reach_, ahead(p.position));
+        for (const Vec3& p : set.interior) single_reach_ = std::max(single_reach_, ahead(p));
+        leads_on_ = leads_on_ || slanted_reach_ > deepest_;
     }
 
-    void append_caps(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
+    void append_caps(std::vector<Cap>& caps) const {
         if (leads_on_) return;
-        if (next_) return append_towards_next(inside, caps);
-        append_rounded_end(inside, caps);
+        if (next_) return append_towards_next(caps);
+        if (slanted_reach_ < tolerance_) append_rounded_end(caps);
     }
 
     /// Whether no other contour says how the object goes on.
-    bool is_last() const { return !leads_on_ && !next_; }
+    bool is_last() const { return !leads_on_ && !next_ && deepest_ > 0; }
 
     /// How far the object may go on beyond a last section.
-    double height(const std::vector<Probe>& inside) const {
-        const double deepest = deepest_of(inside);
-        const double widest = std::isinf(previous_distance_) ? deepest : 1.5 * deepest;
-        return std::max(std::min(previous_distance_, widest), 1.25 * reach_);
+    double height() const {
+        const double widest = std::isinf(previous_distance_) ? deepest_ : 1.5 * deepest_;
+        return std::max(std::min(previous_distance_, widest), 1.25 * std::max(single_reach_, slanted_reach_));
+    }
+
+    /// The plane at this distance, with the section's outlines.
+    Section shifted(double distance) const {
+        Section result = section_;
+        result.plane.origin += sign_ * distance * section_.plane.normal;
+        return result;
     }
 
 private:
+    double ahead(const Vec3& p) const { return sign_ * section_.plane.distance_to(p); }
+
     void consider(const Section& other) {
-        const double ahead = sign_ * section_.plane.distance_to(other.plane.origin);
-        if (std::abs(dot(section_.plane.normal, other.plane.normal)) < kParallel) {
-            leads_on_ = leads_on_ || reaches_beyond(other);
-        } else if (ahead > tolerance_) {
-            if (!next_ || ahead < next_distance_) {
+        const double cosine = std::abs(dot(section_.plane.normal, other.plane.normal));
+        const double distance = ahead(other.plane.origin);
+        if (cosine < kSlanted) {
+            leads_on_ = leads_on_ || reach_of(other) > tolerance_;
+        } else if (cosine < kParallel) {
+            slanted_reach_ = std::max(slanted_reach_, reach_of(other));
+        } else if (distance > tolerance_) {
+            if (!next_ || distance < next_distance_) {
                 next_ = &other;
-                next_distance_ = ahead;
+                next_distance_ = distance;
             }
-        } else if (ahead < -tolerance_) {
-            previous_distance_ = std::min(previous_distance_, -ahead);
+        } else if (distance < -tolerance_) {
+            previous_distance_ = std::min(previous_distance_, -distance);
         }
     }
 
-    bool reaches_beyond(const Section& other) const {
+    double reach_of(const Section& other) const {
+        double reach = 0;
         for (const Polygon2& outline : other.outlines)
-            for (const Point2& p : outline)
-                if (sign_ * section_.plane.distance_to(other.plane.from_uv(p[0], p[1])) > tolerance_) return true;
-        return false;
-    }
-
-    static double deepest_of(const std::vector<Probe>& inside) {
-        double deepest = 0;
-        for (const Probe& probe : inside) deepest = std::max(deepest, probe.depth);
-        return deepest;
+            for (const Point2& p : outline) reach = std::max(reach, ahead(other.plane.from_uv(p[0], p[1])));
+        return reach;
     }
 
     Vec3 above(const Point2& p, double height) const {
         return section_.plane.from_uv(p[0], p[1]) + sign_ * height * section_.plane.normal;
     }
 
-    void append_towards_next(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
-        for (const Probe& probe : inside) {
+    void append_towards_next(std::vector<Cap>& caps) const {
+        for (const Probe& probe : inside_) {
             const Vec3 there = above(probe.at, next_distance_);
             const Point2 at = next_->plane.to_uv(there);
             if (next_->contains(at)) continue;
@@ -93,11 +98,11 @@ private:
         }
     }
 
-    void append_rounded_end(const std::vector<Probe>& inside, std::vector<Cap>& caps) const {
-        const double deepest = deepest_of(inside), height = this->height(inside);
-        if (deepest == 0) return;
-        for (const Probe& probe : inside) {
-            const double rim = 1 - probe.depth / deepest;
+    void append_rounded_end(std::vector<Cap>& caps) const {
+        if (deepest_ == 0) return;
+        const double height = this->height();
+        for (const Probe& probe : inside_) {
+            const double rim = 1 - probe.depth / deepest_;
             caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});
         }
         // The outline itself must not be carried on, neither straight nor flaring.
@@ -109,16 +114,20 @@ private:
     }
 
     const Section& section_;
+    const std::vector<Probe>& inside_;
     double sign_, tolerance_;
+    double deepest_ = 0;  ///< radius of the largest circle in the section, about
     bool leads_on_ = false;
+    double slanted_reach_ = 0;
     const Section* next_ = nullptr;
     double next_distance_ = 0;
     double previous_distance_ = std::numeric_limits<double>::infinity();
-    double reach_ = 0;
+    double single_reach_ = 0;  ///< of single points
 };
 
-/// Whether contours of other planes cross this one farther than `tolerance` outside of its own contours.
-bool is_incomplete(const Section& section, const std::vector<Section>& sections, double tolerance) {
+/// How far outside of its own contours those of other planes cross this one: so far it may have been drawn incompletely.
+double missing_reach(const Section& section, const std::vector<Section>& sections) {
+    double reach = 0;
     for (const Section& other : sections) {
         if (&other == &section) continue;
         for (const Polygon2& outline : other.outlines)
@@ -128,10 +137,10 @@ bool is_incomplete(const Section& section, const std::vector<Section>& sections,
                 const double da = section.plane.distance_to(a), db = section.plane.distance_to(b);
                 if ((da > 0) == (db > 0)) continue;
                 const Point2 crossing = section.plane.to_uv(a + (da / (da - db)) * (b - a));
-                if (!section.contains(crossing) && section.clearance(crossing) > tolerance) return true;
+                if (!section.contains(crossing)) reach = std::max(reach, section.clearance(crossing));
             }
     }
-    return false;
+    return reach;
 }
 
 bool has_open_contour(const ContourSet& set, const Plane& plane, double tolerance) {
@@ -142,7 +151,9 @@ bool has_open_contour(const ContourSet& set, const Plane& plane, double toleranc
 // Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
 constexpr double kProbeTrust = 0.05;
 
-void append_leak_probes(const Section& section, const Ball3& ball, double step, int threads, std::vector<Cap>& probes) {
+/// A lattice of `step` over the section's plane, where it is farther than `clearance` outside of its contours.
+void append_leak_probes(const Section& section, const Ball3& ball, double step, double clearance, int threads,
+                        std::vector<Cap>& probes) {
     const SectionAxes axes(section);
     const Point2 center = axes.from_plane(section.plane.to_uv(ball.center));
     const int reach = static_cast<int>(std::ceil(ball.radius / step));
@@ -155,7 +166,7 @@ void append_leak_probes(const Section& section, const Ball3& ball, double step, 
                 const Vec3 position = section.plane.from_uv(at[0], at[1]);
                 if (distance(position, ball.center) > ball.radius || section.contains(at)) continue;
                 const double clear = section.clearance(at);
-                if (clear > step)
+                if (clear > clearance)
                     rows[static_cast<std::size_t>(begin)].push_back(
                         {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kProbeTrust});
             }
@@ -165,16 +176,12 @@ void append_leak_probes(const Section& section, const Ball3& ball, double step, 
 
 /// Beside the cap of a last section at the cap's height, and over it at twice the height: its dome can be pierced between
 /// its points.
-void append_end_probes(const Section& section, double sign, const Side& side, const Ball3& ball, double step, int threads,
+void append_end_probes(const Side& side, const std::vector<Probe>& inside, const Ball3& ball, double step, int threads,
                        std::vector<Cap>& caps) {
-    const std::vector<Probe> inside = probes(section);
-    if (inside.empty()) return;
-    const double height = side.height(inside);
-    Section end = section;
-    end.plane.origin += sign * height * section.plane.normal;
-    append_leak_probes(end, ball, step, threads, caps);
-    end.plane.origin += sign * height * section.plane.normal;
-    for (const Probe& probe : inside) caps.push_back({end.plane.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
+    const double height = side.height();
+    append_leak_probes(side.shifted(height), ball, step, step, threads, caps);
+    const Plane over = side.shifted(2 * height).plane;
+    for (const Probe& probe : inside) caps.push_back({over.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
 }
 
 }  // namespace
@@ -185,11 +192,7 @@ std::vector<Cap> find_caps(const ContourSet& set) {
     const std::vector<Section> sections = sections_of(set, tolerance);
     for (const Section& section : sections) {
         const std::vector<Probe> inside = probes(section);
-        for (const double sign : {-1.0, 1.0}) {
-            Side side(sections, section, sign, tolerance);
-            side.consider_rest(set);
-            side.append_caps(inside, caps);
-        }
+        for (const double sign : {-1.0, 1.0}) Side(set, sections, section, inside, sign, tolerance).append_caps(caps);
     }
     return caps;
 }
@@ -198,15 +201,17 @@ std::vector<Cap> find_leak_probes(const ContourSet& set, int threads) {
     std::vector<Cap> probes;
     const Ball3 around = smallest_ball(set);
     const Ball3 reached{around.center, 2 * around.radius};
-    const double diameter = around.diameter(), tolerance = 1.5e-3 * diameter;
+    const double diameter = around.diameter(), tolerance = 1.5e-3 * diameter, step = diameter / 16;
     const std::vector<Section> sections = sections_of(set, tolerance);
     for (const Section& section : sections) {
-        if (!has_open_contour(set, section.plane, tolerance) && !is_incomplete(section, sections, 0.075 * diameter))
-            append_leak_probes(section, reached, diameter / 16, threads, probes);
+        if (!has_open_contour(set, section.plane, tolerance)) {
+            const double missing = missing_reach(section, sections);
+            append_leak_probes(section, reached, step, std::max(step, 2 * missing), threads, probes);
+        }
+        const std::vector<Probe> inside = kontur::probes(section);
         for (const double sign : {-1.0, 1.0}) {
-            Side side(sections, section, sign, tolerance);
-            side.consider_rest(set);
-            if (side.is_last()) append_end_probes(section, sign, side, reached, diameter / 16, threads, probes);
+            const Side side(set, sections, section, inside, sign, tolerance);
+            if (side.is_last()) append_end_probes(side, inside, reached, step, threads, probes);
         }
     }
     return probes;

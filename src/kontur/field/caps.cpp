@@ -13,8 +13,8 @@
 namespace kontur {
 namespace {
 
-// Cosines between normals: planes tilted by less than 6 degrees count as parallel, by less than 37 degrees as slanted. A slanted
-// contour that crosses a plane leads on beyond it, but not in its normal's direction.
+// Cosines between normals: planes tilted by less than 6 degrees count as parallel, by less than 37 degrees as slanted. A
+// slanted contour that crosses a plane leads on beyond it, but not in its normal's direction.
 constexpr double kParallel = 0.995, kSlanted = 0.8;
 
 /// One side of a section's plane, and what the contour set tells about it.
@@ -94,7 +94,9 @@ private:
             if (next_->contains(at)) continue;
             // Near the next outline the fit knows better; the depth here bounds how far the surface can have moved.
             const double clear = std::min(next_->clearance(at), probe.depth);
-            if (clear > next_distance_ / 2) caps.push_back({there, -clear / 4, -clear / 4});
+            if (clear <= next_distance_ / 2) continue;
+            const double below = std::min(clear, next_distance_) / 4;
+            caps.push_back({there, -below, -below});
         }
     }
 

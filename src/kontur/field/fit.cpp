@@ -80,12 +80,16 @@ public:
         for (const Cap& probe : contours.leak_probes) caps_.push_back({probe});
     }
 
-    /// Activates the caps that the function violates; true if there are new ones. Of the leak probes that the last function
-    /// kept well, one of a few is looked at: a leak is larger than their distance. If it shows a leak, all are.
+    /// Activates the caps that the function violates; true if there are new ones. Leak probes are looked at only when there
+    /// are none: without its caps the object runs on, and what it meets there is no leak. Of the probes that the last
+    /// function kept well, one of a few is looked at: a leak is larger than their distance. If it shows a leak, all are.
     bool update(const ImplicitFunction& function, int threads) {
-        Indices doubtful, others;
-        for (std::size_t i = 0; i < caps_.size(); ++i) (is_doubtful(i) ? doubtful : others).push_back(i);
+        Indices caps(first_probe_), doubtful, others;
+        std::iota(caps.begin(), caps.end(), std::size_t{0});
         const std::size_t before = count();
+        evaluate(function, caps, threads);
+        if (count() > before) return true;
+        for (std::size_t i = first_probe_; i < caps_.size(); ++i) (is_doubtful(i) ? doubtful : others).push_back(i);
         evaluate(function, doubtful, threads);
         if (count() > before) evaluate(function, others, threads);
         return count() > before;
@@ -109,7 +113,7 @@ private:
 
     bool is_doubtful(std::size_t i) const {
         constexpr std::size_t kSampleEvery = 4;
-        return i < first_probe_ || i % kSampleEvery == 0 || !(caps_[i].value_mm < caps_[i].cap.value_mm / 2);
+        return i % kSampleEvery == 0 || !(caps_[i].value_mm < caps_[i].cap.value_mm / 2);
     }
 
     void evaluate(const ImplicitFunction& function, const Indices& indices, int threads) {

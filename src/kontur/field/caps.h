@@ -25,20 +25,22 @@ struct Cap {
 /// Limits to extrapolation. Contours say nothing about the space beyond the last of them, where a smooth interpolant runs
 /// on: a stack of equal circles becomes an endless cylinder. For every drawn plane and each of its sides:
 ///
-/// - where contours of other directions lead on beyond the plane, there is no limit: they tell where the object ends;
+/// - where contours of other directions lead on beyond the plane, there is no limit: they tell where the object ends.
+///   Those tilted by less than 37 degrees lead on only if they reach farther than the radius of the largest inscribed
+///   circle; if they do not, there is no cap, either, but there are leak probes;
 /// - towards the next parallel plane, what lies well inside here and outside of that plane's contours ends before it;
 /// - beyond the last parallel plane the object ends within a rounded cap, as high as the distance to the plane before it,
-///   but not higher than 1.5 radii of the largest inscribed circle; on a single plane that radius is the height. Where single
-///   surface or interior points lie farther out, it is a quarter higher than they are.
+///   but not higher than 1.5 radii of the largest inscribed circle; on a single plane that radius is the height. Where
+///   single surface or interior points lie farther out, it is a quarter higher than they are.
 ///
 /// At most a few hundred points per plane; spacings follow the contours' size, so the caps move, turn and scale with them.
 std::vector<Cap> find_caps(const ContourSet& set);
 
 /// Where a leak would show. In a drawn plane, what lies outside of all its contours is outside of the object, and so is what
-/// lies beside a cap at its height or above it at twice the height; but far from the contours the interpolant may turn positive again, and such a sheet
-/// can join the object. The points lie on a lattice over each of these planes, in a ball of twice the diameter of the
-/// smallest one around the contours. A drawn plane counts as incomplete, and gets none, when contours of other planes cross
-/// it well outside of its own.
+/// lies beside a cap at its height or above it at twice the height; but far from the contours the interpolant may turn
+/// positive again, and such a sheet can join the object. The points lie on a lattice over each of these planes, in a ball of
+/// twice the diameter of the smallest one around the contours. Where contours of other planes cross a drawn plane outside of
+/// its own, it may be incomplete: there the points keep twice the distance of these crossings.
 std::vector<Cap> find_leak_probes(const ContourSet& set, int threads = 0);
 
 }  // namespace kontur

@@ -91,13 +91,23 @@ public:
         if (count() > before) return true;
         for (std::size_t i = first_probe_; i < caps_.size(); ++i) (is_doubtful(i) ? doubtful : others).push_back(i);
         evaluate(function, doubtful, threads);
-        if (count() > before) evaluate(function, others, threads);
-        return count() > before;
+        if (count() == before) return false;
+        evaluate(function, others, threads);
+        for (Watched& watched : caps_) watched.active = watched.active || watched.doubted;
+        return true;
     }
 
     void append_to(std::vector<PointConstraint>& points) const {
-        for (const auto& [cap, active, value_mm] : caps_)
-            if (active) points.push_back({cap.position, cap.value_mm, cap.kind, cap.trust});
+        for (const Watched& watched : caps_)
+            if (const Cap& cap = watched.cap; watched.active)
+                points.push_back({cap.position, cap.value_mm, cap.kind, cap.trust});
+    }
+    /// Before the last fit: leaks of the fits before may have come from their smoothing. If it leaks, too, they count again.
+    void doubt_leaks() {
+        for (std::size_t i = first_probe_; i < caps_.size(); ++i) {
+            caps_[i].doubted = caps_[i].active;
+            caps_[i].active = false;
+        }
     }
     std::size_t count() const {
         return static_cast<std::size_t>(
@@ -108,6 +118,7 @@ private:
     struct Watched {
         Cap cap;
         bool active = false;
+        bool doubted = false;                                        ///< was active
         double value_mm = std::numeric_limits<double>::quiet_NaN();  ///< of the last function for which it was computed
     };
 
@@ -176,6 +187,7 @@ public:
         result_.slopes = options_.start_slopes;
         result_.slopes.resize(all_.size(), 1.0);
         if (finds_slopes()) find_slopes();
+        caps_.doubt_leaks();
         const Indices kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
         const std::vector<BoundaryPoint> points = pick(all_, kept);
         const std::vector<double> slopes = pick(result_.slopes, kept);

@@ -837,7 +837,7 @@ def fit(
     early_tolerance_factor: float = 30.0,
     tilt_points: int = 1000,
     most_points: int = 0,
-    cap_rounds: int = 4,
+    cap_rounds: int = 8,
     normal_offset_mm: float = 1.0,
     merge_distance_mm: float = 0.0,
     kernel: _Kernel = "triharmonic",

@@ -25,7 +25,7 @@ struct FitOptions {
     std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
     std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
     std::size_t most_points = 0;         ///< the last fit uses about as many points; 0: all
-    int cap_rounds = 4;                  ///< most further fits while caps or leak probes are exceeded that were not before
+    int cap_rounds = 8;                  ///< most further fits while caps or leak probes are exceeded that were not before
     PlaceOptions place;
     SolveOptions solve;
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "kontur/extract/surface_band.h"
 #include "kontur/segment.h"
 
 namespace kontur {
@@ -37,7 +39,9 @@ public:
 
     /// Throws Error as check_contours and solve do; then the edit before stays the last one. A set without contours gives an
     /// empty surface.
-    EditedSurface preview(const ContourSet& contours, const Progress& progress = {});
+    /// `ahead` is told as soon as the surface can be cut by planes, halfway to the mesh; not without contours.
+    EditedSurface preview(const ContourSet& contours, const Progress& progress = {},
+                          const std::function<void(const SurfaceBand&)>& ahead = {});
     EditedSurface refine(const ContourSet& contours, const Progress& progress = {}) const;
 
     const EditorOptions& options() const { return options_; }

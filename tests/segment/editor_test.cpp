@@ -107,6 +107,20 @@ TEST(Editor, PreviewsAPartOfThePointsAndKeepsTheTilts) {
     EXPECT_GT(second.function.centers().size(), 1500u);
 }
 
+TEST(Editor, IsAheadOfItsMeshWithTheSameSurface) {
+    const PhantomCase c = phantom_case("metastasis_parallel7");
+    Editor editor, other;
+    int told = 0;
+    const EditedSurface preview = editor.preview(c.contours, {}, [&](const SurfaceBand& band) {
+        ++told;
+        EXPECT_EQ(band.cut(c.contours.contours[3].plane).size(), 1u);
+    });
+    EXPECT_EQ(told, 1);
+    EXPECT_EQ(preview.mesh.points, other.preview(c.contours).mesh.points);
+    editor.preview({}, {}, [&](const SurfaceBand&) { ++told; });
+    EXPECT_EQ(told, 1) << "no contours, no surface";
+}
+
 TEST(Editor, SpacingsFollowTheContoursUnlessGiven) {
     const ContourSet ball = test::ball_contours();
     Editor editor;

@@ -10,8 +10,10 @@ namespace kontur {
 namespace {
 
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
-constexpr double kPreviewTolerance = 50;   // times that of the refined surface
-constexpr double kSpacingFraction = 0.01;  // of the contours' diameter
+constexpr double kPreviewTolerance = 50;    // times that of the refined surface
+constexpr double kSpacingFraction = 0.015;  // of the contours' diameter
+// A cut is cheap: it may be finer than the mesh.
+constexpr double kCutFraction = 2.0 / 3;  // of the preview's spacing
 
 /// The contours as `segment` sees them.
 ContourSet cleaned(ContourSet contours, FillRule fill_rule) {
@@ -89,7 +91,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
     const Fit fitted = fit(prepared, fitting.fit, progress);
     const std::vector<Vec3> starts = start_points(contours, prepared);
     const PreviewOptions lattice{preview_spacing(contours), options_.segment.threads};
-    if (ahead) ahead(SurfaceBand(fitted.function, starts, lattice, progress));
+    if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm, lattice.threads}, progress));
     EditedSurface surface = surface_of(fitted, starts, lattice, progress);
     remember(contours, prepared, fitted.slopes);
     return surface;
@@ -102,7 +104,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) 
     const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
     const Fitting fitting = fitting_for(contours, options_.segment);
     const PreparedContours prepared = prepare(contours, fitting);
-    const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 2;
+    const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 3;
     surface = surface_of(fit(prepared, fitting.fit, progress), start_points(contours, prepared),
                          {spacing_mm, options_.segment.threads}, progress);
     surface.refined = true;

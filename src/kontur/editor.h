@@ -11,8 +11,8 @@ namespace kontur {
 
 struct EditorOptions {
     SegmentOptions segment;             ///< how the contours are fitted; `voxelizer` and `mesh` do not matter
-    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: 1/100 of the contours' diameter
-    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: half the preview's
+    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: 1.5 % of the contours' diameter
+    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: a third of the preview's
     std::size_t preview_points = 1000;  ///< about how many of the drawn points a preview is fitted to
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kontur/editor.h"
+#include "kontur/extract/adaptive.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/view/outline.h"
 #include "support/expect_error.h"
@@ -69,47 +70,62 @@ TEST(SurfaceBand, CutsABallInACircle) {
     EXPECT_TRUE(band.cut(make_plane(center + Vec3{0, 0, 500}, {0, 0, 1})).empty());
 }
 
-TEST(SurfaceBand, AgreesWithTheMeshOfTheSameSurface) {
-    std::mt19937 random = test::random_of_this_test();
+/// A case's function as a preview has it, and where its surface passes.
+struct Surface {
+    explicit Surface(const PhantomCase& c)
+        : function(Editor({.segment = {}, .preview_spacing_mm = 10}).preview(c.contours).function) {
+        for (const Contour& contour : c.contours.contours)
+            starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+        spacing_mm = 0.01 * diameter_mm(c.contours);
+    }
+
+    ImplicitFunction function;
+    std::vector<Vec3> starts;
+    double spacing_mm = 0;
+};
+
+std::vector<Plane> drawn_and_random_planes(const ContourSet& contours, std::mt19937& random) {
     std::normal_distribution<double> direction;
     std::uniform_real_distribution<double> part(-0.4, 0.4);
+    const Box3 box = bounding_box(contours);
+    std::vector<Plane> planes;
+    for (const Contour& contour : contours.contours) planes.push_back(contour.plane);
+    for (int n = 0; n < 20; ++n) {
+        const Vec3 size = box.size(), off{part(random) * size.x, part(random) * size.y, part(random) * size.z};
+        const Vec3 normal = normalized({direction(random), direction(random), direction(random)});
+        planes.push_back(make_plane(box.center() + off, normal));
+    }
+    return planes;
+}
+
+TEST(SurfaceBand, AgreesWithTheMeshOfTheSameSurface) {
+    std::mt19937 random = test::random_of_this_test();
     for (const char* name : {"liver_orthogonal14_hand", "kidney_radial6", "metastasis_parallel7_hand"}) {
         const PhantomCase c = phantom_case(name);
-        const Box3 box = bounding_box(c.contours);
-        const Vec3 size = box.size();
-        std::vector<Plane> planes;
-        for (const Contour& contour : c.contours.contours) planes.push_back(contour.plane);
-        for (int n = 0; n < 20; ++n)
-            planes.push_back(
-                make_plane(box.center() + Vec3{part(random) * size.x, part(random) * size.y, part(random) * size.z},
-                           normalized({direction(random), direction(random), direction(random)})));
-        std::vector<Lines> ahead;
-        const EditedSurface preview = Editor().preview(c.contours, {}, [&](const SurfaceBand& band) {
-            for (const Plane& plane : planes) ahead.push_back(band.cut(plane));
-        });
-        ASSERT_EQ(ahead.size(), planes.size());
+        const Surface surface(c);
+        const SurfaceBand band(surface.function, surface.starts, {surface.spacing_mm});
+        const TriangleMesh mesh = preview_surface(surface.function, surface.starts, {surface.spacing_mm});
         std::vector<double> distances;
-        for (std::size_t n = 0; n < planes.size(); ++n) {
-            const Lines slow = cut_of_mesh(preview.mesh, planes[n]);
-            EXPECT_EQ(ahead[n].size(), slow.size()) << name << ", plane " << n;
-            append_distances(ahead[n], slow, distances);
-            append_distances(slow, ahead[n], distances);
+        for (const Plane& plane : drawn_and_random_planes(c.contours, random)) {
+            const Lines fast = band.cut(plane), slow = cut_of_mesh(mesh, plane);
+            EXPECT_EQ(fast.size(), slow.size()) << name;
+            append_distances(fast, slow, distances);
+            append_distances(slow, fast, distances);
         }
         std::ranges::sort(distances);
-        EXPECT_LT(distances[distances.size() * 98 / 100], 0.1 * preview.spacing_mm) << name;
-        EXPECT_LT(distances.back(), preview.spacing_mm) << name;
+        EXPECT_LT(distances[distances.size() * 98 / 100], 0.1 * surface.spacing_mm) << name;
+        EXPECT_LT(distances.back(), surface.spacing_mm) << name;
     }
 }
 
-TEST(SurfaceBand, NeedsAFewPercentOfTheValuesOfTheMesh) {
-    const PhantomCase c = phantom_case("liver_orthogonal14_hand");
-    std::int64_t values = 0;
-    std::size_t points = 0;
-    const EditedSurface preview = Editor().preview(c.contours, {}, [&](const SurfaceBand& band) {
-        values = band.evaluations();
-        for (const auto& line : band.cut(c.contours.contours[0].plane)) points += line.size();
-    });
-    EXPECT_LT(values, static_cast<std::int64_t>(preview.mesh.points.size()) / 3);
+TEST(SurfaceBand, NeedsATenthOfTheValuesOfTheMesh) {
+    const Surface surface(phantom_case("liver_orthogonal14_hand"));
+    const SurfaceBand band(surface.function, surface.starts, {surface.spacing_mm});
+    const Grid lattice = *preview_lattice(surface.starts, surface.spacing_mm);
+    const SurfaceLattice tracked = track_surface_adaptively(surface.function, lattice, surface.starts, 0);
+    const TriangleMesh mesh = preview_surface(surface.function, surface.starts, {surface.spacing_mm});
+    const auto of_mesh = static_cast<double>(tracked.evaluations) + 3 * static_cast<double>(mesh.normals.size());
+    EXPECT_LT(static_cast<double>(band.evaluations()), 0.1 * of_mesh);
 }
 
 TEST(SurfaceBand, IgnoresWhatIsNotJoinedToTheStarts) {

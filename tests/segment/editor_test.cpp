@@ -125,8 +125,8 @@ TEST(Editor, SpacingsFollowTheContoursUnlessGiven) {
     const ContourSet ball = test::ball_contours();
     Editor editor;
     const EditedSurface preview = editor.preview(ball), refined = editor.refine(ball);
-    EXPECT_DOUBLE_EQ(preview.spacing_mm, 0.01 * diameter_mm(ball));
-    EXPECT_DOUBLE_EQ(refined.spacing_mm, preview.spacing_mm / 2);
+    EXPECT_DOUBLE_EQ(preview.spacing_mm, 0.015 * diameter_mm(ball));
+    EXPECT_DOUBLE_EQ(refined.spacing_mm, preview.spacing_mm / 3);
     EXPECT_GT(refined.mesh.triangles.size(), 3 * preview.mesh.triangles.size());
     Editor fixed({.segment = {}, .preview_spacing_mm = 3, .refined_spacing_mm = 2});
     EXPECT_EQ(fixed.preview(ball).spacing_mm, 3);

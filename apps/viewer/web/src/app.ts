@@ -111,9 +111,10 @@ export class App {
     navigation.on(["planes"], () => this.surface.planesChanged());
     navigation.on(["layout"], () => this.lay());
     navigation.on(["planes", "window", "layout"], () => this.savePageSoon());
-    project.on(["contours", "structures"], each((view) => view.refresh(false)));
+    project.on(["contours", "structures"], each((view) => view.contoursChanged()));
     project.on(["surfaces"], each((view) => view.surfacesChanged()));
-    project.on(["selection", "draft"], each((view) => view.paint()));
+    project.on(["selection"], each((view) => view.paint()));
+    project.on(["draft"], each((view) => view.draftChanged()));
     project.on(["contours", "structures", "selection"], () => this.surface.contoursChanged());
     project.on(["structures"], () => this.surface.restyle());
     project.on(["surfaces"], () => this.surface.surfacesChanged());

@@ -18,6 +18,7 @@ import { newestOutlines, toldOutline, type Outlines } from "./outlines";
 import { PLANE_COLORS, VIEW_TITLES } from "./palette";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
+const CROSSINGS_WAIT_MS = 250;
 const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
 
 interface ShownSlice {
@@ -52,6 +53,8 @@ export class SliceView {
   private readonly requests: Latest<{ pixels: boolean }>;
   private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
   private paintQueued = false;
+  private showsDraft = false;
+  private crossingsTimer = 0;
   private width = 0;
   private height = 0;
   private fontPixels = 13;
@@ -97,7 +100,7 @@ export class SliceView {
 
   /** Asks for a slice where plane, size or window have changed; without `pixels` for the outlines on it in any case. */
   refresh(pixels: boolean): void {
-    if (!this.screen()) return;
+    if (!this.screen()) return void (this.asked = ""); // when it is shown again all may be different
     this.updateSlider();
     this.paint();
     const wanted = this.pixelKey();
@@ -106,7 +109,9 @@ export class SliceView {
     if (needsPixels) this.asked = wanted;
     this.requests.send({ pixels: needsPixels });
     this.element.dataset["pending"] = "true";
-    void this.requests.idle().then(() => (this.element.dataset["pending"] = "false"));
+    window.clearTimeout(this.crossingsTimer);
+    this.crossingsTimer = 0;
+    void this.requests.idle().then(() => (this.element.dataset["pending"] = String(this.crossingsTimer !== 0)));
   }
 
   /** Paints before the next frame. */
@@ -119,6 +124,28 @@ export class SliceView {
     });
   }
 
+  /** Asks for the points where contours cross the plane: after the surface that is on its way, which users wait for. */
+  contoursChanged(): void {
+    const isComing = [...this.services.project.surfaces.values()].some(({ stage }) => stage === "outdated" || stage === "preview");
+    if (!isComing || !this.slice) return this.refresh(false);
+    this.paint();
+    this.element.dataset["pending"] = "true";
+    window.clearTimeout(this.crossingsTimer);
+    this.crossingsTimer = window.setTimeout(() => {
+      this.crossingsTimer = 0;
+      this.refresh(false);
+    }, CROSSINGS_WAIT_MS);
+  }
+
+  /** Paints if the contour under the hand is seen here, or was. */
+  draftChanged(): void {
+    const screen = this.screen();
+    const { project, navigation } = this.services;
+    const showed = this.showsDraft;
+    this.showsDraft = screen !== null && project.draft !== null && inView(project.draft, screen, navigation.step(this.name));
+    if (showed || this.showsDraft) this.paint();
+  }
+
   /** Asks for the outlines of surfaces that are newer than those shown, unless they have been told already. */
   surfacesChanged(): void {
     const { project } = this.services;
@@ -126,8 +153,9 @@ export class SliceView {
       const shown = this.slice?.outlines.get(structure)?.revision;
       return shown !== (stage === "none" ? undefined : revision) && project.structures.get(structure)?.visible === true;
     };
-    if ([...project.surfaces.values()].some(isMissing)) this.refresh(false);
-    else this.paint(); // conflicts may be new
+    const surfaces = [...project.surfaces.values()];
+    if (surfaces.some(isMissing)) this.refresh(false);
+    else if (surfaces.some(({ stage }) => stage !== "preview")) this.paint(); // conflicts may be new
   }
 
   /** Outlines that the server tells unasked. Of another plane than the one shown they are of no use. */

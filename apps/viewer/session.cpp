@@ -134,8 +134,10 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       range_(value_range(*image_)),
       edges_(image_),
       project_(project, opened.reference),
-      surfaces_({[this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
-                 [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); }}) {
+      surfaces_(
+          {[this](Id structure, std::int64_t revision, const PlaneCutter& cut) { tell_outlines(structure, revision, cut); },
+           [this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
+           [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); }}) {
     if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kontur/shape/volume.h"
+#include "kontur/view/reslice.h"
 #include "viewer/imports.h"
 #include "viewer/project.h"
 #include "viewer/sketch.h"
@@ -79,6 +80,12 @@ public:
 
 private:
     class StatusLine;
+    /// What a page sees in one of its views.
+    struct WatchedPlane {
+        std::string view;
+        Reslice raster;
+        std::string plane;  ///< as the page named it
+    };
     struct Call {
         nlohmann::json (Session::*method)(const Members&);
         bool needs_project = true;  ///< false: it only looks at the image, and edits and slices need not wait for it
@@ -122,6 +129,8 @@ private:
     nlohmann::json history();
     nlohmann::json surface_event(const Surface& surface) const;
     void tell(const nlohmann::json& event);
+    void watch(WatchedPlane plane);
+    void tell_outlines(Id structure, std::int64_t revision, const PlaneCutter& cut);
     void tell_status(const std::string& text, std::optional<double> fraction);
 
     const std::shared_ptr<const Image> image_;
@@ -134,6 +143,9 @@ private:
     SliceEdges edges_;
     mutable std::mutex listener_mutex_;
     std::function<void(const std::string&)> listener_;
+
+    std::mutex watched_mutex_;
+    std::vector<WatchedPlane> watched_;  ///< the latest of each view, the newest last
 
     mutable std::mutex mutex_;  ///< of what follows
     Project project_;

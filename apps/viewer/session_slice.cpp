@@ -20,9 +20,12 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t kMostPixelsOnASide = 4096;
+constexpr std::size_t kLongestViewName = 64;
+constexpr std::size_t kMostWatched = 8;      // two pages of four views
 constexpr double kParallelCosine = 0.99985;  // 1 degree
 
 struct SliceRequest {
+    std::string view, plane;
     Reslice raster;
     Window window;
     bool pixels, outlines;
@@ -32,6 +35,8 @@ SliceRequest parse(std::string_view text) {
     const json document = json::parse(text);
     const Members m(document), plane(m.at("plane"));
     SliceRequest request;
+    if (m.has("view")) request.view = m.text("view", kLongestViewName);
+    request.plane = to_text(m.at("plane"));
     request.raster.plane = m.plane("plane");
     request.raster.pixel_mm = plane.number("mm_per_pixel");
     if (!(request.raster.pixel_mm >= 1e-4 && request.raster.pixel_mm <= 1e4))
@@ -124,8 +129,37 @@ std::vector<float> floats(const std::vector<Vec3>& points) {
 
 }  // namespace
 
+void Session::watch(WatchedPlane plane) {
+    const std::scoped_lock lock(watched_mutex_);
+    std::erase_if(watched_, [&](const WatchedPlane& old) { return old.view == plane.view; });
+    if (watched_.size() == kMostWatched) watched_.erase(watched_.begin());
+    watched_.push_back(std::move(plane));
+}
+
+/// In all views, before anybody asks: a page that is busy drawing would come to ask much later.
+void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutter& cut) {
+    std::vector<WatchedPlane> watched;
+    {
+        const std::scoped_lock lock(watched_mutex_);
+        watched = watched_;
+    }
+    json views = json::array();
+    for (const WatchedPlane& plane : watched) {
+        json lines = json::array();
+        for (const std::vector<Vec3>& line : cut(plane.raster.plane)) {
+            json& numbers = lines.emplace_back(json::array());
+            for (const Vec3& p : line)
+                for (const double mm : plane.raster.plane.to_uv(p))
+                    numbers.push_back(std::round(100 * mm / plane.raster.pixel_mm) / 100);
+        }
+        views.push_back({{"view", plane.view}, {"plane", json::parse(plane.plane)}, {"lines", std::move(lines)}});
+    }
+    tell({{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}});
+}
+
 std::string Session::slice(std::string_view text) {
     const SliceRequest request = parse(text);
+    if (request.outlines) watch({request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{
         {"width", request.raster.width},

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kontur/shape/crossings.h"
+#include "kontur/view/outline.h"
 
 namespace kontur::viewer {
 namespace {
@@ -34,6 +35,12 @@ std::vector<Conflict> conflicts(const SurfaceTask& task) {
                      [](const Conflict& a, const Conflict& b) { return a.disagreement_mm > b.disagreement_mm; });
     if (found.size() > kMostConflicts) found.resize(kMostConflicts);
     return found;
+}
+
+std::vector<std::vector<Vec3>> cut(const TriangleMesh& mesh, const Plane& plane) {
+    std::vector<std::vector<Vec3>> lines;
+    for (Polyline& line : outline(mesh, plane)) lines.push_back(std::move(line.points));  // a closed mesh: closed lines
+    return lines;
 }
 
 Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
@@ -117,7 +124,8 @@ void Surfaces::start(SurfaceTask task) {
     follower.is_outdated = false;
     if (!follower.editor)
         follower.editor = std::make_unique<LiveEditor>(
-            EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); });
+            EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); },
+            [this, structure](std::uint64_t, const SurfaceBand& band) { hear_ahead(structure, band); });
     // The lock makes the editor's answer wait until its task is known.
     const std::uint64_t number = follower.editor->edit(task.set);
     follower.is_working = true;
@@ -151,8 +159,13 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
         task = tasks.at(update.edit);
     }
     Surface surface = shown(task, update);
+    if (surface.stage == SurfaceStage::refined) {
+        surface.revision = next_revision();
+        listener_.outlines(structure, surface.revision, [&](const Plane& plane) { return cut(*surface.mesh, plane); });
+    }
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[structure];
+    if (update.kind == EditorUpdate::Kind::preview) surface.revision = std::exchange(follower.ahead, 0);
     const bool is_newest = follower.tasks.size() == 1 && !follower.is_outdated;
     // Of contours that have changed meanwhile it is only on the way to their surface.
     if (!is_newest && surface.stage == SurfaceStage::refined) surface.stage = SurfaceStage::preview;
@@ -162,6 +175,20 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
     follower.is_working = false;
     listener_.status("", std::nullopt);
     start_next();
+}
+
+void Surfaces::hear_ahead(Id structure, const SurfaceBand& band) {
+    const std::int64_t revision = next_revision();
+    {
+        const std::scoped_lock lock(mutex_);
+        followers_[structure].ahead = revision;
+    }
+    listener_.outlines(structure, revision, [&](const Plane& plane) { return band.cut(plane); });
+}
+
+std::int64_t Surfaces::next_revision() {
+    const std::scoped_lock lock(mutex_);
+    return ++revision_;
 }
 
 /// News by the tenth: more would only cost the page time.
@@ -181,7 +208,7 @@ void Surfaces::show_progress(Id structure, const EditorUpdate& update) {
 
 /// Under the lock, so that no change of contours comes between what is told of a surface and what it is.
 void Surfaces::publish_locked(Surface surface) {
-    surface.revision = ++revision_;
+    if (surface.revision == 0) surface.revision = ++revision_;
     auto& latest = latest_[surface.structure];
     latest = std::make_shared<const Surface>(std::move(surface));
     listener_.surface(latest);

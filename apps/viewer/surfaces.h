@@ -53,8 +53,13 @@ struct SurfaceTask {
     std::vector<Id> ids;
 };
 
+/// The closed lines, in mm, where a surface meets a plane.
+using PlaneCutter = std::function<std::vector<std::vector<Vec3>>(const Plane& plane)>;
+
 /// Called from the threads that compute, and from those that change contours. Must not call Surfaces.
 struct SurfaceListener {
+    /// Told before the surface with this revision, which of previews takes as long again.
+    std::function<void(Id structure, std::int64_t revision, const PlaneCutter& cut)> outlines;
     std::function<void(std::shared_ptr<const Surface>)> surface;
     /// What is being computed, and how much of it is done; an empty text when nothing is.
     std::function<void(const std::string& text, std::optional<double> fraction)> status;
@@ -85,6 +90,7 @@ private:
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
         bool is_working = false;
         bool is_outdated = false;  ///< there will be another task
+        std::int64_t ahead = 0;    ///< revision of the preview whose outlines have been told
         std::string_view stage;    ///< what the status line was told last ...
         int tenths = 0;            ///< ... and how far it was
         std::unique_ptr<LiveEditor> editor;
@@ -93,6 +99,8 @@ private:
     void start(SurfaceTask task);
     void start_next();
     void hear(Id structure, const EditorUpdate& update);
+    void hear_ahead(Id structure, const SurfaceBand& band);
+    std::int64_t next_revision();
     void show_progress(Id structure, const EditorUpdate& update);
     void outdate_locked(Id structure);
     void publish_locked(Surface surface);

@@ -10,8 +10,10 @@ namespace kontur {
 namespace {
 
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
-constexpr double kPreviewTolerance = 50;  // times that of the refined surface
-constexpr double kSpacingFraction = 0.01;  // of the contours' diameter
+constexpr double kPreviewTolerance = 50;    // times that of the refined surface
+constexpr double kSpacingFraction = 0.015;  // of the contours' diameter
+// A cut is cheap: it may be finer than the mesh.
+constexpr double kCutFraction = 2.0 / 3;  // of the preview's spacing
 
 /// The contours as `segment` sees them.
 ContourSet cleaned(ContourSet contours, FillRule fill_rule) {
@@ -26,21 +28,20 @@ bool same_drawing(const Contour& a, const Contour& b) {
            a.closed == b.closed;
 }
 
-EditedSurface surface_of(const Fit& fit, const ContourSet& contours, const PreparedContours& prepared, double spacing_mm,
-                         int threads, const Progress& progress) {
+EditedSurface surface_of(const Fit& fit, std::span<const Vec3> starts, const PreviewOptions& lattice,
+                         const Progress& progress) {
     EditedSurface surface;
     surface.function = fit.function;
     surface.solves = fit.solves;
-    surface.spacing_mm = spacing_mm;
-    surface.mesh = preview_surface(surface.function, start_points(contours, prepared), {spacing_mm, threads}, progress);
+    surface.spacing_mm = lattice.spacing_mm;
+    surface.mesh = preview_surface(surface.function, starts, lattice, progress);
     return surface;
 }
 
 }  // namespace
 
 double Editor::preview_spacing(const ContourSet& contours) const {
-    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm
-                                           : kSpacingFraction * diameter_mm(contours);
+    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kSpacingFraction * diameter_mm(contours);
 }
 
 /// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.
@@ -75,7 +76,8 @@ void Editor::remember(const ContourSet& contours, const PreparedContours& prepar
             known_[static_cast<std::size_t>(prepared.points[i].contour)].slopes.push_back(slopes[i]);
 }
 
-EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress) {
+EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
+                              const std::function<void(const SurfaceBand&)>& ahead) {
     if (drawn.contours.empty()) return {};
     const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
     Fitting fitting = fitting_for(contours, options_.segment);
@@ -87,8 +89,10 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress)
     fitting.fit.start_slopes = known_slopes(contours, prepared);
     if (!fitting.fit.start_slopes.empty()) fitting.fit.rounds = std::min(fitting.fit.rounds, 1);
     const Fit fitted = fit(prepared, fitting.fit, progress);
-    EditedSurface surface =
-        surface_of(fitted, contours, prepared, preview_spacing(contours), options_.segment.threads, progress);
+    const std::vector<Vec3> starts = start_points(contours, prepared);
+    const PreviewOptions lattice{preview_spacing(contours), options_.segment.threads};
+    if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm, lattice.threads}, progress));
+    EditedSurface surface = surface_of(fitted, starts, lattice, progress);
     remember(contours, prepared, fitted.slopes);
     return surface;
 }
@@ -100,9 +104,9 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) 
     const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
     const Fitting fitting = fitting_for(contours, options_.segment);
     const PreparedContours prepared = prepare(contours, fitting);
-    const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 2;
-    surface =
-        surface_of(fit(prepared, fitting.fit, progress), contours, prepared, spacing_mm, options_.segment.threads, progress);
+    const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 3;
+    surface = surface_of(fit(prepared, fitting.fit, progress), start_points(contours, prepared),
+                         {spacing_mm, options_.segment.threads}, progress);
     surface.refined = true;
     surface.residual = residual(surface.function, contours, options_.segment.threads);
     return surface;

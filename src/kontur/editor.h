@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "kontur/extract/surface_band.h"
 #include "kontur/segment.h"
 
 namespace kontur {
 
 struct EditorOptions {
     SegmentOptions segment;             ///< how the contours are fitted; `voxelizer` and `mesh` do not matter
-    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: 1/100 of the contours' diameter
-    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: half the preview's
+    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: 1.5 % of the contours' diameter
+    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: a third of the preview's
     std::size_t preview_points = 1000;  ///< about how many of the drawn points a preview is fitted to
 };
 
@@ -37,7 +39,9 @@ public:
 
     /// Throws Error as check_contours and solve do; then the edit before stays the last one. A set without contours gives an
     /// empty surface.
-    EditedSurface preview(const ContourSet& contours, const Progress& progress = {});
+    /// `ahead` is told as soon as the surface can be cut by planes, halfway to the mesh; not without contours.
+    EditedSurface preview(const ContourSet& contours, const Progress& progress = {},
+                          const std::function<void(const SurfaceBand&)>& ahead = {});
     EditedSurface refine(const ContourSet& contours, const Progress& progress = {}) const;
 
     const EditorOptions& options() const { return options_; }

@@ -57,6 +57,7 @@
 #include "kontur/extract/preview.h"
 #include "kontur/extract/rasterize.h"
 #include "kontur/extract/slice_contours.h"
+#include "kontur/extract/surface_band.h"
 #include "kontur/extract/trace.h"
 #include "kontur/extract/track.h"
 #include "kontur/extract/voxelize.h"

@@ -18,6 +18,7 @@ struct LiveEditor::Worker {
 
     Editor editor;
     Listener listener;
+    BandListener ahead;
     std::mutex mutex;  // guards all below
     std::condition_variable changed;
     std::uint64_t newest = 0;    ///< number of edits so far
@@ -27,9 +28,10 @@ struct LiveEditor::Worker {
     bool closing = false;
     std::jthread thread;  // last: starts when all else is there
 
-    Worker(EditorOptions options, Listener to)
+    Worker(EditorOptions options, Listener to, BandListener band_to)
         : editor(std::move(options)),
           listener(std::move(to)),
+          ahead(std::move(band_to)),
           thread([this](std::stop_token closed) { run(std::move(closed)); }) {}
 
     ~Worker() {
@@ -59,7 +61,9 @@ struct LiveEditor::Worker {
         EditorUpdate update;
         update.edit = edit.number;
         try {
-            update.surface = editor.preview(edit.contours, progress_of(edit, closed));
+            std::function<void(const SurfaceBand&)> tell_ahead;
+            if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(edit.number, band); };
+            update.surface = editor.preview(edit.contours, progress_of(edit, closed), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;
             listener(update);
             const std::stop_token stop = start_refining();
@@ -97,8 +101,8 @@ struct LiveEditor::Worker {
     }
 };
 
-LiveEditor::LiveEditor(EditorOptions options, Listener listener)
-    : worker_(std::make_unique<Worker>(std::move(options), std::move(listener))) {}
+LiveEditor::LiveEditor(EditorOptions options, Listener listener, BandListener ahead)
+    : worker_(std::make_unique<Worker>(std::move(options), std::move(listener), std::move(ahead))) {}
 
 LiveEditor::~LiveEditor() = default;
 

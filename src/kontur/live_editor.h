@@ -36,7 +36,10 @@ public:
     /// editor.
     using Listener = std::function<void(const EditorUpdate&)>;
 
-    LiveEditor(EditorOptions options, Listener listener);
+    /// Likewise, when a preview can be cut by planes but has no mesh yet.
+    using BandListener = std::function<void(std::uint64_t edit, const SurfaceBand& band)>;
+
+    LiveEditor(EditorOptions options, Listener listener, BandListener ahead = {});
     /// Cancels what runs and waits for it.
     ~LiveEditor();
 

@@ -107,12 +107,26 @@ TEST(Editor, PreviewsAPartOfThePointsAndKeepsTheTilts) {
     EXPECT_GT(second.function.centers().size(), 1500u);
 }
 
+TEST(Editor, IsAheadOfItsMeshWithTheSameSurface) {
+    const PhantomCase c = phantom_case("metastasis_parallel7");
+    Editor editor, other;
+    int told = 0;
+    const EditedSurface preview = editor.preview(c.contours, {}, [&](const SurfaceBand& band) {
+        ++told;
+        EXPECT_EQ(band.cut(c.contours.contours[3].plane).size(), 1u);
+    });
+    EXPECT_EQ(told, 1);
+    EXPECT_EQ(preview.mesh.points, other.preview(c.contours).mesh.points);
+    editor.preview({}, {}, [&](const SurfaceBand&) { ++told; });
+    EXPECT_EQ(told, 1) << "no contours, no surface";
+}
+
 TEST(Editor, SpacingsFollowTheContoursUnlessGiven) {
     const ContourSet ball = test::ball_contours();
     Editor editor;
     const EditedSurface preview = editor.preview(ball), refined = editor.refine(ball);
-    EXPECT_DOUBLE_EQ(preview.spacing_mm, 0.01 * diameter_mm(ball));
-    EXPECT_DOUBLE_EQ(refined.spacing_mm, preview.spacing_mm / 2);
+    EXPECT_DOUBLE_EQ(preview.spacing_mm, 0.015 * diameter_mm(ball));
+    EXPECT_DOUBLE_EQ(refined.spacing_mm, preview.spacing_mm / 3);
     EXPECT_GT(refined.mesh.triangles.size(), 3 * preview.mesh.triangles.size());
     Editor fixed({.segment = {}, .preview_spacing_mm = 3, .refined_spacing_mm = 2});
     EXPECT_EQ(fixed.preview(ball).spacing_mm, 3);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "kontur/phantom/cases.h"
@@ -47,6 +48,26 @@ TEST(LiveEditor, PreviewsAndThenRefinesAnEdit) {
     EXPECT_TRUE(updates[1].surface.refined);
     EXPECT_TRUE(std::ranges::equal(updates[1].surface.function.weights(),
                                    Editor().refine(test::ball_contours()).function.weights()));
+}
+
+TEST(LiveEditor, TellsOfAPreviewAheadOfItsMesh) {
+    std::vector<std::string> told;
+    const auto note = [&](const char* what, std::uint64_t edit) { told.push_back(what + std::to_string(edit)); };
+    LiveEditor editor(
+        {},
+        [&](const EditorUpdate& update) {
+            if (update.kind == Kind::preview) note("preview ", update.edit);
+            if (update.kind == Kind::refined) note("refined ", update.edit);
+        },
+        [&](std::uint64_t edit, const SurfaceBand& band) {
+            EXPECT_EQ(band.cut(test::ball_contours().contours[0].plane).size(), 1u);
+            note("ahead ", edit);
+        });
+    for (int edit = 0; edit < 2; ++edit) {
+        editor.edit(test::ball_contours());
+        editor.wait();
+    }
+    EXPECT_EQ(told, (std::vector<std::string>{"ahead 1", "preview 1", "refined 1", "ahead 2", "preview 2", "refined 2"}));
 }
 
 TEST(LiveEditor, AnswersTheNewestOfManyEdits) {

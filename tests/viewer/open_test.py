@@ -109,6 +109,63 @@ def test_drawing_gives_a_surface_and_outlines_in_every_view(server):
     assert len(head["crossings"]) >= 2
 
 
+def events_until_refined(page):
+    while not any(event["event"] == "surface" and event["stage"] == "refined" for event in page.events):
+        page._apply(page.receive())
+    return page.events
+
+
+def told_lines(event, view):
+    """The lines in a view of an `outlines` event, as points in pixels."""
+    (told,) = [told for told in event["views"] if told["view"] == view]
+    return told["plane"], [numpy.array(line).reshape(-1, 2) for line in told["lines"]]
+
+
+def test_outlines_are_told_ahead_of_their_surface_in_the_planes_that_were_asked_for(server):
+    page = server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    page.wait_for_surface(structure)
+    planes = {name: shifted(page.session["views"][name]["plane"], 65, 65, 0.5) for name in ("axial", "coronal")}
+    for name, plane in planes.items():
+        server.slice(at_offset(plane, 3), 65, 65, view=name, pixels=False)
+        server.slice(plane, 65, 65, view=name, pixels=False)
+    page.events.clear()
+    page.do("contour.translate", id=ids[0], by=[1, 0, 0], draft=True)
+    events_until_refined(page)
+    ahead = {event["revision"]: at for at, event in enumerate(page.events) if event["event"] == "outlines"}
+    surfaces = {event["revision"]: (at, event) for at, event in enumerate(page.events) if event["event"] == "surface" and event["stage"] != "outdated"}
+    assert ahead.keys() == surfaces.keys() and [surface["stage"] for _, surface in surfaces.values()] == ["preview", "refined"]
+    for revision, at in ahead.items():
+        assert at < surfaces[revision][0]
+        for name, plane in planes.items():
+            told_plane, (line,) = told_lines(page.events[at], name)
+            assert told_plane == plane, "to the last bit, so that a page knows it again"
+            assert numpy.abs(numpy.hypot(*(line - 32).T) * 0.5 - RADIUS).max() < 1.5
+    # Those of the refined surface are the ones that a slice shows.
+    for name, plane in planes.items():
+        head, arrays = server.slice(plane, 65, 65, view=name, pixels=False)
+        assert head["outlines"][0]["revision"] == max(ahead)
+        _, (line,) = told_lines(page.events[ahead[max(ahead)]], name)
+        assert numpy.abs(arrays["outline_points"].reshape(-1, 2) - line).max() < 0.01
+    page.do("draft.drop")
+
+
+def test_only_the_latest_planes_are_watched(server):
+    page = server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    page.wait_for_surface(structure)
+    for number in range(20):
+        server.slice(page.session["views"]["axial"]["plane"] | {"mm_per_pixel": 1}, 8, 8, view=f"view {number}", pixels=False)
+    page.events.clear()
+    page.do("contour.translate", id=ids[0], by=[1, 0, 0])
+    told = [event for event in events_until_refined(page) if event["event"] == "outlines"]
+    assert len(told) == 2
+    for event in told:
+        assert [view["view"] for view in event["views"]] == [f"view {number}" for number in range(12, 20)]
+
+
 def test_a_surface_is_outdated_before_anybody_is_told_of_an_edit(server):
     """Else a page would show the figures of before as those of now."""
     page = server.page()

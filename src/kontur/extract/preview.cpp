@@ -46,18 +46,23 @@ Box3 box_of_finite(std::span<const Vec3> points) {
 
 }  // namespace
 
+std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing_mm) {
+    if (!(spacing_mm > 0 && std::isfinite(spacing_mm)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the preview's spacing is {} mm; it must be finite and above 0", spacing_mm));
+    const Box3 box = box_of_finite(starts);
+    if (box.is_empty()) return std::nullopt;
+    return lattice_about(box, spacing_mm);
+}
+
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
                              const Progress& progress) {
-    if (!(options.spacing_mm > 0 && std::isfinite(options.spacing_mm)))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the preview's spacing is {} mm; it must be finite and above 0", options.spacing_mm));
-    const Box3 box = box_of_finite(starts);
-    if (box.is_empty()) return {};
-    const Grid grid = lattice_about(box, options.spacing_mm);
+    const std::optional<Grid> grid = preview_lattice(starts, options.spacing_mm);
+    if (!grid) return {};
     FastFunction fast(function, {.tolerance_mm = kTolerance * options.spacing_mm,
-                                 .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(grid, starts),
+                                 .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(*grid, starts),
                                  .threads = options.threads});
-    const SurfaceLattice surface = track_surface_adaptively(fast, grid, starts, options.threads, progress);
+    const SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, options.threads, progress);
     return polygonize(surface, fast, progress);
 }
 

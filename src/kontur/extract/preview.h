@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "kontur/base/progress.h"
 #include "kontur/field/implicit_function.h"
+#include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 
 namespace kontur {
@@ -21,5 +23,9 @@ struct PreviewOptions {
 /// less than about 1 / 1500 of the starts' extent.
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts,
                              const PreviewOptions& options = {}, const Progress& progress = {});
+
+/// The lattice that preview_surface finds the surface on, its points at multiples of the spacing; nullopt without a finite
+/// start. Throws as preview_surface does.
+std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing_mm);
 
 }  // namespace kontur

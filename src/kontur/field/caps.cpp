@@ -88,12 +88,13 @@ private:
     }
 
     void append_towards_next(std::vector<Cap>& caps) const {
+        const SectionSearch next(*next_);
         for (const Probe& probe : inside_) {
             const Vec3 there = above(probe.at, next_distance_);
             const Point2 at = next_->plane.to_uv(there);
-            if (next_->contains(at)) continue;
+            if (next.contains(at)) continue;
             // Near the next outline the fit knows better; the depth here bounds how far the surface can have moved.
-            const double clear = std::min(next_->clearance(at), probe.depth);
+            const double clear = std::min(next.clearance(at), probe.depth);
             if (clear <= next_distance_ / 2) continue;
             const double below = std::min(clear, next_distance_) / 4;
             caps.push_back({there, -below, -below});
@@ -157,6 +158,7 @@ constexpr double kProbeTrust = 0.05;
 void append_leak_probes(const Section& section, const Ball3& ball, double step, double clearance, int threads,
                         std::vector<Cap>& probes) {
     const SectionAxes axes(section);
+    const SectionSearch search(section);
     const Point2 center = axes.from_plane(section.plane.to_uv(ball.center));
     const int reach = static_cast<int>(std::ceil(ball.radius / step));
     std::vector<std::vector<Cap>> rows(static_cast<std::size_t>(2 * reach + 1));
@@ -166,8 +168,8 @@ void append_leak_probes(const Section& section, const Ball3& ball, double step, 
                 const Point2 at =
                     axes.to_plane({center[0] + i * step, center[1] + static_cast<double>(begin - reach) * step});
                 const Vec3 position = section.plane.from_uv(at[0], at[1]);
-                if (distance(position, ball.center) > ball.radius || section.contains(at)) continue;
-                const double clear = section.clearance(at);
+                if (distance(position, ball.center) > ball.radius || search.contains(at)) continue;
+                const double clear = search.clearance(at);
                 if (clear > clearance)
                     rows[static_cast<std::size_t>(begin)].push_back(
                         {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kProbeTrust});

@@ -16,11 +16,43 @@ using Point2 = std::array<double, 2>;
 Point2 minus(const Point2& a, const Point2& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double cross2(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
 
+struct Box2 {
+    Point2 low, high;
+
+    static Box2 of(const Point2& a, const Point2& b) {
+        Box2 box{a, a};
+        box.extend(b);
+        return box;
+    }
+    void extend(const Point2& p) {
+        for (const std::size_t axis : {0u, 1u}) {
+            low[axis] = std::min(low[axis], p[axis]);
+            high[axis] = std::max(high[axis], p[axis]);
+        }
+    }
+    /// Whether they are farther than `gap` apart along an axis.
+    bool is_beyond(const Box2& other, double gap) const {
+        for (const std::size_t axis : {0u, 1u})
+            if (low[axis] > other.high[axis] + gap || high[axis] < other.low[axis] - gap) return true;
+        return false;
+    }
+};
+
 /// All lines of a plane in its coordinates.
 struct Drawing {
+    static constexpr std::size_t kStretchEdges = 16;
+
     Plane plane;
     std::vector<std::pair<Point2, Point2>> edges;
+    std::vector<Box2> stretches;  ///< boxes of every kStretchEdges edges
     std::vector<std::int32_t> contours;
+
+    void add_edge(const Point2& from, const Point2& to) {
+        if (edges.size() % kStretchEdges == 0) stretches.push_back({from, from});
+        stretches.back().extend(from);
+        stretches.back().extend(to);
+        edges.emplace_back(from, to);
+    }
 };
 
 std::vector<Drawing> drawings_of(const ContourSet& set, double tolerance_mm) {
@@ -29,11 +61,11 @@ std::vector<Drawing> drawings_of(const ContourSet& set, double tolerance_mm) {
         const Contour& contour = set.contours[c];
         auto found = std::find_if(drawings.begin(), drawings.end(),
                                   [&](const Drawing& d) { return coincide(d.plane, contour.plane, tolerance_mm); });
-        if (found == drawings.end()) found = drawings.insert(found, {contour.plane, {}, {}});
+        if (found == drawings.end()) found = drawings.insert(found, {contour.plane, {}, {}, {}});
         found->contours.push_back(static_cast<std::int32_t>(c));
         for (std::size_t i = contour.closed ? 0 : 1; i < contour.points.size(); ++i) {
             const Vec3 &from = contour.points[i > 0 ? i - 1 : contour.points.size() - 1], &to = contour.points[i];
-            found->edges.emplace_back(found->plane.to_uv(from), found->plane.to_uv(to));
+            found->add_edge(found->plane.to_uv(from), found->plane.to_uv(to));
         }
     }
     return drawings;
@@ -52,19 +84,25 @@ double hit(const Point2& start, const Point2& along, const Point2& a, const Poin
 double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, double own_edge) {
     const Point2 start = drawing.plane.to_uv(point.position);
     const Point2 along{dot(point.inplane_normal, drawing.plane.u), dot(point.inplane_normal, drawing.plane.v)};
+    const Box2 ray = Box2::of(start, {start[0] + reach * along[0], start[1] + reach * along[1]});
+    const double rounding = 1e-6 * reach;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& [a, b] : drawing.edges) {
-        const double limit = std::min(nearest, reach);
-        if (std::min(a[0], b[0]) > start[0] + limit || std::max(a[0], b[0]) < start[0] - limit) continue;
-        if (std::min(a[1], b[1]) > start[1] + limit || std::max(a[1], b[1]) < start[1] - limit) continue;
-        if (const double distance = hit(start, along, a, b); distance > own_edge) nearest = std::min(nearest, distance);
+    for (std::size_t s = 0; s < drawing.stretches.size(); ++s) {
+        if (drawing.stretches[s].is_beyond(ray, rounding)) continue;
+        const std::size_t begin = s * Drawing::kStretchEdges;
+        const std::size_t end = std::min(begin + Drawing::kStretchEdges, drawing.edges.size());
+        for (std::size_t e = begin; e < end; ++e) {
+            const auto& [a, b] = drawing.edges[e];
+            if (const double distance = hit(start, along, a, b); distance > own_edge) nearest = std::min(nearest, distance);
+        }
     }
     return nearest <= reach ? nearest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points, int threads) {
+void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
+               int threads) {
     const std::vector<Drawing> drawings = drawings_of(set, tolerance_mm);
     std::vector<const Drawing*> drawing_of(set.contours.size());
     for (const Drawing& drawing : drawings)

@@ -57,13 +57,13 @@ std::vector<Probe> probes(const Section& section) {
     const double step = std::max(std::sqrt(width * height / 150), std::max(width, height) / 100);
     // Symmetric about the middle: the axes' signs mean nothing.
     const auto columns = static_cast<int>(width / 2 / step), rows = static_cast<int>(height / 2 / step);
+    const SectionSearch search(section);
     std::vector<Probe> result;
     for (int row = -rows; row <= rows; ++row)
         for (int column = -columns; column <= columns; ++column) {
-            const Point2 at =
-                axes.to_plane({(low[0] + high[0]) / 2 + column * step, (low[1] + high[1]) / 2 + row * step});
-            if (!section.contains(at)) continue;
-            if (const double depth = section.clearance(at); depth > step / 2) result.push_back({at, depth});
+            const Point2 at = axes.to_plane({(low[0] + high[0]) / 2 + column * step, (low[1] + high[1]) / 2 + row * step});
+            if (!search.contains(at)) continue;
+            if (const double depth = search.clearance(at); depth > step / 2) result.push_back({at, depth});
         }
     return result;
 }

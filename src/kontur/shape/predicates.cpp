@@ -23,13 +23,15 @@ bool is_on_segment(const Point2& a, const Point2& b, const Point2& p) {
 
 bool is_inside(std::span<const Point2> polygon, const Point2& p) {
     bool inside = false;
-    for (std::size_t i = 0, before = polygon.size() - 1; i < polygon.size(); before = i++) {
-        const Point2 &a = polygon[before], &b = polygon[i];
-        if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-        // The ray to the right of p meets the edge if p lies left of it as it goes up, right of it as it goes down.
-        if (orientation(a, b, p) == (b[1] > a[1] ? 1 : -1)) inside = !inside;
-    }
+    for (std::size_t i = 0, before = polygon.size() - 1; i < polygon.size(); before = i++)
+        inside ^= passes_right_of(p, polygon[before], polygon[i]);
     return inside;
+}
+
+bool passes_right_of(const Point2& p, const Point2& a, const Point2& b) {
+    if ((a[1] > p[1]) == (b[1] > p[1])) return false;
+    // The ray meets the edge if p lies left of it as it goes up, right of it as it goes down.
+    return orientation(a, b, p) == (b[1] > a[1] ? 1 : -1);
 }
 
 Meeting meeting(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {

@@ -23,6 +23,9 @@ bool is_on_segment(const Point2& a, const Point2& b, const Point2& p);
 /// two polygons that share this outline, and as outside for the other.
 bool is_inside(std::span<const Point2> polygon, const Point2& p);
 
+/// Whether the edge from a to b crosses the ray from p along the first axis, as `is_inside` counts. Exact.
+bool passes_right_of(const Point2& p, const Point2& a, const Point2& b);
+
 /// How two closed segments meet.
 enum class Meeting {
     apart,

@@ -3,10 +3,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
+namespace {
+
+constexpr std::size_t kStretchEdges = 16;
+
+/// Point i of a closed line and the one before it.
+const Point2& before(const Polygon2& line, std::size_t i) { return line[i > 0 ? i - 1 : line.size() - 1]; }
+
+/// The point of an outline that is nearest to p, as edge after edge is looked at.
+class NearestPoint {
+public:
+    explicit NearestPoint(const Point2& p) : p_(p) {}
+
+    void look_at(const Point2& a, const Point2& b, std::size_t outline) {
+        const double ux = b[0] - a[0], uy = b[1] - a[1], px = p_[0] - a[0], py = p_[1] - a[1];
+        const double length2 = ux * ux + uy * uy;
+        const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
+        const double dx = px - t * ux, dy = py - t * uy;
+        if (dx * dx + dy * dy >= distance2_) return;
+        distance2_ = dx * dx + dy * dy;
+        found_ = {0, {a[0] + t * ux, a[1] + t * uy}, outline};
+    }
+
+    double distance2() const { return distance2_; }
+
+    Section::Nearest found() const {
+        Section::Nearest result = found_;
+        result.distance = std::sqrt(distance2_);
+        return result;
+    }
+
+private:
+    Point2 p_;
+    double distance2_ = std::numeric_limits<double>::infinity();
+    Section::Nearest found_;
+};
+
+/// Squared distances of p from the nearest and the farthest place of a box.
+std::pair<double, double> distances2(const Point2& p, const Point2& low, const Point2& high) {
+    double nearest2 = 0, farthest2 = 0;
+    for (const std::size_t axis : {0u, 1u}) {
+        const double below = low[axis] - p[axis], above = p[axis] - high[axis];
+        const double nearest = std::max({below, above, 0.0}), farthest = std::max(-below, -above);
+        nearest2 += nearest * nearest;
+        farthest2 += farthest * farthest;
+    }
+    return {nearest2, farthest2};
+}
+
+}  // namespace
 
 bool Section::contains(const Point2& p) const {
     bool inside = false;
@@ -15,23 +65,52 @@ bool Section::contains(const Point2& p) const {
 }
 
 Section::Nearest Section::nearest(const Point2& p) const {
-    double nearest2 = std::numeric_limits<double>::infinity();
-    Nearest result;
-    for (std::size_t o = 0; o < outlines.size(); ++o) {
-        const Polygon2& outline = outlines[o];
-        for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-            const Point2 &a = outline[before], &b = outline[i];
-            const double ux = b[0] - a[0], uy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
-            const double length2 = ux * ux + uy * uy;
-            const double t = length2 > 0 ? std::clamp((px * ux + py * uy) / length2, 0.0, 1.0) : 0.0;
-            const double dx = px - t * ux, dy = py - t * uy;
-            if (dx * dx + dy * dy >= nearest2) continue;
-            nearest2 = dx * dx + dy * dy;
-            result = {0, {a[0] + t * ux, a[1] + t * uy}, o};
+    NearestPoint nearest(p);
+    for (std::size_t o = 0; o < outlines.size(); ++o)
+        for (std::size_t i = 0; i < outlines[o].size(); ++i) nearest.look_at(before(outlines[o], i), outlines[o][i], o);
+    return nearest.found();
+}
+
+SectionSearch::SectionSearch(const Section& section) : section_(section) {
+    for (std::size_t o = 0; o < section.outlines.size(); ++o) {
+        const Polygon2& outline = section.outlines[o];
+        for (std::size_t begin = 0; begin < outline.size(); begin += kStretchEdges) {
+            Stretch stretch{o, begin, std::min(begin + kStretchEdges, outline.size()), before(outline, begin),
+                            before(outline, begin)};
+            for (std::size_t i = begin; i < stretch.end; ++i)
+                for (const std::size_t axis : {0u, 1u}) {
+                    stretch.low[axis] = std::min(stretch.low[axis], outline[i][axis]);
+                    stretch.high[axis] = std::max(stretch.high[axis], outline[i][axis]);
+                }
+            stretches_.push_back(stretch);
         }
     }
-    result.distance = std::sqrt(nearest2);
-    return result;
+}
+
+bool SectionSearch::contains(const Point2& p) const {
+    bool inside = false;
+    for (const Stretch& stretch : stretches_) {
+        if (stretch.low[1] > p[1] || stretch.high[1] <= p[1]) continue;  // no edge goes from one side to the other
+        const Polygon2& outline = section_.outlines[stretch.outline];
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+            inside ^= passes_right_of(p, before(outline, i), outline[i]);
+    }
+    return inside;
+}
+
+Section::Nearest SectionSearch::nearest(const Point2& p) const {
+    // Bounds are compared with room for their rounding.
+    constexpr double kLess = 1 - 1e-12, kMore = 1 + 1e-12;
+    double limit2 = std::numeric_limits<double>::infinity();
+    for (const Stretch& stretch : stretches_) limit2 = std::min(limit2, distances2(p, stretch.low, stretch.high).second);
+    NearestPoint nearest(p);
+    for (const Stretch& stretch : stretches_) {
+        if (kLess * distances2(p, stretch.low, stretch.high).first > std::min(kMore * limit2, nearest.distance2())) continue;
+        const Polygon2& outline = section_.outlines[stretch.outline];
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+            nearest.look_at(before(outline, i), outline[i], stretch.outline);
+    }
+    return nearest.found();
 }
 
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {

@@ -29,6 +29,27 @@ struct Section {
     double clearance(const Point2& p) const { return nearest(p).distance; }
 };
 
+/// Answers as a section does, to the last bit, but looks only at the stretches of its outlines that matter: for many
+/// points. The section must outlive it.
+class SectionSearch {
+public:
+    explicit SectionSearch(const Section& section);
+
+    bool contains(const Point2& p) const;
+    Section::Nearest nearest(const Point2& p) const;
+    double clearance(const Point2& p) const { return nearest(p).distance; }
+
+private:
+    /// The edges that end in [begin, end) of an outline, and their box.
+    struct Stretch {
+        std::size_t outline, begin, end;
+        Point2 low, high;
+    };
+
+    const Section& section_;
+    std::vector<Stretch> stretches_;
+};
+
 /// The set's closed contours by plane, in the order of the first contour of each. Planes with the same normal up to sign
 /// that are less than `tolerance_mm` apart are one.
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);

@@ -5,7 +5,7 @@ import { Navigation, type PaneName, type SavedNavigation } from "./model/navigat
 import { Project } from "./model/project";
 import { Http, ServerError } from "./net/http";
 import { Latest } from "./net/latest";
-import { VIEW_NAMES, type Contour, type ServerEvent, type Session, type ViewName } from "./net/protocol";
+import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
 import { Socket, type ConnectionState } from "./net/socket";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
@@ -111,8 +111,10 @@ export class App {
     navigation.on(["planes"], () => this.surface.planesChanged());
     navigation.on(["layout"], () => this.lay());
     navigation.on(["planes", "window", "layout"], () => this.savePageSoon());
-    project.on(["contours", "structures", "surfaces"], each((view) => view.refresh(false)));
-    project.on(["selection", "draft"], each((view) => view.paint()));
+    project.on(["contours", "structures"], each((view) => view.contoursChanged()));
+    project.on(["surfaces"], each((view) => view.surfacesChanged()));
+    project.on(["selection"], each((view) => view.paint()));
+    project.on(["draft"], each((view) => view.draftChanged()));
     project.on(["contours", "structures", "selection"], () => this.surface.contoursChanged());
     project.on(["structures"], () => this.surface.restyle());
     project.on(["surfaces"], () => this.surface.surfacesChanged());
@@ -147,11 +149,17 @@ export class App {
         return this.project.apply(event);
       case "surface":
         return this.project.setSurface(event);
+      case "outlines":
+        return this.showOutlines(event);
       case "status":
         return this.status.setWork(event.text, event.fraction);
       case "notice":
         return this.notices.show(event.level, event.text);
     }
+  }
+
+  private showOutlines({ structure, revision, views }: Outlines): void {
+    for (const { view, plane, lines } of views) this.views.get(view as ViewName)?.showOutlines(structure, revision, plane, lines);
   }
 
   private begin(session: Session): void {
@@ -164,6 +172,7 @@ export class App {
     this.toolbar.start(session.title, session.presets);
     // After a reconnect the user stays where he is.
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
+    this.views.forEach((view) => view.forgetOutlines());
     this.project.start(session);
     if (isFirst && page?.structure) this.project.activate(page.structure);
     if (isFirst && page?.sketch) this.editor.resume(Sketch.from(page.sketch));

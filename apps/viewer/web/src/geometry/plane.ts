@@ -17,6 +17,10 @@ export interface PixelPlane extends Plane {
   readonly mm_per_pixel: number;
 }
 
+/** Whether both name the same pixels, to the last bit. */
+export const isSamePlane = (a: PixelPlane, b: PixelPlane): boolean =>
+  a.mm_per_pixel === b.mm_per_pixel && (["origin", "u", "v"] as const).every((key) => a[key].every((value, axis) => value === b[key][axis]));
+
 /** Signed distance in mm along the normal. */
 export const heightOver = (plane: Plane, p: Vec3): number => dot(sub(p, plane.origin), plane.normal);
 

@@ -105,6 +105,14 @@ export interface Changed {
   history: History;
 }
 
+/** Where a surface cuts the planes of views, told before the `surface` event of the same revision. */
+export interface Outlines {
+  event: "outlines";
+  structure: number;
+  revision: number;
+  views: { view: string; plane: PixelPlane; lines: number[][] }[]; // closed; column and row alternating
+}
+
 export interface Status {
   event: "status";
   text: string;
@@ -117,7 +125,7 @@ export interface Notice {
   text: string;
 }
 
-export type ServerEvent = Session | Changed | (Surface & { event: "surface" }) | Status | Notice;
+export type ServerEvent = Session | Changed | (Surface & { event: "surface" }) | Outlines | Status | Notice;
 
 export interface SketchPoint {
   at: Vec3;

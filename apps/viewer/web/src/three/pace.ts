@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
+/** Whether WebGL's renderer of this name computes its pictures without a graphics processor. */
+export const isSoftwareRenderer = (name: string): boolean => /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+
 export interface PaceServices {
   /** Settles when the browser wants the next frame. */
   frame(): Promise<void>;

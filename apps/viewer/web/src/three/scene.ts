@@ -6,7 +6,7 @@ import type { Plane } from "../geometry/plane";
 import { add, distance, mix, scale, type Vec3 } from "../geometry/vec";
 import { tinted } from "../view/palette";
 import { coarseTriangles } from "./coarse";
-import { Pace } from "./pace";
+import { isSoftwareRenderer, Pace } from "./pace";
 
 export interface MeshData {
   positions: Float32Array;
@@ -52,7 +52,8 @@ export class Scene {
     private readonly corners: readonly Vec3[],
     private readonly begin: () => () => void,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
+    // Without a graphics processor smooth edges more than double a frame's time, and slices wait for it, too.
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware(), alpha: true, powerPreference: "high-performance" });
     let isHeld = false;
     for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel"] as const)
       window.addEventListener(type, (event) => (isHeld = event.buttons !== 0), { capture: true });
@@ -325,6 +326,14 @@ function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {
   geometry.setAttribute("normal", fine.getAttribute("normal"));
   geometry.setIndex(new THREE.BufferAttribute(coarseTriangles(positions.array as Float32Array, triangles.array as Uint32Array), 1));
   return geometry;
+}
+
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const named = gl?.getExtension("WEBGL_debug_renderer_info");
+  const renderer = String(gl?.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return isSoftwareRenderer(renderer);
 }
 
 function directionLetter(at: Vec3, from: Vec3): string {

@@ -5,6 +5,7 @@ import type { PixelPlane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { Contour, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
+import type { Outline } from "./outlines";
 import { PLANE_COLORS, tinted, withAlpha } from "./palette";
 
 const SHADE = "rgba(8, 10, 13, 0.8)";
@@ -25,9 +26,9 @@ export class OverlayPainter {
   }
 
   /** Where the computed surfaces cut the plane: thin, filled. */
-  outlines(header: SliceHeader, points: Float32Array, slice: PixelPlane, colorOf: (structure: number) => string): void {
+  outlines(outlines: Iterable<Outline>, slice: PixelPlane, colorOf: (structure: number) => string): void {
     const { a, dx, dy } = sliceOnScreen(this.screen, slice);
-    for (const { structure, lines } of header.outlines) {
+    for (const { structure, points, lines } of outlines) {
       const path = new Path2D();
       for (const { first, count, closed } of lines) {
         for (let i = first; i < first + count; ++i) {

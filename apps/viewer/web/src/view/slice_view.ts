@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { PixelPlane } from "../geometry/plane";
-import { areParallel } from "../geometry/plane";
+import { areParallel, isSamePlane } from "../geometry/plane";
 import { depthBelow, sliceOnScreen, slicePlane, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
@@ -8,21 +8,23 @@ import type { Project } from "../model/project";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
-import type { SliceHeader, ViewName } from "../net/protocol";
+import type { SliceHeader, Surface, ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { inView } from "../tools/hit";
 import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
 import { OverlayPainter } from "./overlay";
+import { newestOutlines, toldOutline, type Outlines } from "./outlines";
 import { PLANE_COLORS, VIEW_TITLES } from "./palette";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
+const CROSSINGS_WAIT_MS = 250;
 const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
 
 interface ShownSlice {
   plane: PixelPlane;
   header: SliceHeader;
-  outlinePoints: Float32Array;
+  outlines: Outlines;
   crossingPoints: Float32Array;
 }
 
@@ -44,11 +46,15 @@ export class SliceView {
   private readonly position = el("span", { class: "slice-number" });
   private readonly bitmap = document.createElement("canvas");
   private bitmapPlane: PixelPlane | null = null;
+  private paintedImage = ""; // which image, and where: painting it once more would cost a frame as much again
+  private images = 0; // how many have come
   private pixels: ImageData | null = null;
   private slice: ShownSlice | null = null;
   private readonly requests: Latest<{ pixels: boolean }>;
   private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
   private paintQueued = false;
+  private showsDraft = false;
+  private crossingsTimer = 0;
   private width = 0;
   private height = 0;
   private fontPixels = 13;
@@ -94,7 +100,7 @@ export class SliceView {
 
   /** Asks for a slice where plane, size or window have changed; without `pixels` for the outlines on it in any case. */
   refresh(pixels: boolean): void {
-    if (!this.screen()) return;
+    if (!this.screen()) return void (this.asked = ""); // when it is shown again all may be different
     this.updateSlider();
     this.paint();
     const wanted = this.pixelKey();
@@ -103,7 +109,9 @@ export class SliceView {
     if (needsPixels) this.asked = wanted;
     this.requests.send({ pixels: needsPixels });
     this.element.dataset["pending"] = "true";
-    void this.requests.idle().then(() => (this.element.dataset["pending"] = "false"));
+    window.clearTimeout(this.crossingsTimer);
+    this.crossingsTimer = 0;
+    void this.requests.idle().then(() => (this.element.dataset["pending"] = String(this.crossingsTimer !== 0)));
   }
 
   /** Paints before the next frame. */
@@ -114,6 +122,53 @@ export class SliceView {
       this.paintQueued = false;
       this.paintNow();
     });
+  }
+
+  /** Asks for the points where contours cross the plane: after the surface that is on its way, which users wait for. */
+  contoursChanged(): void {
+    const isComing = [...this.services.project.surfaces.values()].some(({ stage }) => stage === "outdated" || stage === "preview");
+    if (!isComing || !this.slice) return this.refresh(false);
+    this.paint();
+    this.element.dataset["pending"] = "true";
+    window.clearTimeout(this.crossingsTimer);
+    this.crossingsTimer = window.setTimeout(() => {
+      this.crossingsTimer = 0;
+      this.refresh(false);
+    }, CROSSINGS_WAIT_MS);
+  }
+
+  /** Paints if the contour under the hand is seen here, or was. */
+  draftChanged(): void {
+    const screen = this.screen();
+    const { project, navigation } = this.services;
+    const showed = this.showsDraft;
+    this.showsDraft = screen !== null && project.draft !== null && inView(project.draft, screen, navigation.step(this.name));
+    if (showed || this.showsDraft) this.paint();
+  }
+
+  /** Asks for the outlines of surfaces that are newer than those shown, unless they have been told already. */
+  surfacesChanged(): void {
+    const { project } = this.services;
+    const isMissing = ({ structure, revision, stage }: Surface): boolean => {
+      const shown = this.slice?.outlines.get(structure)?.revision;
+      return shown !== (stage === "none" ? undefined : revision) && project.structures.get(structure)?.visible === true;
+    };
+    const surfaces = [...project.surfaces.values()];
+    if (surfaces.some(isMissing)) this.refresh(false);
+    else if (surfaces.some(({ stage }) => stage !== "preview")) this.paint(); // conflicts may be new
+  }
+
+  /** Outlines that the server tells unasked. Of another plane than the one shown they are of no use. */
+  showOutlines(structure: number, revision: number, plane: PixelPlane, lines: number[][]): void {
+    if (!this.slice || !isSamePlane(plane, this.slice.plane)) return;
+    this.slice.outlines.set(structure, toldOutline(structure, revision, lines));
+    this.paintNow();
+    this.tellState();
+  }
+
+  /** Of a server that has started anew, and counts revisions from 1. */
+  forgetOutlines(): void {
+    this.slice?.outlines.clear();
   }
 
   pointOf(event: MouseEvent): Point2 {
@@ -132,6 +187,7 @@ export class SliceView {
       canvas.width = Math.round(this.width * ratio);
       canvas.height = Math.round(this.height * ratio);
     }
+    this.paintedImage = ""; // a canvas of another size is empty
     this.refresh(true);
   }
 
@@ -159,7 +215,7 @@ export class SliceView {
       this.slice = {
         plane,
         header: reply.header,
-        outlinePoints: reply.f32("outline_points"),
+        outlines: newestOutlines(reply.header.outlines, reply.f32("outline_points"), this.slice && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null),
         crossingPoints: reply.f32("crossing_points"),
       };
       if (pixels) this.keepPixels(reply.u8("pixels"), width, height, plane);
@@ -169,14 +225,14 @@ export class SliceView {
       if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
     }
     this.tellState();
+    this.element.dataset["slices"] = String(Number(this.element.dataset["slices"] ?? 0) + 1);
   }
 
   /** What tests and measurements wait for. */
   private tellState(): void {
     const { dataset } = this.element;
-    dataset["revisions"] = (this.slice?.header.outlines ?? []).map((outline) => `${outline.structure}:${outline.revision}`).join(" ");
+    dataset["revisions"] = [...(this.slice?.outlines.values() ?? [])].map((outline) => `${outline.structure}:${outline.revision}`).join(" ");
     dataset["crossings"] = String(this.slice?.header.crossings.length ?? 0);
-    dataset["slices"] = String(Number(dataset["slices"] ?? 0) + 1);
   }
 
   private keepPixels(gray: Uint8Array, width: number, height: number, plane: PixelPlane): void {
@@ -190,6 +246,7 @@ export class SliceView {
     for (let i = 0; i < gray.length; ++i) rgba[i] = GRAY[gray[i]!]!;
     context.putImageData(this.pixels, 0, 0);
     this.bitmapPlane = plane;
+    ++this.images;
   }
 
   private updateSlider(): void {
@@ -214,11 +271,15 @@ export class SliceView {
 
   private paintImage(screen: Screen): void {
     const context = this.image.getContext("2d")!;
+    const isTurned = !this.bitmapPlane || !areParallel(this.bitmapPlane, screen.axes);
+    const ratio = this.ratio();
+    const { a, dx, dy } = isTurned ? { a: 0, dx: 0, dy: 0 } : sliceOnScreen(screen, this.bitmapPlane!);
+    const painting = [this.images, ratio, a, dx, dy, this.image.width, this.image.height].join();
+    if (painting === this.paintedImage) return;
+    this.paintedImage = painting;
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, this.image.width, this.image.height);
-    if (!this.bitmapPlane || !areParallel(this.bitmapPlane, screen.axes)) return void this.drawStretched(context);
-    const ratio = this.ratio();
-    const { a, dx, dy } = sliceOnScreen(screen, this.bitmapPlane);
+    if (isTurned) return this.drawStretched(context);
     context.setTransform(a * ratio, 0, 0, a * ratio, (dx - a / 2) * ratio, (dy - a / 2) * ratio);
     context.drawImage(this.bitmap, 0, 0);
   }
@@ -236,9 +297,9 @@ export class SliceView {
     context.clearRect(0, 0, this.width, this.height);
     const painter = new OverlayPainter(context, screen, this.fontPixels);
     if (this.slice && areParallel(this.slice.plane, screen.axes)) {
-      const { header, outlinePoints, crossingPoints, plane } = this.slice;
-      const shown = { ...header, outlines: header.outlines.filter(({ structure }) => project.structures.get(structure)?.visible) };
-      painter.outlines(shown, outlinePoints, plane, (id) => project.structures.get(id)?.color ?? "#888888");
+      const { header, outlines, crossingPoints, plane } = this.slice;
+      const shown = [...outlines.values()].filter(({ structure }) => project.structures.get(structure)?.visible);
+      painter.outlines(shown, plane, (id) => project.structures.get(id)?.color ?? "#888888");
       painter.crossings(header, crossingPoints, plane, (id) => this.crossingColor(id, screen));
     }
     this.paintLines(painter, screen);

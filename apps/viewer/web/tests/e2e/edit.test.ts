@@ -97,6 +97,34 @@ describe("contours", () => {
     near(most(moved, 1), BALL_RADIUS_MM, 2, "across");
   });
 
+  test("under the hand outlines come unasked: no view asks for its slice, the 3D view for one mesh a surface", async () => {
+    const radius = await drawBall("axial");
+    await viewer.saved();
+    await viewer.surfaceShown();
+    const { page } = viewer;
+    const asked: string[] = [];
+    page.on("request", (request) => asked.push(request.url().replace(/^.*\/api\//, "")));
+    const revisionsOf = () => page.evaluate(() => document.querySelector<HTMLElement>("[data-view=coronal]")!.dataset["revisions"]!);
+    const first = await revisionsOf();
+    await page.mouse.move(...(await viewer.at("axial", radius, 0)));
+    await page.mouse.down();
+    let before = first;
+    for (const step of [4, 8, 12]) {
+      await page.mouse.move(...(await viewer.at("axial", radius + step, 0)));
+      await page.waitForFunction((old) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].every((pane) => pane.dataset["revisions"] !== old), before);
+      before = await revisionsOf();
+    }
+    await viewer.surfaceShown();
+    const surfaces = Number((await revisionsOf()).split(":")[1]) - Number(first.split(":")[1]);
+    assert.deepEqual(asked.filter((path) => !path.startsWith("mesh/")), []);
+    assert.ok(surfaces >= 4 && asked.length <= surfaces, `${asked.length} meshes for ${surfaces} surfaces`);
+    asked.length = 0;
+    await page.mouse.up();
+    await viewer.saved();
+    await viewer.slicesShown();
+    assert.ok(asked.length <= 4 && asked.every((path) => path === "slice"), `the release moves the diamonds in four views: ${asked.join()}`);
+  });
+
   test("points of a spline are inserted, dragged and deleted", async () => {
     const { page } = viewer;
     const radius = await viewer.pixels("coronal", BALL_RADIUS_MM);

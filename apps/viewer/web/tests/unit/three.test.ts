@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { coarseTriangles } from "../../src/three/coarse";
-import { Pace } from "../../src/three/pace";
+import { isSoftwareRenderer, Pace } from "../../src/three/pace";
 
 const settled = () => new Promise((resolve) => setImmediate(resolve));
 
@@ -129,4 +129,11 @@ test("a rough surface has a fraction of the triangles, and the shape stays", () 
 test("a surface without extent has no triangles left", () => {
   assert.equal(coarseTriangles(new Float32Array(9), Uint32Array.of(0, 1, 2)).length, 0);
   assert.equal(coarseTriangles(new Float32Array(0), new Uint32Array(0)).length, 0);
+});
+
+test("a renderer without a graphics processor is known by its name", () => {
+  const software = ["ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero) (0x0000C0DE)), SwiftShader driver)", "llvmpipe (LLVM 15.0.6, 256 bits)", "ANGLE (Microsoft, Microsoft Basic Render Driver Direct3D11)", "Apple Software Renderer"];
+  const hardware = ["ANGLE (Intel, Mesa Intel(R) UHD Graphics 620 (KBL GT2), OpenGL 4.6)", "Apple M2", "Mali-G78", "WebKit WebGL"];
+  assert.deepEqual(software.map(isSoftwareRenderer), software.map(() => true));
+  assert.deepEqual(hardware.map(isSoftwareRenderer), hardware.map(() => false));
 });

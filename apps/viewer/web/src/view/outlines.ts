@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { SliceHeader } from "../net/protocol";
+
+/** Where the surface of this revision cuts a view's plane, in pixels of the plane, column and row alternating. */
+export interface Outline {
+  structure: number;
+  revision: number;
+  points: ArrayLike<number>;
+  lines: { first: number; count: number; closed: boolean }[];
+}
+
+export type Outlines = Map<number, Outline>; // by structure
+
+/** Of lines that the server told unasked. */
+export function toldOutline(structure: number, revision: number, told: number[][]): Outline {
+  const points: number[] = [];
+  const lines = told.map((line) => {
+    const first = points.length / 2;
+    points.push(...line);
+    return { first, count: line.length / 2, closed: true };
+  });
+  return { structure, revision, points, lines };
+}
+
+/** Those of a slice that was asked for, but where newer ones have been told meanwhile, those. */
+export function newestOutlines(asked: SliceHeader["outlines"], points: Float32Array, told: Outlines | null): Outlines {
+  return new Map(
+    asked.map((outline) => {
+      const known = told?.get(outline.structure);
+      return [outline.structure, known && known.revision > outline.revision ? known : { ...outline, points }];
+    }),
+  );
+}

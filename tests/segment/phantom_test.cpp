@@ -45,6 +45,12 @@ TEST(Phantom, LiverFromOrthogonalContoursLeaksAsPrinted) {
 
 TEST(Phantom, MetastasisFromSevenOfItsContours) { EXPECT_GT(dice("metastasis_parallel7", 2), 0.998); }
 
+// Beyond its wide flat ends the next plane shows its processes alone: caps must not dent them, probes not bend them.
+TEST(Phantom, VertebraWithItsFlatEnds) {
+    EXPECT_GT(dice("vertebra_parallel11", 2), 0.99);
+    EXPECT_GT(dice("vertebra_parallel11_hand", 2), 0.975);
+}
+
 TEST(Phantom, ContoursDrawnByAnUnsteadyHand) {
     EXPECT_GT(dice("metastasis_parallel7_hand", 2), 0.985);
     EXPECT_GT(dice("kidney_radial6_hand", 2), 0.97);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kontur/field/prepare.h"
 #include "kontur/segment.h"
@@ -90,6 +91,23 @@ TEST(Corners, ASquareStaysASquareAndANotchANotch) {
         EXPECT_EQ(result.report.corners, Corners::faithful);
         EXPECT_LT(result.report.iterations, 25 * result.report.solves);
     }
+}
+
+// Smoothed fits of such sharp tips have sheets that the last one does not have; nothing of them may stay.
+TEST(Corners, StackedStarsKeepTheirTips) {
+    std::vector<test::Point2> star;
+    for (int i = 0; i < 10; ++i) {
+        const double angle = std::numbers::pi * (0.5 + i / 5.0);
+        const double radius = i % 2 == 0 ? 30 : 30 * std::sin(0.1 * std::numbers::pi) / std::sin(0.7 * std::numbers::pi);
+        star.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    ContourSet set;
+    for (int i = 0; i < 5; ++i) set.contours.push_back(test::contour_in(make_plane({0, 0, 5.0 * i}, {0, 0, 1}), star));
+    SegmentOptions options;
+    options.corners = Corners::faithful;
+    const Segmentation result = segment(set, grid_around(bounding_box(set), {2, 2, 2}, 8), options);
+    EXPECT_LT(result.report.residual.max_mm, 0.4);
+    EXPECT_LT(result.report.capped, 200u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kontur/io/image.h"
+#include "kontur/io/read_provenance.h"
 #include "support/damage.h"
 #include "support/expect_error.h"
 #include "support/random.h"
@@ -78,6 +79,13 @@ TEST_F(WriteDicomSeg, ComesBackVoxelByVoxelHereAndElsewhere) {
             << "red in D50 is L*a*b* 54.29, 80.81, 69.89: " << seen;
         EXPECT_NE(seen.find("algorithm: interpolation 1.2 kernel=r/3"), std::string::npos) << seen;
     }
+}
+
+TEST_F(WriteDicomSeg, HowItWasMadeComesBack) {
+    use_images("axial");
+    const Provenance made{{"contours_sha256", std::string(64, 'a')}, {"made_by", "kontur convert"}, {"note", "a; b"}};
+    write_dicom_seg(path(), random_labels(), three_segments(), series_, {.provenance = made});
+    EXPECT_EQ(read_provenance(path()), made);
 }
 
 TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {

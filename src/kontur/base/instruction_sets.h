@@ -12,7 +12,8 @@
 #define KONTUR_X86_64_LEVEL 0
 #endif
 
-// In front of a hot function. With contraction off (see the top CMakeLists.txt) every level gives the same bytes.
+// In front of a hot function. Every level gives the same bytes where contraction is off, which it is unless
+// field/CMakeLists.txt turns it on for a file.
 #if KONTUR_X86_64_LEVEL == 0
 #define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #elif KONTUR_X86_64_LEVEL == 4

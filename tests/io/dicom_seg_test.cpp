@@ -252,6 +252,7 @@ TEST_F(ReadDicomSeg, RefusesContradictionsByName) {
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("kind")), ErrorKind::unsupported, "type 'LABELMAP' with 1 bits");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("shuffled"), {}, 209), ErrorKind::too_large,
                         "7 x 5 x 6 voxels; the limit is 209 voxels");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("far")), ErrorKind::too_large, "its frames span 1e+19 slices of 2 mm");
 }
 
 TEST_F(ReadDicomSeg, EndsCleanlyOnEveryDamagedFile) {

@@ -6,7 +6,9 @@
 #include "kontur/base/instruction_sets.h"
 
 // GCC 12 takes writing one lane of a vector for reading the others.
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 namespace kontur {
 namespace {

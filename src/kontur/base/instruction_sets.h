@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// KONTUR_X86_64_LEVEL is the level of x86-64 that hot functions are compiled for: 1, 3 (AVX2) or 4 (AVX-512); 0 compiles
-// them for all three and chooses when the program starts. Sanitizers cannot instrument the choice. Only
-// tests/determinism gives another one than the default.
+// KONTUR_X86_64_LEVEL is the level of x86-64 that hot functions are compiled for: 1 or 3 (AVX2), which only tests/determinism
+// asks for; 0 compiles them for both and for 4 (AVX-512) and chooses when the program starts. Sanitizers cannot instrument
+// the choice.
 #if !defined(__x86_64__) || !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__) || \
     defined(__SANITIZE_THREAD__)
 #undef KONTUR_X86_64_LEVEL
@@ -16,8 +16,6 @@
 // field/CMakeLists.txt turns it on for a file.
 #if KONTUR_X86_64_LEVEL == 0
 #define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#elif KONTUR_X86_64_LEVEL == 4
-#define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target("arch=x86-64-v4")))
 #elif KONTUR_X86_64_LEVEL == 3
 #define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target("arch=x86-64-v3")))
 #else

@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: fuzzer help setup build demo test asan tsan torture-short torture tidy bench docs format install clean
+.PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench docs format install clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -36,6 +36,14 @@ tsan: setup ## run every test under ThreadSanitizer
 	@cmake --build --preset tsan -j $(JOBS)
 	@ctest --preset tsan -j $(JOBS)
 
+coverage: setup ## run every test and print which share of the lines each folder's tests run (installs gcovr)
+	@tools/setup gcovr
+	@cmake --preset coverage >/dev/null
+	@cmake --build --preset coverage -j $(JOBS)
+	@find build/coverage -name '*.gcda' -delete
+	@ctest --preset coverage -j $(JOBS) || true
+	@tools/coverage build/coverage
+
 fuzzer:
 	@tools/setup clang
 	@cmake --preset fuzz >/dev/null
@@ -44,8 +52,9 @@ fuzzer:
 torture-short: fuzzer ## fuzz every parser and the pipeline for 30 s each (installs clang)
 	@tools/torture 30
 
-torture: build fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads
-	@KONTUR_MALFORMED_ALL=1 KONTUR_BIG=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 ctest --preset release -R '^(malformed|determinism|big)\.'
+torture: build fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads, 200 cancellations
+	@KONTUR_MALFORMED_ALL=1 KONTUR_BIG=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 KONTUR_TIMED=1 KONTUR_CANCEL_ROUNDS=200 \
+	    ctest --preset release -R '^(malformed|determinism|big)\.|^Cancellation\.'
 	@tools/torture 3600
 
 tidy: ## clang-tidy over the library and the programs (installs clang-tidy)

@@ -11,6 +11,7 @@ import numpy
 import pytest
 
 KONTUR = os.environ["KONTUR_CLI"]
+SANITIZED = bool(os.environ.get("KONTUR_SANITIZED"))  # needs several times the memory
 CENTER = (12.0, -7.0, 5.0)
 RADIUS = 10.0
 AXES = {"x": ((1, 0, 0), (0, 1, 0), (0, 0, 1)), "y": ((0, 1, 0), (0, 0, 1), (1, 0, 0)), "z": ((0, 0, 1), (1, 0, 0), (0, 1, 0))}

@@ -10,6 +10,7 @@ import tempfile
 import zlib
 
 import nibabel
+import pydicom
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "malformed"))
@@ -49,17 +50,28 @@ def dicom():
             yield min((folder / "dicom").iterdir()).read_bytes()
 
 
+def that_says_how_it_was_made(path):
+    document = pydicom.dcmread(path)
+    equipment = pydicom.Dataset()
+    equipment.Manufacturer, equipment.ContributionDescription = "kontur", "made_by: kontur convert; options: a; b; input_sha256: 0123"
+    document.ContributingEquipmentSequence = [equipment]
+    document.save_as(path)
+    return path.read_bytes()
+
+
 def dicom_seg():
     with tempfile.TemporaryDirectory() as name:
         for case in ("shuffled", "overlapping", "fractional"):
             sound.support("make_dicom_seg.py", case, f"{name}/a.dcm", f"{name}/truth")
             yield pathlib.Path(name, "a.dcm").read_bytes()
+        yield that_says_how_it_was_made(pathlib.Path(name, "a.dcm"))
 
 
 def rtstruct():
     with tempfile.TemporaryDirectory() as name:
         sound.support("make_rtstruct.py", "good", f"{name}/a.dcm")
         yield pathlib.Path(name, "a.dcm").read_bytes()
+        yield that_says_how_it_was_made(pathlib.Path(name, "a.dcm"))
 
 
 def contour_json():

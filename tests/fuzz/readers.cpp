@@ -80,6 +80,7 @@ void dicom_seg(Bytes bytes) {
     const DicomSegmentation found = read_dicom_segmentation(path, kMaxVoxels);
     for (const DicomSegment& segment : found.segments) read_dicom_seg(path, segment.number, kMaxVoxels);
     require(read_dicom_seg_masks(path, kMaxVoxels).size() == found.segments.size(), "a mask for each segment");
+    provenance(path);
 }
 void rtstruct(Bytes bytes) {
     const auto path = scratch().file("x.dcm", bytes);

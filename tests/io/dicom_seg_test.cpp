@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kontur/io/image.h"
+#include "kontur/io/read_provenance.h"
 #include "support/damage.h"
 #include "support/expect_error.h"
 #include "support/random.h"
@@ -78,6 +79,13 @@ TEST_F(WriteDicomSeg, ComesBackVoxelByVoxelHereAndElsewhere) {
             << "red in D50 is L*a*b* 54.29, 80.81, 69.89: " << seen;
         EXPECT_NE(seen.find("algorithm: interpolation 1.2 kernel=r/3"), std::string::npos) << seen;
     }
+}
+
+TEST_F(WriteDicomSeg, HowItWasMadeComesBack) {
+    use_images("axial");
+    const Provenance made{{"contours_sha256", std::string(64, 'a')}, {"made_by", "kontur convert"}, {"note", "a; b"}};
+    write_dicom_seg(path(), random_labels(), three_segments(), series_, {.provenance = made});
+    EXPECT_EQ(read_provenance(path()), made);
 }
 
 TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
@@ -244,6 +252,7 @@ TEST_F(ReadDicomSeg, RefusesContradictionsByName) {
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("kind")), ErrorKind::unsupported, "type 'LABELMAP' with 1 bits");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("shuffled"), {}, 209), ErrorKind::too_large,
                         "7 x 5 x 6 voxels; the limit is 209 voxels");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("far")), ErrorKind::too_large, "its frames span 1e+19 slices of 2 mm");
 }
 
 TEST_F(ReadDicomSeg, EndsCleanlyOnEveryDamagedFile) {

@@ -126,6 +126,10 @@ TEST_F(DicomSeriesTest, NamesTheGapsOfMissingSlices) {
         << error.what();
 }
 
+TEST_F(DicomSeriesTest, CountsMissingSlicesBeyondEveryInteger) {
+    EXPECT_REFUSED(refusal(make("far")), unsupported, ": 4e+24 of them at the usual spacing of 2.5 mm");
+}
+
 TEST_F(DicomSeriesTest, RefusesIrregularSpacingAndShift) {
     EXPECT_REFUSED(refusal(make("jitter")), unsupported, "steps from 2.3 to 2.7 mm put slices up to 0.2 mm off");
     EXPECT_REFUSED(refusal(make("shifted")), unsupported, "the slice at z = 110 mm is shifted by 0.5 mm");

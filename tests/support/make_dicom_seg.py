@@ -64,7 +64,7 @@ frames = [(number, k) for number, mask in masks.items() for k in range(NZ) if ma
 random.Random(3).shuffle(frames)
 items, pixels = [], []
 for n, (number, k) in enumerate(frames):
-    height = 2 * k + (0.3 if case == "irregular" and n == 0 else 0)
+    height = 2 * k + (0.3 if case == "irregular" and n == 0 else 2e19 if case == "far" and n == 0 else 0)
     position = np.array([10, 20, 30]) + height * normal
     item = of(
         PlanePositionSequence=Sequence([of(ImagePositionPatient=[f"{v:.8g}" for v in position])]),

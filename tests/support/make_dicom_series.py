@@ -60,7 +60,7 @@ def set_pixels(d, values, dtype="<i2"):
 
 def place(d, orientation, position):
     d.ImageOrientationPatient = [f"{v:.9f}" for v in orientation]
-    d.ImagePositionPatient = [f"{v:.6f}" for v in position]
+    d.ImagePositionPatient = [f"{v:.6f}" if abs(v) < 1e6 else f"{v:.3e}" for v in position]
 
 
 def make(case, folder):
@@ -89,6 +89,8 @@ def make(case, folder):
         position = ORIGIN + k * step
         if case == "jitter":
             position = position + (0.2 if k == 4 else 0) * normal
+        if case == "far":
+            position = position + (1e25 if k == NZ - 1 else 0) * normal
         if case == "shifted":
             position = position + (0.5 if k == 4 else 0) * row
         place(d, orientation, position)

@@ -13,6 +13,7 @@ import pytest
 from support import Page, running
 
 
+SANITIZED = bool(os.environ.get("KONTUR_SANITIZED"))  # needs several times the memory, and keeps what was freed for a while
 FUZZ = int(os.environ.get("KONTUR_FUZZ_ROUNDS", "300"))  # random paths, and as many messages: 100000 for people
 
 
@@ -269,7 +270,7 @@ def test_floods_cost_no_memory(server):
     for _ in range(1000):
         socket.create_connection(("127.0.0.1", server.port), timeout=15).close()
     assert server.page().do("ping") == {}
-    assert resident_mib(server) < before + 150
+    assert SANITIZED or resident_mib(server) < before + 150
 
 
 def test_an_idle_server_is_small(tmp_path):
@@ -277,4 +278,4 @@ def test_an_idle_server_is_small(tmp_path):
         page = one.page()
         page.do("ping")
         print(f"\nidle with the phantom: {resident_mib(one):.0f} MiB")
-        assert resident_mib(one) < 400
+        assert SANITIZED or resident_mib(one) < 400

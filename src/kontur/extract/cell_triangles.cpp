@@ -20,7 +20,7 @@ std::array<CellEdge, 12> make_edges() {
         for (int position = 0; position < 4; ++position) {
             const int u = (axis + 1) % kAxes, v = (axis + 2) % kAxes;
             const int from = (position & 1) << u | (position >> 1) << v;
-            edges[static_cast<std::size_t>(4 * axis + position)] = {axis, from, from | 1 << axis};
+            edges[4 * axis + position] = {axis, from, from | 1 << axis};
         }
     return edges;
 }
@@ -30,7 +30,7 @@ std::array<CellFace, 6> make_faces() {
     for (int axis = 0; axis < kAxes; ++axis)
         for (int side = 0; side < 2; ++side) {
             const int u = 1 << (axis + 1) % kAxes, v = 1 << (axis + 2) % kAxes, base = side << axis;
-            faces[static_cast<std::size_t>(2 * axis + side)].corners =
+            faces[2 * axis + side].corners =
                 side ? std::array{base, base | u, base | u | v, base | v}
                      : std::array{base, base | v, base | u | v, base | u};
         }

@@ -32,8 +32,7 @@ std::array<double, 64> CubicCells::stencil(const Index3& cell) const {
     for (int k = first(2); k < 4 - first(2); ++k)
         for (int j = first(1); j < 4 - first(1); ++j)
             for (int i = first(0); i < 4 - first(0); ++i)
-                nodes[static_cast<std::size_t>(i + 4 * (j + 4 * k))] =
-                    lattice_.value({cell.i + i - 1, cell.j + j - 1, cell.k + k - 1});
+                nodes[i + 4 * (j + 4 * k)] = lattice_.value({cell.i + i - 1, cell.j + j - 1, cell.k + k - 1});
     return nodes;
 }
 

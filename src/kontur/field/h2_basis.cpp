@@ -82,7 +82,7 @@ void NestedBasis::add_level(std::int32_t begin, std::int32_t end) {
         const Interpolation& interpolation = interpolations_[c];
         const auto first = static_cast<std::int32_t>(nodes_.size()), run = candidates(tree_.clusters[c]).begin;
         for (std::int32_t k = 0; k < interpolation.rank; ++k)
-            append_node(static_cast<std::size_t>(run + interpolation.columns[static_cast<std::size_t>(k)]));
+            append_node(run + interpolation.columns[static_cast<std::size_t>(k)]);
         skeletons_[c] = {first, first + interpolation.rank};
     }
 }

@@ -101,7 +101,7 @@ Interpolation interpolate_columns(double* a, std::int32_t rows, std::int32_t lea
         r[static_cast<std::size_t>(k) * columns + k] = length;
         if (k + 1 < columns)
             remove(column(k), column(k + 1), lead, columns - k - 1, &r[static_cast<std::size_t>(k + 1) * columns + k],
-                   columns, &squares[static_cast<std::size_t>(k + 1)]);
+                   columns, &squares[k + 1]);
         result.rank = k + 1;
     }
     result.transfer = transfer_of(r, result.rank, columns);

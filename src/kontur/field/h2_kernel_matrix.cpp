@@ -18,7 +18,7 @@ std::vector<bool> clusters_with_basis(const ClusterTree& tree, const Partition& 
     for (std::size_t c = 0; c < used.size(); ++c)
         if (used[c] && !tree.clusters[c].is_leaf())
             for (const std::int32_t child : {0, 1})
-                used[static_cast<std::size_t>(tree.clusters[c].first_child + child)] = true;
+                used[tree.clusters[c].first_child + child] = true;
     return used;
 }
 

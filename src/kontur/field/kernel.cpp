@@ -12,7 +12,7 @@ namespace {
 
 // Targets that are summed side by side in vector registers: the lanes are targets, never terms of one sum.
 constexpr int kLanes = 32;
-constexpr std::int64_t kTargetsPerChunk = 4 * kLanes;
+constexpr std::int64_t kTargetsPerChunk = std::int64_t{4} * kLanes;
 
 struct Lanes {
     alignas(64) std::array<double, kLanes> x{}, y{}, z{};

@@ -90,17 +90,16 @@ void EarlierNeighbours::visit(std::int32_t c, Search& search) const {
         double squared[kLeafSize];
         squared_distances(clustered_, cluster.begin, cluster.size(), search.box, squared);
         for (std::int32_t i = 0; i < cluster.size(); ++i)
-            search.add(squared[i], tree_.order[static_cast<std::size_t>(cluster.begin + i)]);
+            search.add(squared[i], tree_.order[cluster.begin + i]);
         return;
     }
     const std::int32_t lower = cluster.first_child;
     double distance[2];
     for (const int child : {0, 1})
-        distance[child] = box_distance(search.box, tree_.clusters[static_cast<std::size_t>(lower + child)]);
+        distance[child] = box_distance(search.box, tree_.clusters[lower + child]);
     const int nearer = distance[1] < distance[0] ? 1 : 0;
     for (const int child : {nearer, 1 - nearer})
-        if (earliest_[static_cast<std::size_t>(lower + child)] < search.limit &&
-            distance[child] * distance[child] <= search.reach)
+        if (earliest_[lower + child] < search.limit && distance[child] * distance[child] <= search.reach)
             visit(lower + child, search);
 }
 

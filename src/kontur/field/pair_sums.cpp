@@ -6,7 +6,9 @@
 #include "kontur/base/instruction_sets.h"
 
 // GCC 12 takes writing one lane of a vector for reading the others.
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 namespace kontur {
 namespace {
@@ -114,7 +116,12 @@ void add_sums_by_2(Kernel kernel, const NodeView& nodes, NodeRun left, std::span
     add_sums_of<2, kMutual>(kernel, nodes, left, right, out);
 }
 
-#if KONTUR_CHOOSES_INSTRUCTION_SET
+#if KONTUR_X86_64_LEVEL == 1
+template <bool kMutual>
+AddSums* widest() {
+    return add_sums_by_2<kMutual>;
+}
+#else
 template <bool kMutual>
 __attribute__((target("arch=x86-64-v3"))) void add_sums_by_4(Kernel kernel, const NodeView& nodes, NodeRun left,
                                                              std::span<const NodeRun> right, double* out) {
@@ -127,18 +134,19 @@ __attribute__((target("arch=x86-64-v4"))) void add_sums_by_8(Kernel kernel, cons
     add_sums_of<8, kMutual>(kernel, nodes, left, right, out);
 }
 
-template <bool kMutual>
-AddSums* widest() {
+/// The level of x86-64 that the hot functions run on.
+int level() {
+    if constexpr (KONTUR_X86_64_LEVEL > 0) return KONTUR_X86_64_LEVEL;
     const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
     const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
                     __builtin_cpu_supports("avx512cd");
-    return v4 ? add_sums_by_8<kMutual> : v3 ? add_sums_by_4<kMutual> : add_sums_by_2<kMutual>;
+    return v4 ? 4 : v3 ? 3 : 1;
 }
-#else
+
 template <bool kMutual>
 AddSums* widest() {
-    return add_sums_by_2<kMutual>;
+    return level() == 4 ? add_sums_by_8<kMutual> : level() == 3 ? add_sums_by_4<kMutual> : add_sums_by_2<kMutual>;
 }
 #endif
 

@@ -96,18 +96,20 @@ template <int kPacks>
     const int first = j - kTile + 1;
     Pack sum[kTile][kPacks];
     for (int c = 0; c < kTile; ++c)
-        for (int p = 0; p < kPacks; ++p) sum[c][p] = pack(g + static_cast<std::ptrdiff_t>(first + c) * stride + p * kLanes);
+        for (std::ptrdiff_t p = 0; p < kPacks; ++p)
+            sum[c][p] = pack(g + static_cast<std::ptrdiff_t>(first + c) * stride + p * kLanes);
     for (int k = j + 1; k < n; ++k) {
         const double* gk = g + static_cast<std::ptrdiff_t>(k) * stride;
 #pragma GCC unroll 4
         for (int c = 0; c < kTile; ++c) {
             const double f = column(l, lead, first + c)[k];
 #pragma GCC unroll 4
-            for (int p = 0; p < kPacks; ++p) sum[c][p] -= f * pack(gk + p * kLanes);
+            for (std::ptrdiff_t p = 0; p < kPacks; ++p) sum[c][p] -= f * pack(gk + p * kLanes);
         }
     }
     for (int c = 0; c < kTile; ++c)
-        for (int p = 0; p < kPacks; ++p) pack(g + static_cast<std::ptrdiff_t>(first + c) * stride + p * kLanes) = sum[c][p];
+        for (std::ptrdiff_t p = 0; p < kPacks; ++p)
+            pack(g + static_cast<std::ptrdiff_t>(first + c) * stride + p * kLanes) = sum[c][p];
 }
 
 }  // namespace

@@ -67,15 +67,15 @@ void refuse_duplicates(const DicomStack& stack, const std::vector<double>& posit
 [[noreturn]] void refuse_gaps(const DicomStack& stack, const std::vector<double>& steps, double usual) {
     const PositionNames names(stack);
     std::vector<std::string> gaps;
-    long missing = 0;
+    double missing = 0;  // positions of a damaged file may be 1e300 mm apart
     for (std::size_t k = 0; k < steps.size(); ++k) {
         if (steps[k] < 1.5 * usual) continue;
-        missing += std::lround(steps[k] / usual) - 1;
+        missing += std::round(steps[k] / usual) - 1;
         gaps.push_back(names.between(stack.slices[k], stack.slices[k + 1]));
     }
     const std::size_t count = gaps.size();
     if (count > kGapsNamed) gaps.resize(kGapsNamed);
-    refuse(fmt::format("slices are missing between {}{}: {} of them at the usual spacing of {:.6g} mm",
+    refuse(fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm",
                        names.unit_text(fmt::format("{}", fmt::join(gaps, ", "))),
                        count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual));
 }

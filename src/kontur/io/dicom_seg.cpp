@@ -197,10 +197,14 @@ private:
         const auto by_height = [&](const SegFrame& a, const SegFrame& b) { return height(a) < height(b); };
         const auto [low, high] = std::minmax_element(frames_.begin(), frames_.end(), by_height);
         const SlicePlacement &first = low->placement, &last = high->placement;
-        const auto steps = std::llround((heights.back() - heights.front()) / step);
+        const double slices = std::round((heights.back() - heights.front()) / step) + 1;
+        if (!(slices <= static_cast<double>(max_voxels)))
+            throw Error(ErrorKind::too_large, fmt::format("its frames span {:.6g} slices of {:.6g} mm; the limit is {} voxels",
+                                                          slices, step, max_voxels));
+        const std::int64_t steps = static_cast<std::int64_t>(slices) - 1;
         Grid& grid = description_.grid;
         grid.size = {dcmtk::integer(dataset(), DCM_Columns).value_or(0), dcmtk::integer(dataset(), DCM_Rows).value_or(0),
-                     static_cast<std::int64_t>(steps) + 1};
+                     steps + 1};
         check_size(max_voxels);
         Affine3& affine = grid.index_to_mm;
         affine.set_column(0, first.spacing_mm[0] * first.row_direction);

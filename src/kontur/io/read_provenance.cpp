@@ -49,6 +49,7 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
     }
     return parts;
 }
+std::vector<std::string_view> split(std::string&&, std::string_view) = delete;  // the parts would outlive the text
 
 /// The lines that begin so and go on "NAME: VALUE".
 Provenance from_lines(std::string_view text, std::string_view begin) {
@@ -156,7 +157,8 @@ Provenance from_dicom(const fs::path& path) {
     Provenance found;
     for (DcmItem* equipment : dcmtk::items(*file.getDataset(), DCM_ContributingEquipmentSequence)) {
         if (dcmtk::text(*equipment, DCM_Manufacturer) != "kontur") continue;
-        for (const std::string_view part : split(dcmtk::text(*equipment, DCM_ContributionDescription), "; ")) {
+        const std::string description = dcmtk::text(*equipment, DCM_ContributionDescription);
+        for (const std::string_view part : split(description, "; ")) {
             if (auto entry = entry_of(part)) found.push_back(std::move(*entry));
             else if (!found.empty()) found.back().second += "; " + std::string(part);
         }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace kontur {
 namespace {
@@ -93,7 +94,7 @@ public:
         evaluate(function, doubtful, threads);
         if (count() == before) return false;
         evaluate(function, others, threads);
-        for (Watched& watched : caps_) watched.active = watched.active || watched.doubted;
+        for (Watched& watched : caps_) watched.active = watched.active || watched.forgotten;
         return true;
     }
 
@@ -102,13 +103,12 @@ public:
             if (const Cap& cap = watched.cap; watched.active)
                 points.push_back({cap.position, cap.value_mm, cap.kind, cap.trust});
     }
-    /// Before the last fit: leaks of the fits before may have come from their smoothing. If it leaks, too, they count again.
-    void doubt_leaks() {
-        for (std::size_t i = first_probe_; i < caps_.size(); ++i) {
-            caps_[i].doubted = caps_[i].active;
-            caps_[i].active = false;
-        }
+
+    /// Leaks so far may come from the smoothing of early fits: they count again only if a fit from now on leaks, too.
+    void forget_leaks() {
+        for (std::size_t i = first_probe_; i < caps_.size(); ++i) caps_[i].forgotten = std::exchange(caps_[i].active, false);
     }
+
     std::size_t count() const {
         return static_cast<std::size_t>(
             std::count_if(caps_.begin(), caps_.end(), [](const Watched& w) { return w.active; }));
@@ -118,7 +118,7 @@ private:
     struct Watched {
         Cap cap;
         bool active = false;
-        bool doubted = false;                                        ///< was active
+        bool forgotten = false;                                      ///< a leak of an early fit
         double value_mm = std::numeric_limits<double>::quiet_NaN();  ///< of the last function for which it was computed
     };
 
@@ -187,7 +187,7 @@ public:
         result_.slopes = options_.start_slopes;
         result_.slopes.resize(all_.size(), 1.0);
         if (finds_slopes()) find_slopes();
-        caps_.doubt_leaks();
+        caps_.forget_leaks();
         const Indices kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
         const std::vector<BoundaryPoint> points = pick(all_, kept);
         const std::vector<double> slopes = pick(result_.slopes, kept);

@@ -12,7 +12,6 @@
 namespace kontur {
 namespace {
 
-constexpr double kStride = 4;  ///< in units of the geometric mean of the spacings; 3 and 5 need more values
 // Smaller objects have fewer corners on their surface than the coarse lattice needs nodes.
 constexpr double kLeastExtentVoxels = 20;
 
@@ -21,9 +20,6 @@ constexpr double kDoubtAtCentres = 0.047, kDoubtBesideCentres = 0.016, kDoubtEls
 // ... and smaller than the interpolation's errors found in the cell, or half of those in a neighbour, times this.
 constexpr double kDoubtPerError = 2;
 constexpr int kPasses = 4;
-// Coarse cells without a change of sign are looked into when a corner is this close, in coarse spacings: the surface can
-// bulge through a face.
-constexpr double kBulge = 0.25;
 
 // Error of the fast function in voxels; values below a part of what it is found to be are computed by the direct sum.
 constexpr double kFastTolerance = 0.02;
@@ -32,7 +28,7 @@ constexpr double kUnsurePerError = 0.5;  ///< the largest error of hundreds is a
 /// The stride that brings each axis close to the same coarse spacing in mm.
 Index3 strides(const Grid& grid) {
     const Vec3 spacing = grid.spacing_mm();
-    const double target = kStride * std::cbrt(spacing.x * spacing.y * spacing.z);
+    const double target = kCoarseStride * std::cbrt(spacing.x * spacing.y * spacing.z);
     Index3 stride;
     for (int axis = 0; axis < 3; ++axis) stride[axis] = std::max<std::int64_t>(1, std::llround(target / spacing[axis]));
     return stride;
@@ -134,7 +130,7 @@ private:
             fast_.values(points, values, progress_);
         };
         for (const Index3& cell :
-             flood_coarse_cells(coarse_, evaluate, starts, kBulge * coarse_spacing_mm_, evaluations_, progress_)) {
+             flood_coarse_cells(coarse_, evaluate, starts, kCoarseBulge * coarse_spacing_mm_, evaluations_, progress_)) {
             numbers_.emplace(key(cell), band_.size());
             band_.push_back({cell, kDoubtElsewhere * coarse_spacing_mm_});
         }

@@ -138,10 +138,10 @@ bool CoarseLattice::is_cell(const Index3& cell) const {
     return true;
 }
 
-Index3 CoarseLattice::cell_at(const Vec3& index) const {
+Index3 coarse_cell_at(const Vec3& index, const Index3& stride) {
     Index3 cell;
     for (int axis = 0; axis < 3; ++axis)
-        cell[axis] = static_cast<std::int64_t>(std::floor(index[axis] / static_cast<double>(stride_[axis])));
+        cell[axis] = static_cast<std::int64_t>(std::floor(index[axis] / static_cast<double>(stride[axis])));
     return cell;
 }
 

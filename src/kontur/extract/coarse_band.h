@@ -9,6 +9,15 @@
 
 namespace kontur {
 
+/// Of a coarse lattice's cells, in spacings of the grid; 3 and 5 need more values.
+inline constexpr int kCoarseStride = 4;
+/// Coarse cells without a change of sign are looked into when a corner is this close, in coarse spacings: the surface can
+/// bulge through a face.
+inline constexpr double kCoarseBulge = 0.25;
+
+/// The coarse cell that an index of the grid (not rounded) lies in.
+Index3 coarse_cell_at(const Vec3& index, const Index3& stride);
+
 /// Every stride-th point of a grid along each axis, and cells between them. Coarse point (i, j, k) is the grid's point
 /// (i * stride.i, ...); coarse cell (i, j, k) lies between that point and the next, faces included. Points go two cells
 /// beyond the grid, so that every cell that holds points of the grid has neighbours to interpolate from.
@@ -29,8 +38,7 @@ public:
     /// Whether the cell holds points of the grid.
     bool is_cell(const Index3& cell) const;
     bool mark_cell(const Index3& cell) { return lattice_.mark_cell(shifted(cell)); }
-    /// The cell that an index of the grid (not rounded) lies in.
-    Index3 cell_at(const Vec3& index) const;
+    Index3 cell_at(const Vec3& index) const { return coarse_cell_at(index, stride_); }
     /// How many nodes interpolation takes along an axis: 4, or 2 where every point of the grid is a coarse one.
     std::int64_t stencil_nodes(int axis) const { return stride_[axis] > 1 ? 4 : 2; }
 

@@ -12,15 +12,7 @@
 namespace kontur {
 namespace {
 
-constexpr std::int64_t kStride = 4;  // as the mesh is searched for
-constexpr double kBulge = 0.25;      // of a coarse cell; likewise
-
-Index3 coarse_cell(const Vec3& index) {
-    Index3 cell;
-    for (int axis = 0; axis < 3; ++axis)
-        cell[axis] = static_cast<std::int64_t>(std::floor(index[axis] / static_cast<double>(kStride)));
-    return cell;
-}
+constexpr Index3 kStride{kCoarseStride, kCoarseStride, kCoarseStride};
 
 /// Beyond the band nothing changes sides: along a row each unknown value is on the side of the one before.
 void fill_unknown(const PlaneLattice& lattice, double magnitude, std::vector<double>& values) {
@@ -40,15 +32,15 @@ SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3>
     if (!grid) return;
     size_ = grid->size;
     mm_to_index_ = grid->index_to_mm.inverse();
-    CoarseLattice coarse(*grid, {kStride, kStride, kStride});
+    CoarseLattice coarse(*grid, kStride);
     std::vector<Index3> start_cells;
     for (const Vec3& p : starts)
-        if (is_finite(p)) start_cells.push_back(coarse_cell(mm_to_index_.apply(p)));
+        if (is_finite(p)) start_cells.push_back(coarse.cell_at(mm_to_index_.apply(p)));
     const auto evaluate = [&](std::span<const Vec3> points, std::span<double> values) {
         function_.values(points, values, options_.threads);
     };
-    const std::vector<Index3> cells =
-        flood_coarse_cells(coarse, evaluate, start_cells, kBulge * kStride * options.spacing_mm, evaluations_, progress);
+    const std::vector<Index3> cells = flood_coarse_cells(
+        coarse, evaluate, start_cells, kCoarseBulge * kCoarseStride * options.spacing_mm, evaluations_, progress);
     if (cells.empty()) return;
 
     first_cell_ = cells.front();
@@ -64,11 +56,8 @@ SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3>
         const Index3 at{cell.i - first_cell_.i, cell.j - first_cell_.j, cell.k - first_cell_.k};
         is_passed_[static_cast<std::size_t>(at.i + cells_along_.i * (at.j + cells_along_.j * at.k))] = true;
     }
-    const auto corner_mm = [&](const Index3& cell) {
-        return grid->center_mm(kStride * cell.i, kStride * cell.j, kStride * cell.k);
-    };
-    box_mm_.extend(corner_mm(first_cell_));
-    box_mm_.extend(corner_mm({last_cell.i + 1, last_cell.j + 1, last_cell.k + 1}));
+    box_mm_.extend(coarse.position_mm(first_cell_));
+    box_mm_.extend(coarse.position_mm({last_cell.i + 1, last_cell.j + 1, last_cell.k + 1}));
 }
 
 bool SurfaceBand::is_in_lattice(const Vec3& index) const {
@@ -78,7 +67,7 @@ bool SurfaceBand::is_in_lattice(const Vec3& index) const {
 }
 
 bool SurfaceBand::contains(const Vec3& index) const {
-    const Index3 cell = coarse_cell(index);
+    const Index3 cell = coarse_cell_at(index, kStride);
     Index3 at;
     for (int axis = 0; axis < 3; ++axis) {
         at[axis] = cell[axis] - first_cell_[axis];

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kontur/shape/section.h"
 #include "support/contour_sets.h"
 
 namespace kontur {
@@ -17,8 +18,10 @@ ContourSet stack(std::initializer_list<double> heights) {
     return set;
 }
 
+std::vector<Cap> caps_of(const ContourSet& set) { return find_limits(DrawnPlanes(set)).caps; }
+
 TEST(Caps, StackOfCirclesEndsOnePlaneSpacingBeyondItsLastOnes) {
-    const std::vector<Cap> caps = find_caps(stack({0, 4, 8, 12}));
+    const std::vector<Cap> caps = caps_of(stack({0, 4, 8, 12}));
     int above = 0, below = 0;
     for (const Cap& cap : caps) {
         const double height = dot(cap.position, kNormal);
@@ -34,7 +37,7 @@ TEST(Caps, StackOfCirclesEndsOnePlaneSpacingBeyondItsLastOnes) {
 
 TEST(Caps, SingleCircleEndsAtItsRadius) {
     double highest = 0;
-    for (const Cap& cap : find_caps(stack({0}))) highest = std::max(highest, std::abs(dot(cap.position, kNormal)));
+    for (const Cap& cap : caps_of(stack({0}))) highest = std::max(highest, std::abs(dot(cap.position, kNormal)));
     EXPECT_NEAR(highest, 10, 1);
 }
 
@@ -45,7 +48,7 @@ TEST(Caps, NoneWhereOtherContoursLeadOn) {
         normal[axis] = 1;
         set.contours.push_back(test::circle(make_plane({}, normal), 10, 60));
     }
-    EXPECT_TRUE(find_caps(set).empty());
+    EXPECT_TRUE(caps_of(set).empty());
 }
 
 TEST(Caps, BranchThatTheNextPlaneDoesNotShowEndsBeforeIt) {
@@ -54,7 +57,7 @@ TEST(Caps, BranchThatTheNextPlaneDoesNotShowEndsBeforeIt) {
     for (Vec3& p : branch.points) p += 30 * set.contours[1].plane.u;
     set.contours.push_back(branch);
     int near_branch = 0;
-    for (const Cap& cap : find_caps(set)) {
+    for (const Cap& cap : caps_of(set)) {
         const Vec3 from = cap.position - set.contours[1].plane.from_uv(30, 0);
         if (norm(from) < 5) {
             ++near_branch;
@@ -71,7 +74,7 @@ TEST(Caps, MoveAndScaleWithTheContours) {
         contour.plane.origin = 3.0 * contour.plane.origin + Vec3{900, -500, 100};
         for (Vec3& p : contour.points) p = 3.0 * p + Vec3{900, -500, 100};
     }
-    const std::vector<Cap> here = find_caps(set), there = find_caps(large);
+    const std::vector<Cap> here = caps_of(set), there = caps_of(large);
     ASSERT_EQ(here.size(), there.size());
     for (std::size_t i = 0; i < here.size(); ++i) {
         EXPECT_LT(distance(3.0 * here[i].position + Vec3{900, -500, 100}, there[i].position), 1e-6);

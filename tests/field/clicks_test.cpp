@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kontur/shape/section.h"
 #include "support/contour_sets.h"
 #include "support/functions.h"
 
@@ -28,7 +29,7 @@ TEST(ContradictoryClicks, NameThePointTheContourAndTheDistance) {
     const Plane& plane = set.contours[1].plane;
     set.interior = {plane.from_uv(3, 3), plane.from_uv(14, 0)};
     set.exterior = {plane.from_uv(20, 0), plane.from_uv(0, 7) + 0.2 * plane.normal};
-    const std::vector<std::string> found = contradictory_clicks(set, 0.5);
+    const std::vector<std::string> found = contradictory_clicks(DrawnPlanes(set), 0.5);
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found[0], "interior point 2 contradicts contour 2: it lies 4 mm on its outside");
     EXPECT_EQ(found[1], "exterior point 2 contradicts contour 2: it lies 2.96 mm on its inside") << "a chord, not an arc";
@@ -40,7 +41,7 @@ TEST(ContradictoryClicks, PointsFarFromEveryPlaneContradictNothingButEachOther) 
     set.interior = {plane.from_uv(11, 0) + 6.0 * plane.normal};
     set.exterior = {plane.from_uv(9, 0) + 6.0 * plane.normal, set.interior[0] + 0.3 * plane.u};
     EXPECT_EQ(
-        contradictory_clicks(set, 0.5),
+        contradictory_clicks(DrawnPlanes(set), 0.5),
         (std::vector<std::string>{"interior point 1 and exterior point 2 contradict each other: they are 0.3 mm apart"}));
 }
 

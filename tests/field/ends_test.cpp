@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kontur/shape/section.h"
 #include "support/contour_sets.h"
 
 namespace kontur {
@@ -21,7 +22,7 @@ ContourSet stack(std::initializer_list<double> heights, ContourEnd end) {
 TEST(FindEnds, AFlatEndLiesInItsPlaneAndFacesAwayFromTheRest) {
     for (const double direction : {1.0, -1.0}) {
         const ContourSet set = stack({0, 4 * direction, 8 * direction}, ContourEnd::flat);
-        const Ends ends = find_ends(set);
+        const Ends ends = find_ends(DrawnPlanes(set));
         EXPECT_GT(ends.lids.size(), 60u);
         EXPECT_TRUE(ends.notes.empty());
         std::size_t wall = 0;
@@ -45,7 +46,7 @@ TEST(FindEnds, AFlatEndLiesInItsPlaneAndFacesAwayFromTheRest) {
 
 TEST(FindEnds, ARoundEndReachesHalfAPlaneSpacing) {
     double highest = 0;
-    for (const BoundaryPoint& point : find_ends(stack({0, 6, 12}, ContourEnd::round)).lids) {
+    for (const BoundaryPoint& point : find_ends(DrawnPlanes(stack({0, 6, 12}, ContourEnd::round))).lids) {
         const double height = dot(point.position, kNormal) - 12;
         EXPECT_GT(height, 0);
         highest = std::max(highest, height);
@@ -61,7 +62,7 @@ TEST(FindEnds, BranchEndsWhereTheNextPlaneDoesNotShowIt) {
         set.contours.push_back(branch);
     }
     set.contours[4].end = ContourEnd::flat;
-    const Ends ends = find_ends(set);
+    const Ends ends = find_ends(DrawnPlanes(set));
     EXPECT_GT(ends.lids.size(), 20u);
     for (const BoundaryPoint& point : ends.lids) {
         EXPECT_LT(norm(point.position - set.contours[4].plane.from_uv(30, 0)), 3.1);
@@ -73,15 +74,15 @@ TEST(FindEnds, HolesStayOpen) {
     ContourSet set = stack({0, 4, 8}, ContourEnd::flat);
     set.contours.push_back(test::circle(set.contours[2].plane, 4, 30));
     set.contours[3].hole = true;
-    for (const BoundaryPoint& point : find_ends(set).lids) EXPECT_GE(norm(point.position - 8 * kNormal), 3.99);
+    for (const BoundaryPoint& point : find_ends(DrawnPlanes(set)).lids) EXPECT_GE(norm(point.position - 8 * kNormal), 3.99);
 }
 
 TEST(FindEnds, WhatCannotBeFollowedIsSaid) {
     ContourSet middle = stack({0, 8, 4}, ContourEnd::flat);
-    EXPECT_TRUE(find_ends(middle).lids.empty());
-    EXPECT_EQ(find_ends(middle).notes.at(0),
+    EXPECT_TRUE(find_ends(DrawnPlanes(middle)).lids.empty());
+    EXPECT_EQ(find_ends(DrawnPlanes(middle)).notes.at(0),
               "contour 3 ends the object, but contours on both sides carry it on; its end was ignored");
-    EXPECT_EQ(find_ends(stack({0}, ContourEnd::round)).notes.at(0),
+    EXPECT_EQ(find_ends(DrawnPlanes(stack({0}, ContourEnd::round))).notes.at(0),
               "contour 1 ends the object, but nothing says on which side it goes on; its end was ignored");
 }
 

@@ -20,17 +20,17 @@ constexpr double kParallel = 0.995, kSlanted = 0.8;
 /// One side of a section's plane, and what the contour set tells about it.
 class Side {
 public:
-    Side(const ContourSet& set, const std::vector<Section>& sections, const Section& section,
-         const std::vector<Probe>& inside, double sign, double tolerance)
-        : section_(section), inside_(inside), sign_(sign), tolerance_(tolerance) {
+    /// `section` is one of the planes', `inside` are its probes; all must outlive the side.
+    Side(const DrawnPlanes& planes, const Section& section, const std::vector<Probe>& inside, double sign)
+        : section_(section), inside_(inside), sign_(sign), tolerance_(planes.tolerance_mm) {
         for (const Probe& probe : inside) deepest_ = std::max(deepest_, probe.depth);
-        for (const Section& other : sections)
+        for (const Section& other : planes.sections)
             if (&other != &section) consider(other);
-        for (const Contour& contour : set.contours)
+        for (const Contour& contour : planes.set.contours)
             if (!contour.closed)
                 for (const Vec3& p : contour.points) leads_on_ = leads_on_ || ahead(p) > tolerance_;
-        for (const SurfacePoint& p : set.surface) single_reach_ = std::max(single_reach_, ahead(p.position));
-        for (const Vec3& p : set.interior) single_reach_ = std::max(single_reach_, ahead(p));
+        for (const SurfacePoint& p : planes.set.surface) single_reach_ = std::max(single_reach_, ahead(p.position));
+        for (const Vec3& p : planes.set.interior) single_reach_ = std::max(single_reach_, ahead(p));
         leads_on_ = leads_on_ || slanted_reach_ > deepest_;
     }
 
@@ -130,6 +130,7 @@ private:
 
 /// How far outside of its own contours those of other planes cross this one: so far it may have been drawn incompletely.
 double missing_reach(const Section& section, const std::vector<Section>& sections) {
+    const SectionSearch search(section);
     double reach = 0;
     for (const Section& other : sections) {
         if (&other == &section) continue;
@@ -140,85 +141,80 @@ double missing_reach(const Section& section, const std::vector<Section>& section
                 const double da = section.plane.distance_to(a), db = section.plane.distance_to(b);
                 if ((da > 0) == (db > 0)) continue;
                 const Point2 crossing = section.plane.to_uv(a + (da / (da - db)) * (b - a));
-                if (!section.contains(crossing)) reach = std::max(reach, section.clearance(crossing));
+                if (!search.contains(crossing)) reach = std::max(reach, search.clearance(crossing));
             }
     }
     return reach;
 }
 
-bool has_open_contour(const ContourSet& set, const Plane& plane, double tolerance) {
-    return std::any_of(set.contours.begin(), set.contours.end(),
-                       [&](const Contour& c) { return !c.closed && coincide(c.plane, plane, tolerance); });
+bool has_open_contour(const DrawnPlanes& planes, const Plane& plane) {
+    return std::any_of(planes.set.contours.begin(), planes.set.contours.end(),
+                       [&](const Contour& c) { return !c.closed && coincide(c.plane, plane, planes.tolerance_mm); });
 }
 
-// Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
-constexpr double kProbeTrust = 0.05;
+/// Spreads leak probes over planes, on lattices of the same step and within the same ball.
+class LeakProbes {
+public:
+    LeakProbes(const Ball3& around, int threads)
+        : ball_{around.center, 2 * around.radius}, step_(around.diameter() / 16), threads_(threads) {}
 
-/// A lattice of `step` over the section's plane, where it is farther than `clearance` outside of its contours.
-void append_leak_probes(const Section& section, const Ball3& ball, double step, double clearance, int threads,
-                        std::vector<Cap>& probes) {
-    const SectionAxes axes(section);
-    const SectionSearch search(section);
-    const Point2 center = axes.from_plane(section.plane.to_uv(ball.center));
-    const int reach = static_cast<int>(std::ceil(ball.radius / step));
-    std::vector<std::vector<Cap>> rows(static_cast<std::size_t>(2 * reach + 1));
-    parallel_for(2 * reach + 1, 4, threads, [&](std::int64_t begin, std::int64_t end) {
-        for (; begin < end; ++begin)
-            for (int i = -reach; i <= reach; ++i) {
-                const Point2 at =
-                    axes.to_plane({center[0] + i * step, center[1] + static_cast<double>(begin - reach) * step});
-                const Vec3 position = section.plane.from_uv(at[0], at[1]);
-                if (distance(position, ball.center) > ball.radius || search.contains(at)) continue;
-                const double clear = search.clearance(at);
-                if (clear > clearance)
-                    rows[static_cast<std::size_t>(begin)].push_back(
-                        {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kProbeTrust});
-            }
-    });
-    for (const std::vector<Cap>& row : rows) probes.insert(probes.end(), row.begin(), row.end());
-}
+    /// Outside of the section's contours, farther than a step and than twice the reach of what may be missing.
+    void append_beside(const Section& section, double missing_reach, std::vector<Cap>& probes) const {
+        const double least = std::max(step_, 2 * missing_reach);
+        const SectionAxes axes(section);
+        const SectionSearch search(section);
+        const Point2 center = axes.from_plane(section.plane.to_uv(ball_.center));
+        const int reach = static_cast<int>(std::ceil(ball_.radius / step_));
+        std::vector<std::vector<Cap>> rows(static_cast<std::size_t>(2 * reach + 1));
+        parallel_for(2 * reach + 1, 4, threads_, [&](std::int64_t begin, std::int64_t end) {
+            for (; begin < end; ++begin)
+                for (int i = -reach; i <= reach; ++i) {
+                    const Point2 at =
+                        axes.to_plane({center[0] + i * step_, center[1] + static_cast<double>(begin - reach) * step_});
+                    const Vec3 position = section.plane.from_uv(at[0], at[1]);
+                    if (distance(position, ball_.center) > ball_.radius || search.contains(at)) continue;
+                    if (const double clear = search.clearance(at); clear > least)
+                        rows[static_cast<std::size_t>(begin)].push_back(
+                            {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kTrust});
+                }
+        });
+        for (const std::vector<Cap>& row : rows) probes.insert(probes.end(), row.begin(), row.end());
+    }
 
-/// Beside the cap of a last section at the cap's height, and over it at twice the height: its dome can be pierced between
-/// its points.
-void append_end_probes(const Side& side, const std::vector<Probe>& inside, const Ball3& ball, double step, int threads,
-                       std::vector<Cap>& caps) {
-    const double height = side.height();
-    append_leak_probes(side.shifted(height), ball, step, step, threads, caps);
-    const Plane over = side.shifted(2 * height).plane;
-    for (const Probe& probe : inside) caps.push_back({over.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
-}
+    /// Beside the cap of a last section at the cap's height, and over it at twice the height: its dome can be pierced
+    /// between its points.
+    void append_beyond(const Side& side, const std::vector<Probe>& inside, std::vector<Cap>& probes) const {
+        const double height = side.height();
+        append_beside(side.shifted(height), 0, probes);
+        const Plane over = side.shifted(2 * height).plane;
+        for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
+    }
+
+private:
+    // Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
+    static constexpr double kTrust = 0.05;
+
+    Ball3 ball_;
+    double step_;
+    int threads_;
+};
 
 }  // namespace
 
-std::vector<Cap> find_caps(const ContourSet& set) {
-    std::vector<Cap> caps;
-    const double tolerance = 1.5e-3 * diameter_mm(set);
-    const std::vector<Section> sections = sections_of(set, tolerance);
-    for (const Section& section : sections) {
+Limits find_limits(const DrawnPlanes& planes, int threads) {
+    Limits limits;
+    const LeakProbes leak_probes(planes.ball, threads);
+    for (const Section& section : planes.sections) {
+        if (!has_open_contour(planes, section.plane))
+            leak_probes.append_beside(section, missing_reach(section, planes.sections), limits.leak_probes);
         const std::vector<Probe> inside = probes(section);
-        for (const double sign : {-1.0, 1.0}) Side(set, sections, section, inside, sign, tolerance).append_caps(caps);
-    }
-    return caps;
-}
-
-std::vector<Cap> find_leak_probes(const ContourSet& set, int threads) {
-    std::vector<Cap> probes;
-    const Ball3 around = smallest_ball(set);
-    const Ball3 reached{around.center, 2 * around.radius};
-    const double diameter = around.diameter(), tolerance = 1.5e-3 * diameter, step = diameter / 16;
-    const std::vector<Section> sections = sections_of(set, tolerance);
-    for (const Section& section : sections) {
-        if (!has_open_contour(set, section.plane, tolerance)) {
-            const double missing = missing_reach(section, sections);
-            append_leak_probes(section, reached, step, std::max(step, 2 * missing), threads, probes);
-        }
-        const std::vector<Probe> inside = kontur::probes(section);
         for (const double sign : {-1.0, 1.0}) {
-            const Side side(set, sections, section, inside, sign, tolerance);
-            if (side.is_last()) append_end_probes(side, inside, reached, step, threads, probes);
+            const Side side(planes, section, inside, sign);
+            side.append_caps(limits.caps);
+            if (side.is_last()) leak_probes.append_beyond(side, inside, limits.leak_probes);
         }
     }
-    return probes;
+    return limits;
 }
 
 }  // namespace kontur

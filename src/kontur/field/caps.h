@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "kontur/field/constraints.h"
-#include "kontur/shape/contour.h"
 
 namespace kontur {
+
+struct DrawnPlanes;
 
 /// A point where f is bounded: it should not exceed `most_mm` nor fall below `least_mm`.
 struct Cap {
@@ -22,8 +23,14 @@ struct Cap {
     bool allows(double f) const { return f >= least_mm && f <= most_mm; }
 };
 
-/// Limits to extrapolation. Contours say nothing about the space beyond the last of them, where a smooth interpolant runs
-/// on: a stack of equal circles becomes an endless cylinder. For every drawn plane and each of its sides:
+/// What bounds the extrapolation.
+struct Limits {
+    std::vector<Cap> caps;         ///< beyond the last contours
+    std::vector<Cap> leak_probes;  ///< where a leak would show
+};
+
+/// Contours say nothing about the space beyond the last of them, where a smooth interpolant runs on: a stack of equal
+/// circles becomes an endless cylinder. For every drawn plane and each of its sides there are caps:
 ///
 /// - where contours of other directions lead on beyond the plane, there is no limit: they tell where the object ends.
 ///   Those tilted by less than 37 degrees lead on only if they reach farther than the radius of the largest inscribed
@@ -34,13 +41,12 @@ struct Cap {
 ///   single surface or interior points lie farther out, it is a quarter higher than they are.
 ///
 /// At most a few hundred points per plane; spacings follow the contours' size, so the caps move, turn and scale with them.
-std::vector<Cap> find_caps(const ContourSet& set);
-
-/// Where a leak would show. In a drawn plane, what lies outside of all its contours is outside of the object, and so is what
-/// lies beside a cap at its height or above it at twice the height; but far from the contours the interpolant may turn
-/// positive again, and such a sheet can join the object. The points lie on a lattice over each of these planes, in a ball of
-/// twice the diameter of the smallest one around the contours. Where contours of other planes cross a drawn plane outside of
-/// its own, it may be incomplete: there the points keep twice the distance of these crossings.
-std::vector<Cap> find_leak_probes(const ContourSet& set, int threads = 0);
+///
+/// In a drawn plane, what lies outside of all its contours is outside of the object, and so is what lies beside a cap at its
+/// height or above it at twice the height; but far from the contours the interpolant may turn positive again, and such a
+/// sheet can join the object. Leak probes lie on a lattice over each of these planes, in a ball of twice the diameter of the
+/// smallest one around the contours. Where contours of other planes cross a drawn plane outside of its own, it may be
+/// incomplete: there the points keep twice the distance of these crossings.
+Limits find_limits(const DrawnPlanes& planes, int threads = 0);
 
 }  // namespace kontur

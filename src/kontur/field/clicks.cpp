@@ -46,12 +46,12 @@ std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm) {
     return bounds;
 }
 
-std::vector<std::string> contradictory_clicks(const ContourSet& set, double margin_mm) {
-    const std::vector<Section> sections = sections_of(set, 1.5e-3 * diameter_mm(set));
+std::vector<std::string> contradictory_clicks(const DrawnPlanes& planes, double margin_mm) {
+    const ContourSet& set = planes.set;
     std::vector<std::string> sentences;
     const auto check = [&](const std::vector<Vec3>& points, bool interior) {
         for (std::size_t i = 0; i < points.size(); ++i)
-            if (const auto found = conflict(points[i], interior, sections))
+            if (const auto found = conflict(points[i], interior, planes.sections))
                 sentences.push_back(fmt::format("{} point {} contradicts contour {}: it lies {:.3g} mm on its {}",
                                                 interior ? "interior" : "exterior", i + 1, found->contour + 1,
                                                 found->clearance_mm, interior ? "outside" : "inside"));

@@ -10,6 +10,8 @@
 
 namespace kontur {
 
+struct DrawnPlanes;
+
 /// Interior and exterior points as bounds, at least `margin_mm` inside and outside: a point that lies on its side anyway
 /// changes nothing, however deep it lies.
 std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm);
@@ -17,7 +19,7 @@ std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm);
 /// What is contradictory about them, one sentence each, points counted from 1: a point on the wrong side of the contours
 /// drawn in a plane close by (nearer than half its distance to them), and an interior point within `margin_mm` of an
 /// exterior one.
-std::vector<std::string> contradictory_clicks(const ContourSet& set, double margin_mm);
+std::vector<std::string> contradictory_clicks(const DrawnPlanes& planes, double margin_mm);
 
 /// The points that did not get their side, one sentence each.
 std::vector<std::string> missed_clicks(const ContourSet& set, const ImplicitFunction& function);

@@ -33,15 +33,14 @@ struct Continuation {
     std::optional<double> spacing;  ///< mm to the next parallel plane
 };
 
-Continuation continuation(const std::vector<Section>& sections, const Section& region, const std::vector<Probe>& inside,
-                          double sign, double tolerance) {
+Continuation continuation(const DrawnPlanes& planes, const Section& region, const std::vector<Probe>& inside, double sign) {
     constexpr double kParallel = 0.995;
     Continuation result;
     const Section* next = nullptr;
-    for (const Section& other : sections) {
+    for (const Section& other : planes.sections) {
         const double ahead = sign * region.plane.distance_to(other.plane.origin);
         if (std::abs(dot(region.plane.normal, other.plane.normal)) >= kParallel) {
-            if (ahead <= tolerance || (next && ahead >= *result.spacing)) continue;
+            if (ahead <= planes.tolerance_mm || (next && ahead >= *result.spacing)) continue;
             next = &other;
             result.spacing = ahead;
             continue;
@@ -49,7 +48,7 @@ Continuation continuation(const std::vector<Section>& sections, const Section& r
         for (const Polygon2& outline : other.outlines)
             for (const Point2& p : outline) {
                 const Vec3 at = other.plane.from_uv(p[0], p[1]);
-                if (sign * region.plane.distance_to(at) > tolerance && region.contains(region.plane.to_uv(at)))
+                if (sign * region.plane.distance_to(at) > planes.tolerance_mm && region.contains(region.plane.to_uv(at)))
                     result.carried_on = true;
             }
     }
@@ -114,17 +113,16 @@ std::string complaint(std::size_t contour, bool both_carried_on) {
 
 }  // namespace
 
-Ends find_ends(const ContourSet& set) {
+Ends find_ends(const DrawnPlanes& planes) {
     Ends ends;
-    const double tolerance = 1.5e-3 * diameter_mm(set);
-    const std::vector<Section> sections = sections_of(set, tolerance);
-    for (const Section& section : sections)
+    const ContourSet& set = planes.set;
+    for (const Section& section : planes.sections)
         for (const std::size_t c : section.contours) {
             if (set.contours[c].end == ContourEnd::automatic) continue;
             const Section region = region_of(set, section, c);
             const std::vector<Probe> inside = probes(region);
-            const Continuation above = continuation(sections, region, inside, 1, tolerance);
-            const Continuation below = continuation(sections, region, inside, -1, tolerance);
+            const Continuation above = continuation(planes, region, inside, 1);
+            const Continuation below = continuation(planes, region, inside, -1);
             if (above.carried_on == below.carried_on) {
                 ends.notes.push_back(complaint(c, above.carried_on));
                 continue;

@@ -6,9 +6,10 @@
 
 #include "kontur/field/caps.h"
 #include "kontur/field/constraints.h"
-#include "kontur/shape/contour.h"
 
 namespace kontur {
+
+struct DrawnPlanes;
 
 /// What the contours that end the object (ContourEnd) add to the fit.
 struct Ends {
@@ -22,6 +23,6 @@ struct Ends {
 /// the distance to the parallel plane before it and no higher than half the width of the contour (half its inscribed radius
 /// where there is no such plane). It ends on the side where neither the next parallel plane nor contours of other directions
 /// carry the contour's region on. Holes inside of the contour stay open.
-Ends find_ends(const ContourSet& set);
+Ends find_ends(const DrawnPlanes& planes);
 
 }  // namespace kontur

@@ -108,7 +108,7 @@ void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std:
     for (const Drawing& drawing : drawings)
         for (const std::int32_t c : drawing.contours) drawing_of[static_cast<std::size_t>(c)] = &drawing;
     // Points of refined contours lie on their edge only up to rounding.
-    const double own_edge = 1e-9 * diameter_mm(set);
+    const double own_edge = 1e-6 * tolerance_mm;
     parallel_for(static_cast<std::int64_t>(points.size()), 128, threads, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             BoundaryPoint& point = points[static_cast<std::size_t>(begin)];

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kontur/field/clicks.h"
 #include "kontur/field/ends.h"
@@ -13,17 +14,17 @@
 #include "kontur/field/reduce.h"
 #include "kontur/field/sides.h"
 #include "kontur/field/tidy.h"
+#include "kontur/shape/section.h"
 
 namespace kontur {
 namespace {
 
-bool is_coplanar(const ContourSet& set) {
-    const Plane& plane = set.contours.front().plane;
-    const double tolerance = 1.5e-3 * diameter_mm(set);  // as planes are told apart for caps
-    const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > tolerance; };
-    for (const Contour& contour : set.contours)
+bool is_coplanar(const DrawnPlanes& planes) {
+    const Plane& plane = planes.set.contours.front().plane;
+    const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > planes.tolerance_mm; };
+    for (const Contour& contour : planes.set.contours)
         if (std::any_of(contour.points.begin(), contour.points.end(), off_plane)) return false;
-    return std::none_of(set.surface.begin(), set.surface.end(),
+    return std::none_of(planes.set.surface.begin(), planes.set.surface.end(),
                         [&](const SurfacePoint& p) { return off_plane(p.position); });
 }
 
@@ -83,18 +84,19 @@ void append_boundary(ContourSet& set, std::size_t drawn, Corners corners, Prepar
         if (!set.contours[c].closed) append_open(set.contours[c], index(c), prepared);
 }
 
-void append_limits(const ContourSet& set, const PrepareOptions& options, PreparedContours& prepared) {
+void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, PreparedContours& prepared) {
     if (options.caps) {
-        prepared.caps = find_caps(set);
-        prepared.leak_probes = find_leak_probes(set, options.threads);
-        const Ends ends = find_ends(set);
+        Limits limits = find_limits(planes, options.threads);
+        prepared.caps = std::move(limits.caps);
+        prepared.leak_probes = std::move(limits.leak_probes);
+        const Ends ends = find_ends(planes);
         prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
         prepared.caps.insert(prepared.caps.end(), ends.guards.begin(), ends.guards.end());
         prepared.notes.insert(prepared.notes.end(), ends.notes.begin(), ends.notes.end());
     }
-    const std::vector<Cap> clicks = click_bounds(set, options.click_margin_mm);
+    const std::vector<Cap> clicks = click_bounds(planes.set, options.click_margin_mm);
     prepared.caps.insert(prepared.caps.end(), clicks.begin(), clicks.end());
-    const std::vector<std::string> doubts = contradictory_clicks(set, options.click_margin_mm);
+    const std::vector<std::string> doubts = contradictory_clicks(planes, options.click_margin_mm);
     prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
 }
 
@@ -115,7 +117,8 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
     const double diameter = diameter_mm(set);
     apply_fill_rule(set, options.fill_rule);
     note_tidied(tidy(set, {1.5e-5 * diameter, 1.5e-4 * diameter}), prepared.notes);
-    prepared.coplanar = is_coplanar(set);
+    const DrawnPlanes planes(set);
+    prepared.coplanar = is_coplanar(planes);
 
     ContourSet fitted = set;
     for (Contour& contour : fitted.contours) contour = refined(reduce(contour, {options.quality}), options);
@@ -125,7 +128,7 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
     }
     append_boundary(fitted, set.contours.size(), options.corners, prepared);
     if (options.gaps) find_gaps(fitted, 0.15 * diameter, 1.5e-3 * diameter, prepared.points, options.threads);
-    append_limits(set, options, prepared);
+    append_limits(planes, options, prepared);
     return prepared;
 }
 

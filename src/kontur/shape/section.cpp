@@ -128,4 +128,10 @@ std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {
     return sections;
 }
 
+DrawnPlanes::DrawnPlanes(const ContourSet& drawn)
+    : set(drawn),
+      ball(smallest_ball(drawn)),
+      tolerance_mm(1.5e-3 * ball.diameter()),
+      sections(sections_of(drawn, tolerance_mm)) {}
+
 }  // namespace kontur

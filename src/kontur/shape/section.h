@@ -54,4 +54,14 @@ private:
 /// that are less than `tolerance_mm` apart are one.
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);
 
+/// A contour set and what several steps want to know of it. The set must outlive it.
+struct DrawnPlanes {
+    explicit DrawnPlanes(const ContourSet& drawn);
+
+    const ContourSet& set;
+    Ball3 ball;           ///< the smallest one around the set
+    double tolerance_mm;  ///< planes less than this apart are one: 0.15 % of the ball's diameter
+    std::vector<Section> sections;
+};
+
 }  // namespace kontur

@@ -135,14 +135,13 @@ double missing_reach(const Section& section, const std::vector<Section>& section
     for (const Section& other : sections) {
         if (&other == &section) continue;
         for (const Polygon2& outline : other.outlines)
-            for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-                const Vec3 a = other.plane.from_uv(outline[before][0], outline[before][1]);
-                const Vec3 b = other.plane.from_uv(outline[i][0], outline[i][1]);
+            for_each_edge(outline, [&](const Point2& from, const Point2& to) {
+                const Vec3 a = other.plane.from_uv(from[0], from[1]), b = other.plane.from_uv(to[0], to[1]);
                 const double da = section.plane.distance_to(a), db = section.plane.distance_to(b);
-                if ((da > 0) == (db > 0)) continue;
+                if ((da > 0) == (db > 0)) return;
                 const Point2 crossing = section.plane.to_uv(a + (da / (da - db)) * (b - a));
                 if (!search.contains(crossing)) reach = std::max(reach, search.clearance(crossing));
-            }
+            });
     }
     return reach;
 }

@@ -2,16 +2,14 @@
 #include "kontur/field/gaps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "kontur/base/parallel.h"
 #include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/predicates.h"
 
 namespace kontur {
 namespace {
-
-using Point2 = std::array<double, 2>;
 
 Point2 minus(const Point2& a, const Point2& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double cross2(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }

@@ -103,8 +103,8 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, Pre
 Contour refined(const Contour& contour, const PrepareOptions& options) {
     const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
     if (options.corners == Corners::rounded || !contour.closed) return refine(contour, least_segments);
-    double perimeter = distance(contour.points.back(), contour.points.front());
-    for (std::size_t i = 1; i < contour.points.size(); ++i) perimeter += distance(contour.points[i - 1], contour.points[i]);
+    double perimeter = 0;
+    for_each_edge(contour.points, [&](const Vec3& a, const Vec3& b) { perimeter += distance(a, b); });
     return refine_to_corners(contour, options.corner_spacing_mm, perimeter / std::max(least_segments, 1));
 }
 

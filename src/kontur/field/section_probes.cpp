@@ -8,10 +8,8 @@ namespace kontur {
 namespace {
 
 template <class Visit>
-void for_each_edge(const Section& section, const Visit& visit) {
-    for (const Polygon2& outline : section.outlines)
-        for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++)
-            visit(outline[before], outline[i]);
+void for_each_edge_of_all(const Section& section, const Visit& visit) {
+    for (const Polygon2& outline : section.outlines) for_each_edge(outline, visit);
 }
 
 }  // namespace
@@ -21,14 +19,14 @@ SectionAxes::SectionAxes(const Section& section) {
     double mass = 0, mean_u = 0, mean_v = 0;
     const auto middle = [](const Point2& a, const Point2& b) { return Point2{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}; };
     const auto length = [](const Point2& a, const Point2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); };
-    for_each_edge(section, [&](const Point2& a, const Point2& b) {
+    for_each_edge_of_all(section, [&](const Point2& a, const Point2& b) {
         mass += length(a, b);
         mean_u += length(a, b) * middle(a, b)[0];
         mean_v += length(a, b) * middle(a, b)[1];
     });
     if (!(mass > 0)) return;
     double uu = 0, uv = 0, vv = 0;
-    for_each_edge(section, [&](const Point2& a, const Point2& b) {
+    for_each_edge_of_all(section, [&](const Point2& a, const Point2& b) {
         const double u = middle(a, b)[0] - mean_u / mass, v = middle(a, b)[1] - mean_v / mass;
         uu += length(a, b) * u * u;
         uv += length(a, b) * u * v;

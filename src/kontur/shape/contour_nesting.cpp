@@ -2,78 +2,51 @@
 #include "kontur/shape/contour_nesting.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include "kontur/shape/section.h"
 
 namespace kontur {
 namespace {
 
-using Point2 = std::array<double, 2>;
-
-struct Polygon {
-    std::vector<Point2> points;
-    Point2 low{}, high{};
+/// A contour by itself, and its box in its plane.
+struct Outline {
+    Section section;
+    Point2 low, high;
 };
 
-Polygon project(const Contour& contour, const Plane& plane) {
-    Polygon polygon;
-    polygon.low.fill(std::numeric_limits<double>::infinity());
-    polygon.high.fill(-std::numeric_limits<double>::infinity());
-    for (const Vec3& p : contour.points) {
-        polygon.points.push_back(plane.to_uv(p));
+Outline outline_of(const Contour& contour, const Plane& plane) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    Outline outline{{plane, {Polygon2{}}, {}}, {kFar, kFar}, {-kFar, -kFar}};
+    for (const Vec3& point : contour.points) {
+        const Point2& p = outline.section.outlines.front().emplace_back(plane.to_uv(point));
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            polygon.low[axis] = std::min(polygon.low[axis], polygon.points.back()[axis]);
-            polygon.high[axis] = std::max(polygon.high[axis], polygon.points.back()[axis]);
+            outline.low[axis] = std::min(outline.low[axis], p[axis]);
+            outline.high[axis] = std::max(outline.high[axis], p[axis]);
         }
     }
-    return polygon;
+    return outline;
 }
 
-bool boxes_meet(const Polygon& a, const Polygon& b) {
+bool boxes_meet(const Outline& a, const Outline& b) {
     return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1];
-}
-
-template <typename Visit>
-void for_each_edge(const Polygon& polygon, const Visit& visit) {
-    const std::size_t n = polygon.points.size();
-    for (std::size_t i = 0, j = n - 1; i < n; j = i++) visit(polygon.points[j], polygon.points[i]);
-}
-
-bool is_inside(const Point2& p, const Polygon& polygon) {
-    bool inside = false;
-    for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
-        if ((a[1] <= p[1]) != (b[1] <= p[1]) && p[0] < a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])))
-            inside = !inside;
-    });
-    return inside;
-}
-
-double distance_to_boundary(const Point2& p, const Polygon& polygon) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
-        const double du = b[0] - a[0], dv = b[1] - a[1], squared = du * du + dv * dv;
-        const double along = squared > 0 ? std::clamp(((p[0] - a[0]) * du + (p[1] - a[1]) * dv) / squared, 0.0, 1.0) : 0;
-        nearest = std::min(nearest, std::hypot(p[0] - a[0] - along * du, p[1] - a[1] - along * dv));
-    });
-    return nearest;
 }
 
 enum class Position { outside, inside, crossing };
 
-Position position_of(const Polygon& polygon, const Polygon& other, double tolerance) {
-    if (!boxes_meet(polygon, other)) return Position::outside;
+Position position_of(const Outline& outline, const Outline& other, double tolerance) {
+    if (!boxes_meet(outline, other)) return Position::outside;
     constexpr std::size_t kMostTested = 2000;
-    const std::size_t stride = 1 + polygon.points.size() / kMostTested;
+    const Polygon2& points = outline.section.outlines.front();
+    const std::size_t stride = 1 + points.size() / kMostTested;
     std::size_t inside = 0, outside = 0;
-    for (std::size_t i = 0; i < polygon.points.size(); i += stride)
-        ++(is_inside(polygon.points[i], other) ? inside : outside);
+    for (std::size_t i = 0; i < points.size(); i += stride) ++(other.section.contains(points[i]) ? inside : outside);
     if (inside == 0) return Position::outside;
     if (outside == 0) return Position::inside;
     inside = outside = 0;
-    for (std::size_t i = 0; i < polygon.points.size(); i += stride)
-        if (distance_to_boundary(polygon.points[i], other) > tolerance)
-            ++(is_inside(polygon.points[i], other) ? inside : outside);
+    for (std::size_t i = 0; i < points.size(); i += stride)
+        if (other.section.clearance(points[i]) > tolerance) ++(other.section.contains(points[i]) ? inside : outside);
     return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
 }
 
@@ -122,15 +95,15 @@ bool coincide(const Plane& a, const Plane& b, double tolerance_mm) {
 
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) {
     const std::vector<std::size_t> plane = first_in_plane(contours, tolerance_mm);
-    std::vector<Polygon> polygons;
-    for (std::size_t i = 0; i < contours.size(); ++i) polygons.push_back(project(contours[i], contours[plane[i]].plane));
+    std::vector<Outline> outlines;
+    for (std::size_t i = 0; i < contours.size(); ++i) outlines.push_back(outline_of(contours[i], contours[plane[i]].plane));
     Nesting nesting;
     nesting.depth.assign(contours.size(), 0);
     nesting.enclosing.resize(contours.size());
     for (std::size_t a = 0; a < contours.size(); ++a)
         for (std::size_t b = 0; b < contours.size(); ++b) {
             if (a == b || plane[a] != plane[b] || !contours[a].closed || !contours[b].closed) continue;
-            const Position position = position_of(polygons[a], polygons[b], tolerance_mm);
+            const Position position = position_of(outlines[a], outlines[b], tolerance_mm);
             if (position == Position::inside) {
                 ++nesting.depth[a];
                 nesting.enclosing[a].push_back(b);

@@ -23,8 +23,7 @@ bool is_on_segment(const Point2& a, const Point2& b, const Point2& p) {
 
 bool is_inside(std::span<const Point2> polygon, const Point2& p) {
     bool inside = false;
-    for (std::size_t i = 0, before = polygon.size() - 1; i < polygon.size(); before = i++)
-        inside ^= passes_right_of(p, polygon[before], polygon[i]);
+    for_each_edge(polygon, [&](const Point2& a, const Point2& b) { inside ^= passes_right_of(p, a, b); });
     return inside;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,13 @@ namespace kontur {
 /// Coordinates in a plane, in mm.
 using Point2 = std::array<double, 2>;
 using Polygon2 = std::vector<Point2>;
+
+/// Calls `visit` with the ends of each edge of a closed polygon, first those of the edge that leads to its first point.
+template <class Points, class Visit>
+void for_each_edge(const Points& polygon, const Visit& visit) {
+    for (std::size_t i = 0, before = polygon.size() - 1; i < polygon.size(); before = i++)
+        visit(polygon[before], polygon[i]);
+}
 
 /// +1 when a, b, c make a left turn, -1 for a right turn, 0 when they lie on one line. Exact for the given finite doubles:
 /// evaluated in floating point where its error bound allows, else in exact arithmetic (CGAL's filtered predicates). About 20

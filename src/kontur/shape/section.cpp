@@ -67,7 +67,7 @@ bool Section::contains(const Point2& p) const {
 Section::Nearest Section::nearest(const Point2& p) const {
     NearestPoint nearest(p);
     for (std::size_t o = 0; o < outlines.size(); ++o)
-        for (std::size_t i = 0; i < outlines[o].size(); ++i) nearest.look_at(before(outlines[o], i), outlines[o][i], o);
+        for_each_edge(outlines[o], [&](const Point2& a, const Point2& b) { nearest.look_at(a, b, o); });
     return nearest.found();
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "kontur/base/parallel.h"
 #include "kontur/field/section_probes.h"
@@ -13,19 +13,24 @@
 namespace kontur {
 namespace {
 
-// Cosines between normals: planes tilted by less than 6 degrees count as parallel, by less than 37 degrees as slanted. A
-// slanted contour that crosses a plane leads on beyond it, but not in its normal's direction.
-constexpr double kParallel = 0.995, kSlanted = 0.8;
+// Cosine between normals: planes tilted by less than 37 degrees count as slanted. A slanted contour that crosses a plane
+// leads on beyond it, but not in its normal's direction.
+constexpr double kSlanted = 0.8;
 
 /// One side of a section's plane, and what the contour set tells about it.
 class Side {
 public:
     /// `section` is one of the planes', `inside` are its probes; all must outlive the side.
     Side(const DrawnPlanes& planes, const Section& section, const std::vector<Probe>& inside, double sign)
-        : section_(section), inside_(inside), sign_(sign), tolerance_(planes.tolerance_mm) {
+        : section_(section),
+          inside_(inside),
+          sign_(sign),
+          tolerance_(planes.tolerance_mm),
+          next_(planes.next(section.plane, sign)),
+          previous_(planes.next(section.plane, -sign)) {
         for (const Probe& probe : inside) deepest_ = std::max(deepest_, probe.depth);
         for (const Section& other : planes.sections)
-            if (&other != &section) consider(other);
+            if (!are_parallel(section.plane, other.plane)) consider(other);
         for (const Contour& contour : planes.set.contours)
             if (!contour.closed)
                 for (const Vec3& p : contour.points) leads_on_ = leads_on_ || ahead(p) > tolerance_;
@@ -45,8 +50,8 @@ public:
 
     /// How far the object may go on beyond a last section.
     double height() const {
-        const double widest = std::isinf(previous_distance_) ? deepest_ : 1.5 * deepest_;
-        return std::max(std::min(previous_distance_, widest), 1.25 * std::max(single_reach_, slanted_reach_));
+        const double own = previous_ ? std::min(previous_->distance_mm, 1.5 * deepest_) : deepest_;
+        return std::max(own, 1.25 * std::max(single_reach_, slanted_reach_));
     }
 
     /// The plane at this distance, with the section's outlines.
@@ -60,20 +65,9 @@ private:
     double ahead(const Vec3& p) const { return sign_ * section_.plane.distance_to(p); }
 
     void consider(const Section& other) {
-        const double cosine = std::abs(dot(section_.plane.normal, other.plane.normal));
-        const double distance = ahead(other.plane.origin);
-        if (cosine < kSlanted) {
-            leads_on_ = leads_on_ || reach_of(other) > tolerance_;
-        } else if (cosine < kParallel) {
-            slanted_reach_ = std::max(slanted_reach_, reach_of(other));
-        } else if (distance > tolerance_) {
-            if (!next_ || distance < next_distance_) {
-                next_ = &other;
-                next_distance_ = distance;
-            }
-        } else if (distance < -tolerance_) {
-            previous_distance_ = std::min(previous_distance_, -distance);
-        }
+        const double reach = reach_of(other);
+        if (std::abs(dot(section_.plane.normal, other.plane.normal)) < kSlanted) leads_on_ = leads_on_ || reach > tolerance_;
+        else slanted_reach_ = std::max(slanted_reach_, reach);
     }
 
     double reach_of(const Section& other) const {
@@ -88,15 +82,16 @@ private:
     }
 
     void append_towards_next(std::vector<Cap>& caps) const {
-        const SectionSearch next(*next_);
+        const auto [section, distance] = *next_;
+        const SectionSearch next(*section);
         for (const Probe& probe : inside_) {
-            const Vec3 there = above(probe.at, next_distance_);
-            const Point2 at = next_->plane.to_uv(there);
+            const Vec3 there = above(probe.at, distance);
+            const Point2 at = section->plane.to_uv(there);
             if (next.contains(at)) continue;
             // Near the next outline the fit knows better; the depth here bounds how far the surface can have moved.
             const double clear = std::min(next.clearance(at), probe.depth);
-            if (clear <= next_distance_ / 2) continue;
-            const double below = std::min(clear, next_distance_) / 4;
+            if (clear <= distance / 2) continue;
+            const double below = std::min(clear, distance) / 4;
             caps.push_back({there, -below, -below});
         }
     }
@@ -119,12 +114,10 @@ private:
     const Section& section_;
     const std::vector<Probe>& inside_;
     double sign_, tolerance_;
+    std::optional<DrawnPlanes::Next> next_, previous_;
     double deepest_ = 0;  ///< radius of the largest circle in the section, about
     bool leads_on_ = false;
     double slanted_reach_ = 0;
-    const Section* next_ = nullptr;
-    double next_distance_ = 0;
-    double previous_distance_ = std::numeric_limits<double>::infinity();
     double single_reach_ = 0;  ///< of single points
 };
 

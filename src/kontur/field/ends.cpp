@@ -34,17 +34,9 @@ struct Continuation {
 };
 
 Continuation continuation(const DrawnPlanes& planes, const Section& region, const std::vector<Probe>& inside, double sign) {
-    constexpr double kParallel = 0.995;
     Continuation result;
-    const Section* next = nullptr;
     for (const Section& other : planes.sections) {
-        const double ahead = sign * region.plane.distance_to(other.plane.origin);
-        if (std::abs(dot(region.plane.normal, other.plane.normal)) >= kParallel) {
-            if (ahead <= planes.tolerance_mm || (next && ahead >= *result.spacing)) continue;
-            next = &other;
-            result.spacing = ahead;
-            continue;
-        }
+        if (are_parallel(region.plane, other.plane)) continue;
         for (const Polygon2& outline : other.outlines)
             for (const Point2& p : outline) {
                 const Vec3 at = other.plane.from_uv(p[0], p[1]);
@@ -52,11 +44,14 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
                     result.carried_on = true;
             }
     }
-    if (next)
+    if (const auto next = planes.next(region.plane, sign)) {
+        result.spacing = next->distance_mm;
+        const Section& there = *next->section;
         for (const Probe& probe : inside) {
-            const Vec3 there = region.plane.from_uv(probe.at[0], probe.at[1]) + sign * *result.spacing * region.plane.normal;
-            result.carried_on = result.carried_on || next->contains(next->plane.to_uv(there));
+            const Vec3 at = region.plane.from_uv(probe.at[0], probe.at[1]) + sign * next->distance_mm * region.plane.normal;
+            result.carried_on = result.carried_on || there.contains(there.plane.to_uv(at));
         }
+    }
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "kontur/shape/contour.h"
@@ -54,6 +55,9 @@ private:
 /// that are less than `tolerance_mm` apart are one.
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);
 
+/// Whether two planes follow each other in a stack: tilted against each other by less than 6 degrees.
+bool are_parallel(const Plane& a, const Plane& b);
+
 /// A contour set and what several steps want to know of it. The set must outlive it.
 struct DrawnPlanes {
     explicit DrawnPlanes(const ContourSet& drawn);
@@ -62,6 +66,13 @@ struct DrawnPlanes {
     Ball3 ball;           ///< the smallest one around the set
     double tolerance_mm;  ///< planes less than this apart are one: 0.15 % of the ball's diameter
     std::vector<Section> sections;
+
+    struct Next {
+        const Section* section;
+        double distance_mm;
+    };
+    /// The next one parallel to a plane, ahead of it in the direction of its normal times `sign`.
+    std::optional<Next> next(const Plane& plane, double sign) const;
 };
 
 }  // namespace kontur

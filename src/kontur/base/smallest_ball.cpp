@@ -42,6 +42,17 @@ std::optional<Ball3> ball_through(std::span<const Vec3> points) {
 
 bool contains(const Ball3& ball, const Vec3& p) { return distance(ball.center, p) <= (1 + kSlack) * ball.radius; }
 
+const Vec3& farthest_from(const Vec3& center, std::span<const Vec3> points) {
+    const Vec3* farthest = &points.front();
+    double farthest2 = 0;
+    for (const Vec3& p : points)
+        if (const double distance2 = dot(p - center, p - center); distance2 > farthest2) {
+            farthest = &p;
+            farthest2 = distance2;
+        }
+    return *farthest;
+}
+
 /// What holds a ball: points on its surface.
 struct Held {
     Ball3 ball;
@@ -71,9 +82,7 @@ Ball3 smallest_ball(std::span<const Vec3> points) {
     if (points.empty()) return {};
     Held held{{points[0], 0}, {points[0]}};
     for (int pass = 0; pass < kMostPasses; ++pass) {
-        const auto squared = [&](const Vec3& p) { return dot(p - held.ball.center, p - held.ball.center); };
-        const Vec3& farthest = *std::max_element(points.begin(), points.end(),
-                                                 [&](const Vec3& a, const Vec3& b) { return squared(a) < squared(b); });
+        const Vec3& farthest = farthest_from(held.ball.center, points);
         if (contains(held.ball, farthest)) break;
         Held grown = hold(held.support, farthest);
         if (!(grown.ball.radius > held.ball.radius)) break;  // rounding

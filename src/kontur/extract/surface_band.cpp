@@ -52,10 +52,7 @@ SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3>
         }
     for (int axis = 0; axis < 3; ++axis) cells_along_[axis] = last_cell[axis] - first_cell_[axis] + 1;
     is_passed_.resize(static_cast<std::size_t>(cells_along_.i * cells_along_.j * cells_along_.k));
-    for (const Index3& cell : cells) {
-        const Index3 at{cell.i - first_cell_.i, cell.j - first_cell_.j, cell.k - first_cell_.k};
-        is_passed_[static_cast<std::size_t>(at.i + cells_along_.i * (at.j + cells_along_.j * at.k))] = true;
-    }
+    for (const Index3& cell : cells) is_passed_[*place_of(cell)] = true;
     box_mm_.extend(coarse.position_mm(first_cell_));
     box_mm_.extend(coarse.position_mm({last_cell.i + 1, last_cell.j + 1, last_cell.k + 1}));
 }
@@ -66,14 +63,19 @@ bool SurfaceBand::is_in_lattice(const Vec3& index) const {
     return true;
 }
 
-bool SurfaceBand::contains(const Vec3& index) const {
-    const Index3 cell = coarse_cell_at(index, kStride);
+/// Of a coarse cell in `is_passed_`; nullopt outside of the box.
+std::optional<std::size_t> SurfaceBand::place_of(const Index3& cell) const {
     Index3 at;
     for (int axis = 0; axis < 3; ++axis) {
         at[axis] = cell[axis] - first_cell_[axis];
-        if (at[axis] < 0 || at[axis] >= cells_along_[axis]) return false;
+        if (at[axis] < 0 || at[axis] >= cells_along_[axis]) return std::nullopt;
     }
-    return is_passed_[static_cast<std::size_t>(at.i + cells_along_.i * (at.j + cells_along_.j * at.k))];
+    return static_cast<std::size_t>(at.i + cells_along_.i * (at.j + cells_along_.j * at.k));
+}
+
+bool SurfaceBand::contains(const Vec3& index) const {
+    const std::optional<std::size_t> place = place_of(coarse_cell_at(index, kStride));
+    return place && is_passed_[*place];
 }
 
 std::vector<std::vector<Vec3>> SurfaceBand::cut(const Plane& plane) const {

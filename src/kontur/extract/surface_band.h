@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,7 @@ public:
 private:
     bool is_in_lattice(const Vec3& index) const;
     bool contains(const Vec3& index) const;
+    std::optional<std::size_t> place_of(const Index3& coarse_cell) const;
 
     ImplicitFunction function_;
     PreviewOptions options_;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stop_token>
@@ -84,7 +84,7 @@ private:
     struct WatchedPlane {
         std::string view;
         Reslice raster;
-        std::string plane;  ///< as the page named it
+        nlohmann::json plane;  ///< as the page named it
     };
     struct Call {
         nlohmann::json (Session::*method)(const Members&);

@@ -25,7 +25,8 @@ constexpr std::size_t kMostWatched = 8;      // two pages of four views
 constexpr double kParallelCosine = 0.99985;  // 1 degree
 
 struct SliceRequest {
-    std::string view, plane;
+    std::string view;
+    json plane;
     Reslice raster;
     Window window;
     bool pixels, outlines;
@@ -36,7 +37,7 @@ SliceRequest parse(std::string_view text) {
     const Members m(document), plane(m.at("plane"));
     SliceRequest request;
     if (m.has("view")) request.view = m.text("view", kLongestViewName);
-    request.plane = to_text(m.at("plane"));
+    request.plane = m.at("plane");
     request.raster.plane = m.plane("plane");
     request.raster.pixel_mm = plane.number("mm_per_pixel");
     if (!(request.raster.pixel_mm >= 1e-4 && request.raster.pixel_mm <= 1e4))
@@ -152,7 +153,7 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
                 for (const double mm : plane.raster.plane.to_uv(p))
                     numbers.push_back(std::round(100 * mm / plane.raster.pixel_mm) / 100);
         }
-        views.push_back({{"view", plane.view}, {"plane", json::parse(plane.plane)}, {"lines", std::move(lines)}});
+        views.push_back({{"view", plane.view}, {"plane", plane.plane}, {"lines", std::move(lines)}});
     }
     tell({{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}});
 }

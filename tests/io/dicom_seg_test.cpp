@@ -88,6 +88,24 @@ TEST_F(WriteDicomSeg, HowItWasMadeComesBack) {
     EXPECT_EQ(read_provenance(path()), made);
 }
 
+TEST_F(WriteDicomSeg, NoValueOfHowItWasMadeCanPassForTwoEntries) {
+    use_images("axial");
+    const Provenance made{{"note", "a; word: x"}, {"ends", "b;"}, {"twice", ";; c: d;;;"}, {"empty", ""}, {"last", ";"}};
+    write_dicom_seg(path(), random_labels(), three_segments(), series_, {.provenance = made});
+    EXPECT_EQ(read_provenance(path()), made);
+}
+
+TEST_F(WriteDicomSeg, HowItWasMadeIsReadWithUndoubledSemicolonsToo) {
+    use_images("axial");
+    write_dicom_seg(path(), random_labels(), three_segments(), series_,
+                    {.provenance = {{"note", "a;b"}, {"made_by", "kontur convert"}}});
+    std::string bytes = test::read_bytes(path());
+    const std::size_t doubled = bytes.find("a;;b");
+    ASSERT_NE(doubled, std::string::npos);
+    test::write_bytes(path(), bytes.replace(doubled, 4, "a; b"));
+    EXPECT_EQ(read_provenance(path()), (Provenance{{"note", "a; b"}, {"made_by", "kontur convert"}}));
+}
+
 TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
     use_images("odd");
     write_dicom_seg(path(), random_labels(), three_segments(), series_);

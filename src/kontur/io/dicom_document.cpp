@@ -106,7 +106,10 @@ void put_contribution(DcmItem& document, const Provenance& provenance) {
     if (provenance.empty()) return;
     constexpr std::size_t kMostCharacters = 1024;
     std::string text;
-    for (const auto& [name, value] : provenance) text += (text.empty() ? "" : "; ") + name + ": " + value;
+    for (const auto& [name, value] : provenance) {
+        text += (text.empty() ? "" : "; ") + name + ": ";
+        for (const char c : value) text.append(c == ';' ? 2 : 1, c);
+    }
     DcmItem& item = append_item(document, DCM_ContributingEquipmentSequence);
     put_code(item, DCM_PurposeOfReferenceCodeSequence, {"109103", "DCM", "Modifying Equipment"});
     put(item, DCM_Manufacturer, "kontur");

@@ -40,23 +40,15 @@ std::optional<std::pair<std::string, std::string>> entry_of(std::string_view tex
     return std::pair{std::string(text.substr(0, colon)), std::string(text.substr(colon + 2))};
 }
 
-std::vector<std::string_view> split(std::string_view text, std::string_view separator) {
-    std::vector<std::string_view> parts;
-    while (!text.empty()) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + separator.size());
-    }
-    return parts;
-}
-std::vector<std::string_view> split(std::string&&, std::string_view) = delete;  // the parts would outlive the text
-
 /// The lines that begin so and go on "NAME: VALUE".
 Provenance from_lines(std::string_view text, std::string_view begin) {
     Provenance found;
-    for (const std::string_view line : split(text, "\n"))
-        if (line.starts_with(begin))
-            if (auto entry = entry_of(line.substr(begin.size()))) found.push_back(std::move(*entry));
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        if (!line.starts_with(begin)) continue;
+        if (auto entry = entry_of(line.substr(begin.size()))) found.push_back(std::move(*entry));
+    }
     return found;
 }
 
@@ -149,7 +141,19 @@ Provenance from_nifti(const fs::path& path) {
     return {};
 }
 
-/// kontur's contribution, "NAME: VALUE; NAME: VALUE". What names nothing belongs to the value before it.
+/// Cuts "NAME: VALUE; NAME: VALUE", in whose values each ';' is doubled.
+std::vector<std::string> parts_of_description(std::string_view text) {
+    std::vector<std::string> parts(1);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view two = text.substr(i, 2);
+        if (two == "; ") parts.emplace_back();
+        else parts.back() += text[i];
+        if (two == "; " || two == ";;") ++i;
+    }
+    return parts;
+}
+
+/// kontur's contribution. What names nothing belongs to the value before it: earlier files do not double their ';'.
 Provenance from_dicom(const fs::path& path) {
     dcmtk::set_up();
     DcmFileFormat file;
@@ -157,10 +161,9 @@ Provenance from_dicom(const fs::path& path) {
     Provenance found;
     for (DcmItem* equipment : dcmtk::items(*file.getDataset(), DCM_ContributingEquipmentSequence)) {
         if (dcmtk::text(*equipment, DCM_Manufacturer) != "kontur") continue;
-        const std::string description = dcmtk::text(*equipment, DCM_ContributionDescription);
-        for (const std::string_view part : split(description, "; ")) {
+        for (const std::string& part : parts_of_description(dcmtk::text(*equipment, DCM_ContributionDescription))) {
             if (auto entry = entry_of(part)) found.push_back(std::move(*entry));
-            else if (!found.empty()) found.back().second += "; " + std::string(part);
+            else if (!found.empty()) found.back().second += "; " + part;
         }
     }
     return found;

@@ -3,9 +3,9 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, beforeEach, describe, test } from "node:test";
+import { before, beforeEach, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_ML, BALL_RADIUS_MM, circle, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 const image = join(folder.path, "ball.nii");
@@ -51,11 +51,7 @@ beforeEach(async () => {
   await viewer.closeHint();
 });
 
-after(async () => {
-  await browser?.close();
-  await server?.end();
-  folder.remove();
-});
+cleanUp(folder, () => [browser, server]);
 
 describe("contours", () => {
   test("a part is redrawn from the line back to the line", async () => {

@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, describe, test } from "node:test";
+import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { KONTUR, launch, run, Server, temporaryFolder, Viewer } from "./support";
+import { cleanUp, KONTUR, launch, run, Server, temporaryFolder, Viewer } from "./support";
 
 /** Change the steps below with the guide, and what is done for them. */
 const STEPS = [
@@ -36,11 +36,7 @@ before(async () => {
   await viewer.closeHint();
 });
 
-after(async () => {
-  await browser?.close();
-  await server?.end();
-  folder.remove();
-});
+cleanUp(folder, () => [browser, server]);
 
 /** What the status line says of a place of a view: mm in LPS. */
 async function placeAt(view: string, right: number, down: number): Promise<Vec3> {

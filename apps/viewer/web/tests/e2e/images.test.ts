@@ -3,9 +3,9 @@
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
-import { after, before, describe, test } from "node:test";
+import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_ML, BALL_RADIUS_MM, circle, launch, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, launch, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 let browser: Browser;
@@ -14,10 +14,7 @@ before(async () => {
   browser = await launch();
 });
 
-after(async () => {
-  await browser?.close();
-  folder.remove();
-});
+cleanUp(folder, () => [browser]);
 
 async function visit(words: string[], act: (viewer: Viewer) => Promise<void>): Promise<void> {
   const server = await Server.start(folder.path, ...words);

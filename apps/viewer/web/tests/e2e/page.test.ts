@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
-import { after, before, describe, test } from "node:test";
+import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_RADIUS_MM, circle, launch, run, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { BALL_RADIUS_MM, circle, cleanUp, launch, run, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 const image = join(folder.path, "ball.nii");
@@ -22,11 +22,7 @@ before(async () => {
   viewer = await Viewer.open(browser, server.address);
 });
 
-after(async () => {
-  await browser?.close();
-  await server?.end();
-  folder.remove();
-});
+cleanUp(folder, () => [browser, server]);
 
 const isAmber = (r: number, g: number, b: number) => r > 90 && r > 1.25 * g && g > 1.3 * b;
 const contoursNow = async () => JSON.parse((await viewer.export("contours.json")).bytes.toString()) as unknown;

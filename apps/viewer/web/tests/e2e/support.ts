@@ -5,6 +5,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
+import { after } from "node:test";
 import { chromium, type Browser, type Page } from "playwright-core";
 
 export const KONTUR = process.env["KONTUR_CLI"] ?? "kontur";
@@ -15,7 +16,12 @@ export const NO_WEBGL = ["--disable-gpu", "--disable-software-rasterizer"];
 /** Long, because other programs may keep the machine busy; every wait is for a state. */
 const PATIENCE_MS = 60_000;
 
-export function temporaryFolder(): { path: string; remove: () => void } {
+interface Folder {
+  path: string;
+  remove: () => void;
+}
+
+export function temporaryFolder(): Folder {
   const path = mkdtempSync(join(tmpdir(), "kontur-web-"));
   return { path, remove: () => rmSync(path, { recursive: true, force: true }) };
 }
@@ -105,6 +111,14 @@ export class Server {
 
 export function launch(flags: string[] = SOFTWARE_WEBGL): Promise<Browser> {
   return chromium.launch({ executablePath: CHROMIUM, args: flags });
+}
+
+/** After the last test of a file: ends what was opened, then removes the folder. */
+export function cleanUp(folder: Folder, opened: () => (Browser | Server | undefined)[]): void {
+  after(async () => {
+    for (const one of opened()) await (one instanceof Server ? one.end() : one?.close());
+    folder.remove();
+  });
 }
 
 /** The page as a user sees it; gathers what it complains of. */

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments.h"
 #include "kontur/editor.h"
@@ -12,6 +15,9 @@ namespace {
 
 constexpr int kEdits = 24;
 constexpr double kDragMm = 4;
+
+/// Its time, and that of its stages.
+using Preview = std::pair<double, std::vector<std::pair<std::string, double>>>;
 
 /// The contour in the middle of the list, moved within its plane.
 ContourSet dragged(ContourSet set, int edit) {
@@ -37,13 +43,14 @@ std::vector<double> distances(const TriangleMesh& mesh, const ImplicitFunction& 
 Json editing(const PhantomCase& phantom, int repeat) {
     Editor editor({.segment = {}, .preview_spacing_mm = 2, .refined_spacing_mm = 4});  // of that, only the function counts
     editor.preview(phantom.contours);
-    std::vector<double> walls, shares, largest;
+    std::vector<Preview> previews;
+    std::vector<double> shares, largest;
     double cpu_s = 0;
     for (int edit = 1; edit <= (repeat == 1 ? 2 : kEdits); ++edit) {
         const ContourSet contours = dragged(phantom.contours, edit);
         EditedSurface preview;
         const Timing timing = measure(1, [&] { preview = editor.preview(contours); });
-        walls.push_back(timing.seconds);
+        previews.emplace_back(timing.seconds, preview.seconds);
         cpu_s += timing.cpu_seconds;
         if (edit % 6 != 2) continue;
         const std::vector<double> off = distances(preview.mesh, editor.refine(contours).function);
@@ -51,13 +58,16 @@ Json editing(const PhantomCase& phantom, int repeat) {
         shares.push_back(static_cast<double>(within) / static_cast<double>(off.size()));
         largest.push_back(off.back());
     }
-    std::sort(walls.begin(), walls.end());
-    const auto rank = [&](double share) { return walls[static_cast<std::size_t>(share * static_cast<double>(walls.size() - 1))]; };
+    std::sort(previews.begin(), previews.end());
+    const auto rank = [&](double share) {
+        return previews[static_cast<std::size_t>(share * static_cast<double>(previews.size() - 1))];
+    };
     return Json::array({{{"case", phantom.name},
-                         {"edits", walls.size()},
-                         {"median_s", rank(0.5)},
-                         {"rank_90_s", rank(0.9)},
-                         {"cpu_s", cpu_s / static_cast<double>(walls.size())},
+                         {"edits", previews.size()},
+                         {"median_s", rank(0.5).first},
+                         {"stages_s", stages(rank(0.5).second)},
+                         {"rank_90_s", rank(0.9).first},
+                         {"cpu_s", cpu_s / static_cast<double>(previews.size())},
                          {"within_half_mm", *std::min_element(shares.begin(), shares.end())},
                          {"largest_mm", *std::max_element(largest.begin(), largest.end())}}});
 }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kontur/phantom/cases.h"
 
@@ -21,6 +24,9 @@ Json voxelizing(const PhantomCase& phantom, int repeat);
 /// Table 3: what reducing the contours' points to a fraction q saves and costs, overlap against q = 1 of the same
 /// configuration and against the truth.
 Json reduction(const PhantomCase& phantom, int repeat);
+
+/// Seconds by stage as an object.
+Json stages(const std::vector<std::pair<std::string, double>>& seconds);
 
 /// From contours to mask by stage, and peak memory, for kontur's pipeline and the paper's.
 Json end_to_end(const PhantomCase& phantom, int repeat);

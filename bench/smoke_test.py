@@ -51,6 +51,12 @@ def test_pipelines_come_close_to_the_truth(results):
     assert min(row["dice_truth"] for row in results["end_to_end"]) > 0.99
 
 
+def test_the_stages_of_a_preview_are_told(results):
+    for row in results["editing"]:
+        assert list(row["stages_s"]) == ["prepare", "fit", "mesh"]
+        assert 0 < sum(row["stages_s"].values()) <= row["median_s"]
+
+
 def test_full_quality_is_what_the_others_are_compared_with(results):
     assert all((row["jaccard"] == 1) == (row["quality"] == 1) for row in results["reduction"])
 

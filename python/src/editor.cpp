@@ -40,6 +40,9 @@ void bind_editor_itself(py::module_& m) {
     surface.def_readonly("spacing_mm", &EditedSurface::spacing_mm, "float: of the lattice that the mesh was made on.");
     surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; refined surfaces only.");
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
+    surface.def_property_readonly(
+        "seconds", [](const EditedSurface& s) { return py::dict(py::cast(s.seconds)); },
+        "dict of str to float: wall time by stage; previews only.");
 
     const Keywords<EditorOptions> keywords = editor_keywords();
     const std::string help = filled_in(R"(Follows contours while they are edited.

@@ -86,12 +86,7 @@ void bind_report(py::module_& m) {
         .field("mask_components", &Report::mask_components, "int: face-connected.")
         .field("warnings", &Report::warnings, "list of str: choices made for you and doubts, one sentence each.");
     type.def_property_readonly(
-        "seconds",
-        [](const Report& report) {
-            py::dict seconds;
-            for (const auto& [stage, duration] : report.seconds) seconds[py::str(stage)] = duration;
-            return seconds;
-        },
+        "seconds", [](const Report& report) { return py::dict(py::cast(report.seconds)); },
         "dict of str to float: wall time by stage.");
     type.def("__repr__", [names = fields.names()](const py::object& self) {
         py::list parts;

@@ -2,7 +2,9 @@
 #include "kontur/editor.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "kontur/base/stopwatch.h"
 #include "kontur/extract/preview.h"
 #include "kontur/fitting.h"
 
@@ -79,9 +81,12 @@ void Editor::remember(const ContourSet& contours, const PreparedContours& prepar
 EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
                               const std::function<void(const SurfaceBand&)>& ahead) {
     if (drawn.contours.empty()) return {};
+    std::vector<std::pair<std::string, double>> seconds;
+    Stopwatch watch(seconds);
     const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
     Fitting fitting = fitting_for(contours, options_.segment);
     const PreparedContours prepared = prepare(contours, fitting);
+    watch.lap("prepare");
     fitting.fit.most_points = options_.preview_points;
     fitting.fit.tilt_points = options_.preview_points;
     fitting.fit.solve.tolerance_mm *= kPreviewTolerance;
@@ -89,10 +94,13 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
     fitting.fit.start_slopes = known_slopes(contours, prepared);
     if (!fitting.fit.start_slopes.empty()) fitting.fit.rounds = std::min(fitting.fit.rounds, 1);
     const Fit fitted = fit(prepared, fitting.fit, progress);
+    watch.lap("fit");
     const std::vector<Vec3> starts = start_points(contours, prepared);
     const PreviewOptions lattice{preview_spacing(contours), options_.segment.threads};
     if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm, lattice.threads}, progress));
     EditedSurface surface = surface_of(fitted, starts, lattice, progress);
+    watch.lap("mesh");
+    surface.seconds = std::move(seconds);
     remember(contours, prepared, fitted.slopes);
     return surface;
 }

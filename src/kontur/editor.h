@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "kontur/extract/surface_band.h"
@@ -24,6 +26,8 @@ struct EditedSurface {
     double spacing_mm = 0;  ///< of the lattice that the mesh was made on
     Residual residual;      ///< at all drawn points; refined surfaces only
     int solves = 0;         ///< how often a linear system was solved for it
+
+    std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order; previews only
 };
 
 /// Follows contours while they are edited. After each edit, `preview` gives a surface within about a tenth of a second for

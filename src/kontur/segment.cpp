@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "kontur/base/error.h"
+#include "kontur/base/stopwatch.h"
 #include "kontur/extract/adaptive.h"
 #include "kontur/extract/polygonize.h"
 #include "kontur/field/clicks.h"
@@ -18,22 +18,6 @@
 
 namespace kontur {
 namespace {
-
-/// Collects the wall time of consecutive stages.
-class Stopwatch {
-public:
-    explicit Stopwatch(std::vector<std::pair<std::string, double>>& laps) : laps_(laps) {}
-    void lap(const char* stage) {
-        const auto now = Clock::now();
-        laps_.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
-        last_ = now;
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    std::vector<std::pair<std::string, double>>& laps_;
-    Clock::time_point last_ = Clock::now();
-};
 
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
     list.insert(list.end(), more.begin(), more.end());

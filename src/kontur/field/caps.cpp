@@ -26,9 +26,9 @@ public:
           inside_(inside),
           sign_(sign),
           tolerance_(planes.tolerance_mm),
+          deepest_(deepest(inside)),
           next_(planes.next(section.plane, sign)),
           previous_(planes.next(section.plane, -sign)) {
-        for (const Probe& probe : inside) deepest_ = std::max(deepest_, probe.depth);
         for (const Section& other : planes.sections)
             if (!are_parallel(section.plane, other.plane)) consider(other);
         for (const Contour& contour : planes.set.contours)
@@ -113,9 +113,8 @@ private:
 
     const Section& section_;
     const std::vector<Probe>& inside_;
-    double sign_, tolerance_;
+    double sign_, tolerance_, deepest_;
     std::optional<DrawnPlanes::Next> next_, previous_;
-    double deepest_ = 0;  ///< radius of the largest circle in the section, about
     bool leads_on_ = false;
     double slanted_reach_ = 0;
     double single_reach_ = 0;  ///< of single points

@@ -55,12 +55,6 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
     return result;
 }
 
-double deepest(const std::vector<Probe>& inside) {
-    double depth = 0;
-    for (const Probe& probe : inside) depth = std::max(depth, probe.depth);
-    return depth;
-}
-
 /// Two copies of the contour: one below the rim, which says that the wall stands upright there, and one inside of it on the
 /// lid. Without them a smooth function, which has no edge, bulges on both sides of the rim.
 void append_rim(const Contour& contour, std::int32_t index, const Section& region, const Vec3& up, double distance,

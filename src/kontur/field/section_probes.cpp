@@ -66,4 +66,10 @@ std::vector<Probe> probes(const Section& section) {
     return result;
 }
 
+double deepest(const std::vector<Probe>& inside) {
+    double depth = 0;
+    for (const Probe& probe : inside) depth = std::max(depth, probe.depth);
+    return depth;
+}
+
 }  // namespace kontur

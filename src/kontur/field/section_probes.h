@@ -29,4 +29,7 @@ struct Probe {
 /// A lattice of some hundred points over the section, those inside of it. It turns with the section.
 std::vector<Probe> probes(const Section& section);
 
+/// The largest depth, about the radius of the largest circle in the section; 0 without probes.
+double deepest(const std::vector<Probe>& inside);
+
 }  // namespace kontur

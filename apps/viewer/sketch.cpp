@@ -22,13 +22,6 @@ Vec3 projected(const Vec3& p, const Plane& plane) {
     return std::abs(off) <= 1e-9 ? p : p - off * plane.normal;
 }
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double length2 = dot(along, along);
-    const double t = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0;
-    return distance(p, a + t * along);
-}
-
 /// A sketch on its plane, and the lines between its control points.
 class Sketcher {
 public:

@@ -42,6 +42,13 @@ Vec3 smallest_eigenvector(std::array<std::array<double, 3>, 3> a, double& middle
 
 }  // namespace
 
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 edge = b - a;
+    const double square = dot(edge, edge);
+    const double t = square > 0 ? std::clamp(dot(p - a, edge) / square, 0.0, 1.0) : 0.0;
+    return distance(p, a + t * edge);
+}
+
 Vec3 any_perpendicular(const Vec3& normal) {
     const Vec3 magnitude{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     Vec3 axis{1, 0, 0};

@@ -38,6 +38,9 @@ inline double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
+/// Distance of `p` from the segment between `a` and `b`, which may coincide.
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b);
+
 /// `a` scaled to length 1; the zero vector stays zero.
 inline Vec3 normalized(const Vec3& a) {
     const double length = norm(a);

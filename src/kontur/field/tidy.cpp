@@ -11,13 +11,6 @@
 namespace kontur {
 namespace {
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 edge = b - a;
-    const double square = dot(edge, edge);
-    const double t = square > 0 ? std::clamp(dot(p - a, edge) / square, 0.0, 1.0) : 0.0;
-    return distance(p, a + t * edge);
-}
-
 /// Whether the path turns back on itself at `tip`.
 bool is_spike(const Vec3& before, const Vec3& tip, const Vec3& after, double tolerance) {
     if (dot(tip - before, after - tip) >= 0) return distance(before, tip) == 0;

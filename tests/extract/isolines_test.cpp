@@ -105,7 +105,7 @@ TEST_P(RingTest, LiesWithTheInsideOnTheLeftSeenAgainstTheNormal) {
         const Plane plane = lattice().plane;
         for (std::size_t i = 0; i < line.points.size(); ++i) {
             const auto &p = line.points[i], &q = line.points[(i + 1) % line.points.size()];
-            twice_area += cross(plane.from_uv(p[0], p[1]), plane.from_uv(q[0], q[1]));
+            twice_area += cross(plane.from_uv(p), plane.from_uv(q));
         }
         const double area = 0.5 * dot(twice_area, plane.normal);
         EXPECT_NEAR(area, line.hole ? -line.area_mm2 : line.area_mm2, 1e-6);

@@ -17,7 +17,7 @@ using Point2 = std::array<double, 2>;
 /// A closed contour through points given in the plane's own coordinates.
 inline Contour contour_in(const Plane& plane, std::span<const Point2> points, bool hole = false) {
     Contour contour{plane, {}, true, hole};
-    for (const Point2& p : points) contour.points.push_back(plane.from_uv(p[0], p[1]));
+    for (const Point2& p : points) contour.points.push_back(plane.from_uv(p));
     return contour;
 }
 

@@ -118,6 +118,7 @@ struct Plane {
     /// In-plane coordinates (u, v) in mm of the projection of `p`.
     std::array<double, 2> to_uv(const Vec3& p) const { return {dot(u, p - origin), dot(v, p - origin)}; }
     Vec3 from_uv(double s, double t) const { return origin + s * u + t * v; }
+    Vec3 from_uv(const std::array<double, 2>& uv) const { return from_uv(uv[0], uv[1]); }
 
     friend bool operator==(const Plane&, const Plane&) = default;
 };

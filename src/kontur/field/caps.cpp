@@ -73,12 +73,12 @@ private:
     double reach_of(const Section& other) const {
         double reach = 0;
         for (const Polygon2& outline : other.outlines)
-            for (const Point2& p : outline) reach = std::max(reach, ahead(other.plane.from_uv(p[0], p[1])));
+            for (const Point2& p : outline) reach = std::max(reach, ahead(other.plane.from_uv(p)));
         return reach;
     }
 
     Vec3 above(const Point2& p, double height) const {
-        return section_.plane.from_uv(p[0], p[1]) + sign_ * height * section_.plane.normal;
+        return section_.plane.from_uv(p) + sign_ * height * section_.plane.normal;
     }
 
     void append_towards_next(std::vector<Cap>& caps) const {
@@ -128,7 +128,7 @@ double missing_reach(const Section& section, const std::vector<Section>& section
         if (&other == &section) continue;
         for (const Polygon2& outline : other.outlines)
             for_each_edge(outline, [&](const Point2& from, const Point2& to) {
-                const Vec3 a = other.plane.from_uv(from[0], from[1]), b = other.plane.from_uv(to[0], to[1]);
+                const Vec3 a = other.plane.from_uv(from), b = other.plane.from_uv(to);
                 const double da = section.plane.distance_to(a), db = section.plane.distance_to(b);
                 if ((da > 0) == (db > 0)) return;
                 const Point2 crossing = section.plane.to_uv(a + (da / (da - db)) * (b - a));
@@ -162,7 +162,7 @@ public:
                 for (int i = -reach; i <= reach; ++i) {
                     const Point2 at =
                         axes.to_plane({center[0] + i * step_, center[1] + static_cast<double>(begin - reach) * step_});
-                    const Vec3 position = section.plane.from_uv(at[0], at[1]);
+                    const Vec3 position = section.plane.from_uv(at);
                     if (distance(position, ball_.center) > ball_.radius || search.contains(at)) continue;
                     if (const double clear = search.clearance(at); clear > least)
                         rows[static_cast<std::size_t>(begin)].push_back(
@@ -178,7 +178,7 @@ public:
         const double height = side.height();
         append_beside(side.shifted(height), 0, probes);
         const Plane over = side.shifted(2 * height).plane;
-        for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at[0], probe.at[1]), 0, -height / 2});
+        for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at), 0, -height / 2});
     }
 
 private:

@@ -39,7 +39,7 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
         if (are_parallel(region.plane, other.plane)) continue;
         for (const Polygon2& outline : other.outlines)
             for (const Point2& p : outline) {
-                const Vec3 at = other.plane.from_uv(p[0], p[1]);
+                const Vec3 at = other.plane.from_uv(p);
                 if (sign * region.plane.distance_to(at) > planes.tolerance_mm && region.contains(region.plane.to_uv(at)))
                     result.carried_on = true;
             }
@@ -48,7 +48,7 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
         result.spacing = next->distance_mm;
         const Section& there = *next->section;
         for (const Probe& probe : inside) {
-            const Vec3 at = region.plane.from_uv(probe.at[0], probe.at[1]) + sign * next->distance_mm * region.plane.normal;
+            const Vec3 at = region.plane.from_uv(probe.at) + sign * next->distance_mm * region.plane.normal;
             result.carried_on = result.carried_on || there.contains(there.plane.to_uv(at));
         }
     }
@@ -79,9 +79,8 @@ void append_flat(const ContourSet& set, const Section& region, const std::vector
                    kEdge * deepest(inside), ends);
     const auto contour = static_cast<std::int32_t>(region.contours.front());
     for (const Probe& probe : inside)
-        ends.lids.push_back({.position = region.plane.from_uv(probe.at[0], probe.at[1]),
-                             .inplane_normal = sign * region.plane.normal,
-                             .contour = contour});
+        ends.lids.push_back(
+            {.position = region.plane.from_uv(probe.at), .inplane_normal = sign * region.plane.normal, .contour = contour});
 }
 
 void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {
@@ -89,7 +88,7 @@ void append_dome(const Section& region, const std::vector<Probe>& inside, double
     const double widest = deepest(inside);
     for (const Probe& probe : inside) {
         const double rim = 1 - probe.depth / widest;
-        const Vec3 base = region.plane.from_uv(probe.at[0], probe.at[1]), up = sign * height * region.plane.normal;
+        const Vec3 base = region.plane.from_uv(probe.at), up = sign * height * region.plane.normal;
         ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour});
         ends.guards.push_back({base + 1.5 * up, -height / 4, -height / 2});
     }

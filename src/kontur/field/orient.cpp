@@ -53,9 +53,8 @@ ContourOrientation orient(const Contour& contour) {
         if (contacts.crossings_of_segment[i] % 2 != 0) sign = -sign;
     }
     for (const SelfContact& contact : contacts.contacts)
-        if (contact.kind == SelfContact::Kind::crossing)
-            result.crossings.push_back(plane.from_uv(contact.position[0], contact.position[1]));
-    for (const Point2& p : contacts.between_crossings) result.between_crossings.push_back(plane.from_uv(p[0], p[1]));
+        if (contact.kind == SelfContact::Kind::crossing) result.crossings.push_back(plane.from_uv(contact.position));
+    for (const Point2& p : contacts.between_crossings) result.between_crossings.push_back(plane.from_uv(p));
     return result;
 }
 

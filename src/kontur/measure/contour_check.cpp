@@ -130,7 +130,7 @@ private:
         if (polygon.size() < 3) return;
         std::array<std::vector<Vec3>, 3> places;  // by kind
         for (const SelfContact& c : kontur::find_self_contacts(polygon).contacts)
-            places[static_cast<std::size_t>(c.kind)].push_back(contour_.plane.from_uv(c.position[0], c.position[1]));
+            places[static_cast<std::size_t>(c.kind)].push_back(contour_.plane.from_uv(c.position));
         const auto report = [&](SelfContact::Kind kind, FindingKind finding, Severity severity, const char* what) {
             const std::vector<Vec3>& at = places[static_cast<std::size_t>(kind)];
             if (at.empty()) return;

@@ -260,7 +260,7 @@ private:
                 add(FindingKind::gap, Severity::warning,
                     fmt::format("two neighbouring planes are {:.3g} mm apart, the others {:.3g} mm: {:.0f} missing",
                                 steps[i], usual, steps[i] / usual - 1));
-            finding.position = plane.from_uv(middle[0], middle[1]) + (heights[i] + steps[i] / 2) * plane.normal;
+            finding.position = plane.from_uv(middle) + (heights[i] + steps[i] / 2) * plane.normal;
             finding.value_mm = steps[i];
         }
     }

@@ -83,7 +83,7 @@ std::vector<Passage> passages(const Section& section, const Plane& other, const 
                 const Point2 &a = outline[edge], &b = outline[i];
                 const double t = before / (before - here);
                 const Point2 p{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
-                found.push_back({line.along(section.plane.from_uv(p[0], p[1])), p, o, edge});
+                found.push_back({line.along(section.plane.from_uv(p)), p, o, edge});
             }
             before = here;
         }
@@ -149,9 +149,7 @@ private:
     }
 
     std::size_t contour(const Sighting& s) const { return sections_[s.plane]->contours[s.passage.outline]; }
-    Vec3 position(const Sighting& s) const {
-        return sections_[s.plane]->plane.from_uv(s.passage.position[0], s.passage.position[1]);
-    }
+    Vec3 position(const Sighting& s) const { return sections_[s.plane]->plane.from_uv(s.passage.position); }
     /// In the plane that `s` does not belong to.
     Section::Nearest nearest_other(const Sighting& s) const {
         const Section& other = *sections_[1 - s.plane];
@@ -171,7 +169,7 @@ private:
         const double depth = depth_between(own, other.plane, line_, p.passage, q.passage);
         for (const Sighting& s : {p, q}) {
             const Section::Nearest nearest = nearest_other(s);
-            const Vec3 there = other.plane.from_uv(nearest.position[0], nearest.position[1]);
+            const Vec3 there = other.plane.from_uv(nearest.position);
             const double outside = p.begins ? nearest.distance : -nearest.distance;
             crossings.push_back({contour(s), other.contours[nearest.outline], position(s), there, false, outside,
                                  std::min({nearest.distance, depth, half})});

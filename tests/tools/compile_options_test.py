@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Options of single sources reach the compiler. CMake drops them without a word when they are set in another folder than the one
+of the target, and nothing but the speed, or a wrong rounding once in a billion, would tell."""
+import json
+import os
+import pathlib
+
+import pytest
+
+COMMANDS = pathlib.Path(os.environ["KONTUR_BUILD"], "compile_commands.json")
+
+
+def options_of(source):
+    if not COMMANDS.exists():
+        pytest.skip("the build folder has no compile_commands.json: configure it by a preset")
+    [command] = [entry["command"].split() for entry in json.loads(COMMANDS.read_text())
+                 if entry["file"].endswith(f"/src/kontur/{source}") and "/kontur.dir/" in entry["command"]]
+    return command
+
+
+def test_exact_predicates_may_change_the_rounding():
+    assert "-frounding-math" in options_of("shape/predicates.cpp")
+
+
+@pytest.mark.parametrize("stem", ["h2_basis", "h2_interpolation", "pair_sums", "preconditioner", "small_cholesky", "split_kernel", "stencil"])
+def test_fast_sums_may_fuse_multiplications_and_additions(stem):
+    options = options_of(f"field/{stem}.cpp")
+    # The last one counts.
+    assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=fast"
+
+
+@pytest.mark.parametrize("stem", ["kernel", "nearest_points", "fit", "implicit_function"])
+def test_what_the_same_bytes_come_from_fuses_nothing(stem):
+    options = options_of(f"field/{stem}.cpp")
+    assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=off"

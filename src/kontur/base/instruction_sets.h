@@ -2,10 +2,8 @@
 #pragma once
 
 // KONTUR_X86_64_LEVEL is the level of x86-64 that hot functions are compiled for: 1 or 3 (AVX2), which only tests/determinism
-// asks for; 0 compiles them for both and for 4 (AVX-512) and chooses when the program starts. Sanitizers cannot instrument
-// the choice.
-#if !defined(__x86_64__) || !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__) || \
-    defined(__SANITIZE_THREAD__)
+// asks for; 0 compiles them for both and for 4 (AVX-512) and chooses when the program starts.
+#if !defined(__x86_64__) || !defined(__GNUC__) || defined(__clang__)
 #undef KONTUR_X86_64_LEVEL
 #define KONTUR_X86_64_LEVEL 1
 #elif !defined(KONTUR_X86_64_LEVEL)
@@ -13,11 +11,12 @@
 #endif
 
 // In front of a hot function. Every level gives the same bytes where contraction is off, which it is unless
-// field/CMakeLists.txt turns it on for a file.
-#if KONTUR_X86_64_LEVEL == 0
-#define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#elif KONTUR_X86_64_LEVEL == 3
+// field/CMakeLists.txt turns it on for a file. Sanitizers cannot instrument the compiler's choice among clones: with them there
+// is but one.
+#if KONTUR_X86_64_LEVEL == 3
 #define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target("arch=x86-64-v3")))
+#elif KONTUR_X86_64_LEVEL == 0 && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define KONTUR_EVERY_INSTRUCTION_SET
 #endif

@@ -98,7 +98,7 @@ SegmentOptions options(Choices& choose) {
     options.mesh = choose.flag();
     options.normals = choose.below(4) == 0 ? Normals::in_plane : Normals::surface;
     options.fill_rule = choose.below(4) == 0 ? FillRule::declared : FillRule::even_odd;
-    options.quality = choose.below(4) == 0 ? choose.between(0.01, 1) : 1;
+    options.quality = choose.below(4) == 0 ? 1 : choose.between(0.01, 0.3);  // few points: more drawings in a second
     options.voxelizer = static_cast<Voxelizer>(choose.below(3));
     options.solver = choose.below(3) == 0 ? Solver::iterative : Solver::automatic;
     options.conflicts = static_cast<Conflicts>(choose.below(3));

@@ -48,15 +48,13 @@ inline std::vector<Grid> all_orientations() {
     return grids;
 }
 
-/// Values that differ between neighbours along each axis and fill the type's range where it is small.
+/// Values that differ between neighbours along each axis; integers wrap around at the end of their type.
 template <typename Value>
 Image pattern_image(const Grid& grid) {
     std::vector<Value> values;
     for (std::int64_t n = 0; n < grid.voxel_count(); ++n) {
-        const double value = std::is_floating_point_v<Value> ? 0.37 * static_cast<double>(n * n) - 20
-                             : std::is_signed_v<Value>       ? static_cast<double>(n * 997 - 9000)
-                                                             : static_cast<double>(n * 10);
-        values.push_back(static_cast<Value>(value));
+        if constexpr (std::is_floating_point_v<Value>) values.push_back(static_cast<Value>(0.37 * static_cast<double>(n * n) - 20));
+        else values.push_back(static_cast<Value>(std::is_signed_v<Value> ? n * 997 - 9000 : n * 10));
     }
     return {grid, values};
 }

@@ -2,6 +2,7 @@
 #include "kontur/io/dicom_nesting.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "kontur/io/decimal_string.h"
 #include "support/damage.h"
@@ -81,6 +82,41 @@ TEST(DicomNesting, ManySiblingsAreNoDepth) {
     for (int n = 0; n < 50'000; ++n) siblings += kItem + le(0, 4);
     test::write_bytes(folder / "a", head(kExplicit) + siblings + kSequenceEnd);
     EXPECT_NO_THROW(check_dicom_nesting(folder / "a"));
+}
+
+/// As the deflated transfer syntax stores a data set: raw, without zlib's frame.
+std::string deflated(const std::string& data_set) {
+    z_stream stream{};
+    EXPECT_EQ(deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string out(deflateBound(&stream, data_set.size()), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data_set.data()));
+    stream.avail_in = static_cast<uInt>(data_set.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+TEST(DicomNesting, DeflatedElementsThatClaimGigabytesAreRefusedBeforeTheyAreRead) {
+    const test::TemporaryFolder folder;
+    const auto scan = [&](const std::string& data_set) {
+        test::write_bytes(folder / "a", head("1.2.840.10008.1.2.1.99") + deflated(data_set));
+        check_dicom_nesting(folder / "a");
+    };
+    const auto claim = [](int group, std::uint64_t bytes) {
+        return le(static_cast<unsigned>(group), 2) + le(0x10, 2) + "OB" + le(0, 2) + le(bytes, 4);
+    };
+    EXPECT_KONTUR_ERROR(scan(claim(9, 3'861'907'456)), ErrorKind::corrupt_file,
+                        "claim 3683 MB beside the pixels; at most 128 MB");
+    const std::string half = claim(9, 70 << 20) + std::string(70 << 20, '\0');
+    EXPECT_NO_THROW(scan(half));
+    EXPECT_KONTUR_ERROR(scan(half + half), ErrorKind::corrupt_file, "claim 140 MB");
+    EXPECT_KONTUR_ERROR(scan(claim(0x7FE0, 3'000'000'000)), ErrorKind::corrupt_file,
+                        "claims 3000000000 bytes, more than there are");
+    EXPECT_NO_THROW(scan(claim(0x7FE0, 200 << 20) + std::string(200 << 20, '\0')));
+    EXPECT_KONTUR_ERROR(scan("\x09\x10\x01\x01??"), ErrorKind::corrupt_file, "do not follow one another");
 }
 
 TEST(DecimalString, NumbersBeyondADoubleAreNoZeros) {

@@ -22,6 +22,10 @@ constexpr std::size_t kDeepest = 100;
 /// Items in what is no orderly sequence of elements; each may be a level of its own to DCMTK. Eight megabytes of stack, the
 /// system's default, hold about 9000 levels.
 constexpr std::uint64_t kMostDisorderlyItems = 3000;
+/// Of what lies deflated beside the pixels, all elements together: DCMTK takes what memory an element claims before it
+/// inflates it.
+constexpr std::uint64_t kMostDeflatedMb = 128;
+constexpr const char* kDisorderly = "its elements do not follow one another as DICOM wants";
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
 
@@ -141,7 +145,22 @@ private:
         }
         if (tag == kPixelData && length == kUndefined) skip_fragments();
         else if (is_sequence || length == kUndefined) open(false, length, inside);
-        else skip(length);
+        else skip_value(tag, length);
+    }
+
+    void skip_value(const Tag& tag, std::uint64_t length) {
+        if (!inflated_) return skip(length);
+        if (tag != kPixelData) claimed_ += length;
+        if (claimed_ > kMostDeflatedMb << 20)
+            throw Error(ErrorKind::corrupt_file,
+                        fmt::format("its deflated elements claim {} MB beside the pixels; at most {} MB are read",
+                                    claimed_ >> 20, kMostDeflatedMb));
+        try {
+            skip(length);
+        } catch (const End&) {
+            throw Error(ErrorKind::corrupt_file,
+                        fmt::format("a deflated element claims {} bytes, more than there are", length));
+        }
     }
 
     std::uint64_t read_length(std::string_view vr) {
@@ -170,6 +189,7 @@ private:
     std::vector<Level> levels_;
     std::uint64_t at_ = 0;
     bool inflated_ = false;
+    std::uint64_t claimed_ = 0;  ///< bytes of values but pixels, of inflated content
 };
 
 /// What the file's meta information says, read up to the first element of the data set.
@@ -197,11 +217,17 @@ void scan(InputFile& file) {
     Scanner meta(file, {});
     const std::string syntax = transfer_syntax(meta);
     Scanner scanner(file, {syntax != "1.2.840.10008.1.2", syntax == "1.2.840.10008.1.2.2"});
-    if (syntax == "1.2.840.10008.1.2.1.99") {
+    const bool is_deflated = syntax == "1.2.840.10008.1.2.1.99";
+    if (is_deflated) {
         file.inflate_raw();
         scanner.set_inflated();
     }
-    scanner.scan();
+    try {
+        scanner.scan();
+    } catch (const Disorder&) {
+        if (is_deflated) throw Error(ErrorKind::corrupt_file, kDisorderly);  // what its elements claim cannot be known
+        throw;
+    }
 }
 
 /// Items in all of the file, in either byte order.
@@ -228,7 +254,7 @@ void check_dicom_nesting(const std::filesystem::path& path) {
     } catch (const End&) {
     } catch (const Disorder&) {
         if (item_count(path) > kMostDisorderlyItems)
-            throw Error(ErrorKind::corrupt_file, path.string() + ": its elements do not follow one another as DICOM wants");
+            throw Error(ErrorKind::corrupt_file, path.string() + ": " + kDisorderly);
     } catch (const Error& error) {
         throw std::string_view(error.what()).starts_with(path.string()) ? error : error.with_context(path.string());
     }

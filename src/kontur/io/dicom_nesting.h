@@ -7,8 +7,10 @@ namespace kontur {
 
 /// Throws Error(corrupt_file) for a DICOM file whose sequences are nested more than 100 deep, counted over all of the file.
 /// DCMTK reads and frees each level by a call within the call before, so that a hostile file of a few hundred kilobytes
-/// would exhaust the stack and end the process. Reads the heads of elements and skips their values (deflated files: inflates
-/// all). What is no DICOM file, or ends early, passes: DCMTK says so better. Internal to io.
+/// would exhaust the stack and end the process. Also for a deflated one whose elements claim more than there is, or than
+/// 128 MB beside the pixels, or cannot be followed: DCMTK takes what memory an element claims. Reads the heads of elements
+/// and skips their values (deflated files: inflates all). What is no DICOM file, or ends early, passes: DCMTK says so
+/// better. Internal to io.
 void check_dicom_nesting(const std::filesystem::path& path);
 
 }  // namespace kontur

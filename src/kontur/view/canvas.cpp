@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <string>
 
@@ -29,6 +30,9 @@ using PatternPointer = std::unique_ptr<cairo_pattern_t, Destroyer<cairo_pattern_
 
 /// A font whose glyphs do not depend on the machine's screen settings; null where there is no font.
 FontPointer make_font(bool bold) {
+    // Where a font cannot be made, cairo 1.16 takes two locks in either order: two threads could wait for each other.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     const FacePointer face(cairo_toy_font_face_create("DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                                                       bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL));
     const OptionsPointer options(cairo_font_options_create());

@@ -30,7 +30,8 @@ ConstraintSet constraints_of(const DenseLiver& liver) {
             points.push_back({.position = contour.points[i], .inplane_normal = orientation.normals[i]});
     }
     const std::vector<double> slopes(points.size(), 1.0);
-    return place_constraints(points, slopes, {}, {.normal_offset_mm = 1, .merge_distance_mm = kMergeDistance_mm}).constraints;
+    return place_constraints(points, slopes, {}, {.normal_offset_mm = 1, .merge_distance_mm = kMergeDistance_mm})
+        .constraints;
 }
 
 /// Kernel values that one core sums per second when nothing else limits it: the direct product, which reads what it needs

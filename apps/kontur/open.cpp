@@ -79,8 +79,7 @@ fs::path data_folder() {
     const char* home = std::getenv("HOME");
     if (!xdg && !home)
         throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
-    fs::path folder =
-        (xdg && fs::path(xdg).is_absolute() ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
+    fs::path folder = (xdg && fs::path(xdg).is_absolute() ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)

@@ -175,9 +175,8 @@ void run(const SegmentCommand& command, Console& console) {
         progress.check();
     };
     write(command.output, [&](const fs::path& path) { write_mask(path, result, command.image, mask, progress); });
-    write(command.rtstruct, [&](const fs::path& path) {
-        write_structure_set(path, command, inputs, result, mask.provenance, progress);
-    });
+    write(command.rtstruct,
+          [&](const fs::path& path) { write_structure_set(path, command, inputs, result, mask.provenance, progress); });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
     write(command.picture,
           [&](const fs::path& path) { write_png(path, picture(command, inputs, result), mask.provenance); });

@@ -56,9 +56,8 @@ void run(const TraceCommand& command, Console& console) {
     WriteRtstructOptions write = command.write_rtstruct;
     write.provenance = provenance_of(command, progress);
     Outputs outputs;
-    outputs.write(command.output, [&](const std::filesystem::path& path) {
-        console.note(write_contours(path, set, command.image, write));
-    });
+    outputs.write(command.output,
+                  [&](const std::filesystem::path& path) { console.note(write_contours(path, set, command.image, write)); });
     outputs.commit();
     console.print(fmt::format("{}: {} contours with {} points in {} planes\n", command.output.string(), set.contours.size(),
                               point_count(set), planes.size()));

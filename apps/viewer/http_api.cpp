@@ -136,9 +136,8 @@ std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest re
         if (newest_slice_.size() >= kMostViews && !newest_slice_.contains(view)) newest_slice_.clear();
         ticket = newest_slice_[view] = ++next_ticket_;
     }
-    return [this, request = std::move(request), view, ticket](const std::stop_token&) {
-        return slice(request, ticket, view);
-    };
+    return
+        [this, request = std::move(request), view, ticket](const std::stop_token&) { return slice(request, ticket, view); };
 }
 
 HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view) {

@@ -173,9 +173,11 @@ std::vector<std::string> words_of(const Upload& upload) {
     if (upload.trace.axial) axes += 'a';
     if (upload.trace.sagittal) axes += 's';
     if (upload.trace.coronal) axes += 'c';
-    return {"kontur",         kImportWorker,
+    return {"kontur",
+            kImportWorker,
             upload.content == Upload::Content::mask ? "mask" : "contours",
-            upload.extension, std::to_string(upload.trace.planes),
+            upload.extension,
+            std::to_string(upload.trace.planes),
             axes};
 }
 

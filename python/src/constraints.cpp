@@ -8,8 +8,7 @@ namespace kontur::python {
 namespace {
 
 ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> values,
-                               std::optional<std::vector<ConstraintKind>> kinds,
-                               std::optional<std::vector<double>> trust) {
+                               std::optional<std::vector<ConstraintKind>> kinds, std::optional<std::vector<double>> trust) {
     ConstraintSet set;
     set.centers = std::move(centers);
     set.values = std::move(values);
@@ -20,21 +19,25 @@ ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> va
                                                   std::to_string(set.values.size()) + " values and " +
                                                   std::to_string(set.kinds.size()) + " kinds");
     if (!set.trust.empty() && set.trust.size() != set.size())
-        throw Error(ErrorKind::invalid_input, std::to_string(set.size()) + " constraints have the trust of " +
-                                                  std::to_string(set.trust.size()));
+        throw Error(ErrorKind::invalid_input,
+                    std::to_string(set.size()) + " constraints have the trust of " + std::to_string(set.trust.size()));
     for (const double value : set.trust)
-        if (!(value > 0)) throw Error(ErrorKind::invalid_input, "the trust of a constraint is " + std::to_string(value) + "; it must be > 0");
+        if (!(value > 0))
+            throw Error(ErrorKind::invalid_input,
+                        "the trust of a constraint is " + std::to_string(value) + "; it must be > 0");
     return set;
 }
 
-PlacedConstraints place(const PreparedContours& prepared, std::optional<std::vector<double>> slopes, const PlaceOptions& options) {
+PlacedConstraints place(const PreparedContours& prepared, std::optional<std::vector<double>> slopes,
+                        const PlaceOptions& options) {
     if (!slopes) slopes.emplace(prepared.points.size(), 1.0);
     if (slopes->size() != prepared.points.size())
-        throw Error(ErrorKind::invalid_input, std::to_string(prepared.points.size()) + " points have " +
-                                                  std::to_string(slopes->size()) + " slopes");
+        throw Error(ErrorKind::invalid_input,
+                    std::to_string(prepared.points.size()) + " points have " + std::to_string(slopes->size()) + " slopes");
     for (const double slope : *slopes)
         if (!(slope > 0 && slope <= 1))
-            throw Error(ErrorKind::invalid_input, "a slope is " + std::to_string(slope) + "; it must be above 0 and at most 1");
+            throw Error(ErrorKind::invalid_input,
+                        "a slope is " + std::to_string(slope) + "; it must be above 0 and at most 1");
     return place_constraints(prepared.points, *slopes, {}, options);
 }
 
@@ -76,10 +79,11 @@ trust : array_like, shape (n,), optional
     py::class_<PlacedConstraints> placed(m, "PlacedConstraints", "Constraints at prepared contours.");
     placed.def_readonly("constraints", &PlacedConstraints::constraints, "ConstraintSet");
     placed.def_readonly("merged", &PlacedConstraints::merged, "int: left out because they nearly repeat others.");
-    const auto keywords = Keywords<PlaceOptions>()
-                              .field("normal_offset_mm", &PlaceOptions::normal_offset_mm, "Length of the normal constraints.")
-                              .field("merge_distance_mm", &PlaceOptions::merge_distance_mm,
-                                     "A constraint closer than this to an earlier one is left out.");
+    const auto keywords =
+        Keywords<PlaceOptions>()
+            .field("normal_offset_mm", &PlaceOptions::normal_offset_mm, "Length of the normal constraints.")
+            .field("merge_distance_mm", &PlaceOptions::merge_distance_mm,
+                   "A constraint closer than this to an earlier one is left out.");
     define(
         m, "place_constraints", R"(Boundary constraints at all prepared points, and a normal constraint outside of each.
 

@@ -99,8 +99,9 @@ Examples
         return py::str("<Contour of {} points{}{}>")
             .format(c.points.size(), c.closed ? "" : ", open", c.hole ? ", hole" : "");
     });
-    picklable(contour,
-              [](const Contour& c) { return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside, c.weight); });
+    picklable(contour, [](const Contour& c) {
+        return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside, c.weight);
+    });
 }
 
 void bind_surface_point(py::module_& m) {

@@ -23,7 +23,8 @@ Polygon2 polygon_from(const ArrayOf<double>& points) {
         throw Error(ErrorKind::invalid_input, "a coordinate of the polygon is NaN or infinite");
     for (std::size_t n = 0; n < polygon.size(); ++n)
         if (polygon[n] == polygon[(n + 1) % polygon.size()])
-            throw Error(ErrorKind::invalid_input, "point " + std::to_string(n) + " of the polygon is repeated by the next one");
+            throw Error(ErrorKind::invalid_input,
+                        "point " + std::to_string(n) + " of the polygon is repeated by the next one");
     if (polygon.size() < 3)
         throw Error(ErrorKind::invalid_input,
                     "a polygon of " + std::to_string(polygon.size()) + " points; at least 3 are needed");

@@ -62,7 +62,7 @@ Examples
 >>> editor.preview(fewer).refined, editor.preview(contours).refined, editor.refine(contours).refined
 (False, False, True)
 )",
-                                          keywords.documentation());
+                                       keywords.documentation());
     py::class_<Editor> editor(m, "Editor", help.c_str());
     const std::string init_doc = docstring("__init__", "self, *", "", KeywordText(keywords));
     editor.def(py::init([keywords](const py::kwargs& given) { return Editor(keywords.parse("Editor", given)); }),

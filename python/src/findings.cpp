@@ -17,9 +17,8 @@ void bind_findings(py::module_& m) {
     finding.def_readonly("other", &Finding::other, "int, index of a second contour that takes part, or None.");
     finding.def_readonly("position", &Finding::position, "ndarray, shape (3,): mm, where to look; or None.");
     finding.def_readonly("value_mm", &Finding::value_mm, "float: the length that the sentence is about, or None.");
-    finding.def("__repr__", [](const Finding& f) {
-        return py::str("<Finding {}: {}>").format(std::string(name(f.severity)), f.text);
-    });
+    finding.def("__repr__",
+                [](const Finding& f) { return py::str("<Finding {}: {}>").format(std::string(name(f.severity)), f.text); });
 
     const auto limit = [](auto member) {
         return [member](ContourSetCheckOptions & options) -> auto& { return options.limits.*member; };

@@ -177,10 +177,12 @@ Contour
         py::arg("min_points") = ReduceOptions{}.min_points);
     define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.", &refine,
            py::arg("contour"), py::arg("least_segments") = 0);
-    define(m, "find_caps", "Limits to extrapolation beyond the last contours: list of Cap.",
-           [](const ContourSet& set) { return find_limits(DrawnPlanes(set)).caps; }, py::arg("contours"));
-    define(m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.",
-           [](const ContourSet& set) { return find_limits(DrawnPlanes(set)).leak_probes; }, py::arg("contours"));
+    define(
+        m, "find_caps", "Limits to extrapolation beyond the last contours: list of Cap.",
+        [](const ContourSet& set) { return find_limits(DrawnPlanes(set)).caps; }, py::arg("contours"));
+    define(
+        m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.",
+        [](const ContourSet& set) { return find_limits(DrawnPlanes(set)).leak_probes; }, py::arg("contours"));
 
     const auto preparing = prepare_keywords();
     define(

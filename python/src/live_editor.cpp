@@ -150,7 +150,7 @@ Examples
 >>> number, kinds[-1], "preview" in kinds
 (1, 'refined', True)
 )",
-                                          keywords.documentation());
+                                       keywords.documentation());
     py::class_<ListenedEditor> editor(m, "LiveEditor", help.c_str());
     const std::string init_doc = docstring("__init__", "self, listener, *", "", KeywordText(keywords));
     editor.def(py::init([keywords](py::object listener, const py::kwargs& given) {

@@ -20,9 +20,9 @@ EdgeMap edges_of(const ArrayOf<float>& values) {
 Pixel pixel_of(const EdgeMap& edges, const Position& position) {
     const Pixel pixel{position[0], position[1]};
     if (!edges.contains(pixel))
-        throw Error(ErrorKind::invalid_input, "the pixel (" + std::to_string(pixel.column) + ", " + std::to_string(pixel.row) +
-                                                  ") lies outside of the slice of " + std::to_string(edges.width()) + " x " +
-                                                  std::to_string(edges.height()));
+        throw Error(ErrorKind::invalid_input, "the pixel (" + std::to_string(pixel.column) + ", " +
+                                                  std::to_string(pixel.row) + ") lies outside of the slice of " +
+                                                  std::to_string(edges.width()) + " x " + std::to_string(edges.height()));
     return pixel;
 }
 
@@ -94,7 +94,8 @@ Returns
         },
         py::arg("pixel"), py::arg("radius"));
     method(
-        edges, "refined", "The edge's position to a fraction of a pixel: (column, row) as floats; the pixel's centre elsewhere.",
+        edges, "refined",
+        "The edge's position to a fraction of a pixel: (column, row) as floats; the pixel's centre elsewhere.",
         [](const EdgeMap& self, const Position& pixel) {
             const PixelPosition found = self.refined(pixel_of(self, pixel));
             return py::make_tuple(found[0], found[1]);
@@ -114,8 +115,10 @@ reach : int
     constructor(
         wire,
         [](const EdgeMap& map, const Position& seed, int reach) {
-            if (reach < 1) throw Error(ErrorKind::invalid_input, "reach is " + std::to_string(reach) + "; at least 1 is needed");
-            return std::make_unique<LiveWire>(map, pixel_of(map, seed), std::min(reach, std::max(map.width(), map.height())));
+            if (reach < 1)
+                throw Error(ErrorKind::invalid_input, "reach is " + std::to_string(reach) + "; at least 1 is needed");
+            return std::make_unique<LiveWire>(map, pixel_of(map, seed),
+                                              std::min(reach, std::max(map.width(), map.height())));
         },
         py::arg("edges"), py::arg("seed"), py::arg("reach") = 256, py::keep_alive<1, 2>());
     wire.def_property_readonly(
@@ -133,7 +136,9 @@ Returns
 ndarray, shape (n, 2), int32
     Column and row of each.
 )",
-        [](LiveWire& self, const Position& target) { return path_array(self.path_to({target[0], target[1]})); },
+        [](LiveWire& self, const Position& target) {
+            return path_array(self.path_to({target[0], target[1]}));
+        },
         py::arg("target"));
     define(
         m, "smooth_path", R"(A path as a line: moved to the edge between the pixels, and smoothed over a pixel or two.

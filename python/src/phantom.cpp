@@ -56,17 +56,19 @@ void bind_phantom(py::module_& m) {
     define(
         m, "phantom_case", "The PhantomCase of that name, always the same.",
         [](const std::string& name) { return unlocked([&] { return phantom_case(name); }); }, py::arg("name"));
-    const auto liver = Keywords<DenseLiver>()
-                           .field("points", &DenseLiver::points, "Of all contours together, at least 100.")
-                           .field("orthogonal", &DenseLiver::orthogonal, "In planes across all three axes, else in axial ones.")
-                           .field("by_hand", &DenseLiver::by_hand, "Drawn by an unsteady hand.");
-    const std::string liver_doc = docstring("dense_liver_case", "*", R"(The PhantomCase of a liver with many contours, to measure how time and memory grow.
+    const auto liver =
+        Keywords<DenseLiver>()
+            .field("points", &DenseLiver::points, "Of all contours together, at least 100.")
+            .field("orthogonal", &DenseLiver::orthogonal, "In planes across all three axes, else in axial ones.")
+            .field("by_hand", &DenseLiver::by_hand, "Drawn by an unsteady hand.");
+    const std::string liver_doc = docstring(
+        "dense_liver_case", "*", R"(The PhantomCase of a liver with many contours, to measure how time and memory grow.
 
 Parameters
 ----------
 @options
 )",
-                                            KeywordText(liver));
+        KeywordText(liver));
     m.def(
         "dense_liver_case",
         [liver](const py::kwargs& given) {

@@ -25,9 +25,8 @@ namespace kontur {
 struct SegmentOptions {
     Kernel kernel = Kernel::triharmonic;
     Normals normals = Normals::surface;
-    std::optional<double>
-        normal_offset_mm{};             ///< length of the normal constraints; unset: 0.45 % of the contours' diameter
-    std::optional<double> smoothing{};  ///< on unit coordinates; unset: 1e-5 with surface normals, else 0
+    std::optional<double> normal_offset_mm{};  ///< length of the normal constraints; unset: 0.45 % of the contours' diameter
+    std::optional<double> smoothing{};         ///< on unit coordinates; unset: 1e-5 with surface normals, else 0
     Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
     FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
     Corners corners = Corners::rounded;          ///< what becomes of the corners of closed contours; surface normals only
@@ -80,9 +79,8 @@ struct Segmentation {
     SegmentReport report;
 };
 
-/// Contours to mask (and mesh) on a grid. Throws Error as check_contours, check_contours_inside, solve and check_grid do, and
-/// Error(too_large) with the estimate for a run beyond `max_memory_mb`.
-/// The same bytes for any number of threads.
+/// Contours to mask (and mesh) on a grid. Throws Error as check_contours, check_contours_inside, solve and check_grid do,
+/// and Error(too_large) with the estimate for a run beyond `max_memory_mb`. The same bytes for any number of threads.
 Segmentation segment(const ContourSet& contours, const Grid& grid, const SegmentOptions& options = {},
                      const Progress& progress = {});
 

@@ -53,7 +53,8 @@ template <typename Value>
 Image pattern_image(const Grid& grid) {
     std::vector<Value> values;
     for (std::int64_t n = 0; n < grid.voxel_count(); ++n) {
-        if constexpr (std::is_floating_point_v<Value>) values.push_back(static_cast<Value>(0.37 * static_cast<double>(n * n) - 20));
+        if constexpr (std::is_floating_point_v<Value>)
+            values.push_back(static_cast<Value>(0.37 * static_cast<double>(n * n) - 20));
         else values.push_back(static_cast<Value>(std::is_signed_v<Value> ? n * 997 - 9000 : n * 10));
     }
     return {grid, values};

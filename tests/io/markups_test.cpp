@@ -123,10 +123,10 @@ TEST_F(Markups, AStraightOpenCurveLiesInAPlaneParallelToAnothers) {
 }
 
 TEST_F(Markups, PointListsAreSinglePoints) {
-    const ContourSet set = read(
-        replaced(R"("markups": [)", R"("markups": [{"type": "Fiducial", "coordinateSystem": "RAS", "controlPoints": [)"
-                                    R"({"position": [1.0, 2.0, 3.0]}, {"position": [4.0, 5.0, 6.0], "description": "inside"},)"
-                                    R"({"position": [7.0, 8.0, 9.0], "description": "outside"}]}, )"));
+    const ContourSet set = read(replaced(
+        R"("markups": [)", R"("markups": [{"type": "Fiducial", "coordinateSystem": "RAS", "controlPoints": [)"
+                           R"({"position": [1.0, 2.0, 3.0]}, {"position": [4.0, 5.0, 6.0], "description": "inside"},)"
+                           R"({"position": [7.0, 8.0, 9.0], "description": "outside"}]}, )"));
     EXPECT_EQ(set.name, "Lesion") << "after the curves";
     ASSERT_EQ(set.contours.size(), 1u);
     EXPECT_EQ(set.surface, (std::vector<SurfacePoint>{{{-1, -2, 3}, {}}}));

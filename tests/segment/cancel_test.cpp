@@ -79,8 +79,8 @@ TEST(Cancellation, AtRandomMomentsEndsTheCall) {
         longest.seconds = std::max(longest.seconds, one.seconds);
         longest.processor_seconds = std::max(longest.processor_seconds, one.processor_seconds);
     }
-    std::printf("a call of %.2f s ended at most %.3f s, %.3f s of the processors, after it was asked to\n", all, longest.seconds,
-                longest.processor_seconds);
+    std::printf("a call of %.2f s ended at most %.3f s, %.3f s of the processors, after it was asked to\n", all,
+                longest.seconds, longest.processor_seconds);
     if (std::getenv("KONTUR_TIMED")) {
         EXPECT_LT(longest.processor_seconds, 0.1);
     }

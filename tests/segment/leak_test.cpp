@@ -31,7 +31,8 @@ TEST_P(RealSetLeakTest, TheImagesExtentDoesNotMatter) {
 
 class SlantedPlanesTest : public testing::TestWithParam<double> {};
 
-// Two planes that cross at a small angle say little of what lies beside them both; a damaged contour tilts the surface there.
+// Two planes that cross at a small angle say little of what lies beside them both; a damaged contour tilts the surface
+// there.
 TEST_P(SlantedPlanesTest, TwoThatCrossGiveAClosedBody) {
     const double angle = GetParam() * std::numbers::pi / 180;
     const Vec3 radii{25, 46, 44};

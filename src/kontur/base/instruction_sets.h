@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// KONTUR_X86_64_LEVEL is the level of x86-64 that hot functions are compiled for: 1 or 3 (AVX2), which only tests/determinism
-// asks for; 0 compiles them for both and for 4 (AVX-512) and chooses when the program starts.
+// KONTUR_X86_64_LEVEL is the level of x86-64 that hot functions are compiled for: 1 or 3 (AVX2), which only
+// tests/determinism asks for; 0 compiles them for both and for 4 (AVX-512) and chooses when the program starts.
 #if !defined(__x86_64__) || !defined(__GNUC__) || defined(__clang__)
 #undef KONTUR_X86_64_LEVEL
 #define KONTUR_X86_64_LEVEL 1
@@ -11,8 +11,8 @@
 #endif
 
 // In front of a hot function. Every level gives the same bytes where contraction is off, which it is unless
-// field/CMakeLists.txt turns it on for a file. Sanitizers cannot instrument the compiler's choice among clones: with them there
-// is but one.
+// field/CMakeLists.txt turns it on for a file. Sanitizers cannot instrument the compiler's choice among clones: with them
+// there is but one.
 #if KONTUR_X86_64_LEVEL == 3
 #define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target("arch=x86-64-v3")))
 #elif KONTUR_X86_64_LEVEL == 0 && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

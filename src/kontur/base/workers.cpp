@@ -35,8 +35,7 @@ void Workers::run(int helpers, const std::function<void()>& work) {
         const std::lock_guard lock(mutex_);
         jobs_.push_back(&job);
         try {
-            for (; threads_ < std::min(helpers, kMostThreads); ++threads_)
-                std::thread([this] { wait_for_jobs(); }).detach();
+            for (; threads_ < std::min(helpers, kMostThreads); ++threads_) std::thread([this] { wait_for_jobs(); }).detach();
         } catch (const std::system_error&) {
             // The system gives no more threads; those there are will do.
         }

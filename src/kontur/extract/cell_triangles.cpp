@@ -30,9 +30,8 @@ std::array<CellFace, 6> make_faces() {
     for (int axis = 0; axis < kAxes; ++axis)
         for (int side = 0; side < 2; ++side) {
             const int u = 1 << (axis + 1) % kAxes, v = 1 << (axis + 2) % kAxes, base = side << axis;
-            faces[2 * axis + side].corners =
-                side ? std::array{base, base | u, base | u | v, base | v}
-                     : std::array{base, base | v, base | u | v, base | u};
+            faces[2 * axis + side].corners = side ? std::array{base, base | u, base | u | v, base | v}
+                                                  : std::array{base, base | v, base | u | v, base | u};
         }
     return faces;
 }

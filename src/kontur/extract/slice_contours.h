@@ -13,6 +13,7 @@ namespace kontur {
 /// So the contours enclose exactly the mask's voxel centres, by the even-odd rule. `hole` is set on contours around an
 /// outside region. An object cut off by the grid ends at its outermost voxel centres there. `mask` is the function's, as
 /// `segment` gives both. Throws Error(invalid_input) for a mask whose size contradicts its grid.
-ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, int threads = 0, const Progress& progress = {});
+ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, int threads = 0,
+                          const Progress& progress = {});
 
 }  // namespace kontur

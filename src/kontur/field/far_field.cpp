@@ -161,13 +161,14 @@ std::vector<Index3> FarField::missing_nodes(const std::vector<Index3>& cells) {
     constexpr double pending = 0;
     std::vector<Index3> nodes;
     for (const Index3& cell : cells)
-        if (prepared_.insert(cell_key(cell)).second) for_each_stencil_node(
-            cell, [&](const Index3& number) { return &block(number); },
-            [&](const Index3& node, double& value) {
-                if (!std::isnan(value)) return;
-                value = pending;
-                nodes.push_back(node);
-            });
+        if (prepared_.insert(cell_key(cell)).second)
+            for_each_stencil_node(
+                cell, [&](const Index3& number) { return &block(number); },
+                [&](const Index3& node, double& value) {
+                    if (!std::isnan(value)) return;
+                    value = pending;
+                    nodes.push_back(node);
+                });
     return nodes;
 }
 

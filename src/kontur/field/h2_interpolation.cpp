@@ -16,9 +16,7 @@ constexpr int kLanes = 4;
 using Pack = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 static_assert(kRowsPerStep % (2 * kLanes) == 0);
 
-[[gnu::always_inline]] inline double sum_of(const Pack& p) {
-    return (p[0] + p[2]) + (p[1] + p[3]);
-}
+[[gnu::always_inline]] inline double sum_of(const Pack& p) { return (p[0] + p[2]) + (p[1] + p[3]); }
 
 KONTUR_EVERY_INSTRUCTION_SET double squared_norm(const double* a, std::int32_t lead) {
     Pack sum{};

@@ -17,8 +17,7 @@ std::vector<bool> clusters_with_basis(const ClusterTree& tree, const Partition& 
         used[static_cast<std::size_t>(pair.a)] = used[static_cast<std::size_t>(pair.b)] = true;
     for (std::size_t c = 0; c < used.size(); ++c)
         if (used[c] && !tree.clusters[c].is_leaf())
-            for (const std::int32_t child : {0, 1})
-                used[tree.clusters[c].first_child + child] = true;
+            for (const std::int32_t child : {0, 1}) used[tree.clusters[c].first_child + child] = true;
     return used;
 }
 

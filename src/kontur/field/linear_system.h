@@ -14,9 +14,9 @@ namespace kontur {
 /// The interpolation problem in unit coordinates, as the solvers see it.
 struct LinearSystem {
     Kernel kernel;
-    std::vector<double> smoothing;  ///< of every constraint
-    PointArrays centers;            ///< unit coordinates
-    std::vector<double> values;     ///< mm
+    std::vector<double> smoothing;   ///< of every constraint
+    PointArrays centers;             ///< unit coordinates
+    std::vector<double> values;      ///< mm
     std::vector<double> start = {};  ///< weights that may be close to the solution; empty: none are known
     std::shared_ptr<const PreconditionerPattern> pattern = {};  ///< of these centres, if there is one already
 
@@ -37,7 +37,7 @@ struct Coefficients {
     double residual = 0;              ///< largest |f(c_i) + smoothing_i w_i - h_i|, in mm
     std::size_t residual_points = 0;  ///< see SolveReport
     double matrix_mb = 0;
-    double evaluations = 0;           ///< see SolveReport
+    double evaluations = 0;  ///< see SolveReport
     std::vector<std::pair<std::string, double>> seconds = {};
     std::shared_ptr<const PreconditionerPattern> pattern = {};
 };

@@ -89,14 +89,12 @@ void EarlierNeighbours::visit(std::int32_t c, Search& search) const {
     if (cluster.is_leaf()) {
         double squared[kLeafSize];
         squared_distances(clustered_, cluster.begin, cluster.size(), search.box, squared);
-        for (std::int32_t i = 0; i < cluster.size(); ++i)
-            search.add(squared[i], tree_.order[cluster.begin + i]);
+        for (std::int32_t i = 0; i < cluster.size(); ++i) search.add(squared[i], tree_.order[cluster.begin + i]);
         return;
     }
     const std::int32_t lower = cluster.first_child;
     double distance[2];
-    for (const int child : {0, 1})
-        distance[child] = box_distance(search.box, tree_.clusters[lower + child]);
+    for (const int child : {0, 1}) distance[child] = box_distance(search.box, tree_.clusters[lower + child]);
     const int nearer = distance[1] < distance[0] ? 1 : 0;
     for (const int child : {nearer, 1 - nearer})
         if (earliest_[lower + child] < search.limit && distance[child] * distance[child] <= search.reach)

@@ -109,7 +109,8 @@ Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const Precondition
         progress.check();
         if (s == kTop) factorise_top(kernel, ordered);
         else
-            factorise(kernel, nodes[s], ordered, std::span(rows_).subspan(rows_begin_[s], rows_begin_[s + 1] - rows_begin_[s]));
+            factorise(kernel, nodes[s], ordered,
+                      std::span(rows_).subspan(rows_begin_[s], rows_begin_[s + 1] - rows_begin_[s]));
     });
 }
 

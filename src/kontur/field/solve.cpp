@@ -119,8 +119,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     progress.check();
 
     const UnitFrame frame = unit_frame(constraints.centers);
-    LinearSystem system{options.kernel, smoothing_of(constraints, options),
-                              PointArrays(frame.to_unit(constraints.centers)), constraints.values};
+    LinearSystem system{options.kernel, smoothing_of(constraints, options), PointArrays(frame.to_unit(constraints.centers)),
+                        constraints.values};
     static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane, which dsysv may not notice
     const double scale = kernel_scale(options.kernel, frame);
     if (previous && !previous->centers.empty()) {
@@ -133,8 +133,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
 
     if (previous) *previous = remember(constraints, c, scale);
     Solution solution;
-    solution.report = {options.solver, system.size(), c.iterations, c.residual, c.residual_points, c.matrix_mb, c.evaluations,
-                       c.seconds};
+    solution.report = {options.solver,    system.size(), c.iterations,  c.residual,
+                       c.residual_points, c.matrix_mb,   c.evaluations, c.seconds};
     solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
     return solution;
 }

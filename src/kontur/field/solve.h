@@ -41,7 +41,7 @@ struct SolveReport {
     /// Constraints at which the residual was summed over all pairs. If they are not all, which takes more than 63,000
     /// centres, it is that of the H2 matrix at all constraints plus the matrix's largest error at these.
     std::size_t residual_points = 0;
-    double matrix_mb = 0;  ///< size of the factorised matrix or of the preconditioner
+    double matrix_mb = 0;    ///< size of the factorised matrix or of the preconditioner
     double evaluations = 0;  ///< iterative only: values of phi computed per product with the matrix
     std::vector<std::pair<std::string, double>> seconds = {};  ///< iterative only: wall time by stage
 };

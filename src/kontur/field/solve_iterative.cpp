@@ -83,10 +83,12 @@ public:
           progress_(progress),
           limit_(options.tolerance_mm),
           polynomials_(system.centers),
-          pattern_(system.pattern ? system.pattern : times_("neighbours", [&] {
-              return std::make_shared<const PreconditionerPattern>(system.centers, PreconditionerOptions{}, options.threads,
-                                                                   progress);
-          })),
+          pattern_(system.pattern ? system.pattern
+                                  : times_("neighbours",
+                                           [&] {
+                                               return std::make_shared<const PreconditionerPattern>(
+                                                   system.centers, PreconditionerOptions{}, options.threads, progress);
+                                           })),
           preconditioner_(
               times_("factors",
                      [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, options.threads, progress); })),

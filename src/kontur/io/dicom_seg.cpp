@@ -199,8 +199,9 @@ private:
         const SlicePlacement &first = low->placement, &last = high->placement;
         const double slices = std::round((heights.back() - heights.front()) / step) + 1;
         if (!(slices <= static_cast<double>(max_voxels)))
-            throw Error(ErrorKind::too_large, fmt::format("its frames span {:.6g} slices of {:.6g} mm; the limit is {} voxels",
-                                                          slices, step, max_voxels));
+            throw Error(
+                ErrorKind::too_large,
+                fmt::format("its frames span {:.6g} slices of {:.6g} mm; the limit is {} voxels", slices, step, max_voxels));
         const std::int64_t steps = static_cast<std::int64_t>(slices) - 1;
         Grid& grid = description_.grid;
         grid.size = {dcmtk::integer(dataset(), DCM_Columns).value_or(0), dcmtk::integer(dataset(), DCM_Rows).value_or(0),

@@ -136,8 +136,7 @@ std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int6
     for (const auto& [label, count] : labels) {
         const auto known = std::find_if(names.begin(), names.end(), [&, l = label](const auto& n) { return n.label == l; });
         if (known != names.end()) segments.push_back({known->name, known->color, label, 0});
-        else
-            segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
+        else segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
     }
     return segments;
 }

@@ -60,7 +60,8 @@ std::vector<ControlPoint> read_control_points(const json& markup) {
     std::vector<ControlPoint> points;
     for_each_item(array_member(markup, "controlPoints"), "control point", [&](const json& item) {
         if (has_position(item))
-            points.push_back({unit_mm * to_lps(frame, to_vec3(member(item, "position"))), text_member(item, "description", "")});
+            points.push_back(
+                {unit_mm * to_lps(frame, to_vec3(member(item, "position"))), text_member(item, "description", "")});
     });
     return points;
 }
@@ -112,8 +113,8 @@ void find_plane(Contour& straight, const std::vector<Contour>& contours, double 
             return;
         }
     }
-    refuse(ErrorKind::invalid_input, fmt::format("its {} points lie on one line, and no other curve tells in which plane",
-                                                 straight.points.size()));
+    refuse(ErrorKind::invalid_input,
+           fmt::format("its {} points lie on one line, and no other curve tells in which plane", straight.points.size()));
 }
 
 void append_points(const json& markup, ContourSet& set) {

@@ -22,10 +22,10 @@ struct ReadMarkupsOptions {
 /// (too few points, points on one line, a curve that is not planar, with the distance and the limit), corrupt_file.
 ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOptions& options = {});
 
-/// Writes one curve per contour and one point list for all single points, in LPS and mm, whole or not at all. 3D Slicer draws
-/// a spline through the points, so contours should be drawn finely. What the format has no place for is lost: the contours'
-/// `end`, `inside` and `weight`, the surface points' `outward`. `provenance` goes into the key "kontur", which 3D Slicer
-/// passes over. Throws Error(invalid_input) for NaN or infinite coordinates.
+/// Writes one curve per contour and one point list for all single points, in LPS and mm, whole or not at all. 3D Slicer
+/// draws a spline through the points, so contours should be drawn finely. What the format has no place for is lost: the
+/// contours' `end`, `inside` and `weight`, the surface points' `outward`. `provenance` goes into the key "kontur", which 3D
+/// Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates.
 void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

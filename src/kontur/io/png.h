@@ -9,7 +9,8 @@
 namespace kontur {
 
 /// Writes the picture as an 8-bit sRGB PNG, whole or not at all; the same picture gives the same bytes.
-/// `provenance` goes into text chunks, each with the keyword "kontur NAME". Throws Error(invalid_input) for a picture without pixels or with a wrong number of bytes, Error(io) naming file and reason.
+/// `provenance` goes into text chunks, each with the keyword "kontur NAME". Throws Error(invalid_input) for a picture
+/// without pixels or with a wrong number of bytes, Error(io) naming file and reason.
 void write_png(const std::filesystem::path& path, const RgbImage& image, const Provenance& provenance = {});
 
 }  // namespace kontur

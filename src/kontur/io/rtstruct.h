@@ -37,11 +37,10 @@ bool is_rtstruct(const std::filesystem::path& path);
 /// Reads a DICOM RT structure set. Contour points are the file's, in mm (LPS); the contours of one slice share one plane.
 /// Holes, in each of the three ways that files store them: a keyhole (one path that runs to the hole's rim and back through
 /// a channel, retraced within 0.001 mm) becomes an outer and an inner contour; CLOSEDPLANAR_XOR contours and nested
-/// CLOSED_PLANAR ones on one slice are filled even-odd, so those at odd depth are marked `hole`. OPEN_PLANAR contours are open
-/// contours, POINT ones points on the surface, with a note each. OPEN_NONPLANAR contours, repeated ones and those without
-/// area are left out, with a note each.
-/// Throws Error(invalid_input) when the file is no RTSTRUCT and Error(corrupt_file), naming ROI and contour, for coordinates
-/// that are no numbers, no triples or not as many as declared.
+/// CLOSED_PLANAR ones on one slice are filled even-odd, so those at odd depth are marked `hole`. OPEN_PLANAR contours are
+/// open contours, POINT ones points on the surface, with a note each. OPEN_NONPLANAR contours, repeated ones and those
+/// without area are left out, with a note each. Throws Error(invalid_input) when the file is no RTSTRUCT and
+/// Error(corrupt_file), naming ROI and contour, for coordinates that are no numbers, no triples or not as many as declared.
 StructureSet read_rtstruct(const std::filesystem::path& path);
 
 /// The ROI with this name or, if none has it, with this number; without either, the only ROI that has contours. Throws

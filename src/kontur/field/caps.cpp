@@ -147,7 +147,7 @@ bool has_open_contour(const DrawnPlanes& planes, const Plane& plane) {
 class LeakProbes {
 public:
     LeakProbes(const Ball3& around, int threads)
-        : ball_{around.center, 2 * around.radius}, step_(around.diameter() / 16), threads_(threads) {}
+        : ball_{around.center, 2 * around.radius}, step_(ball_.radius / kSteps), threads_(threads) {}
 
     /// Outside of the section's contours, farther than a step and than twice the reach of what may be missing.
     void append_beside(const Section& section, double missing_reach, std::vector<Cap>& probes) const {
@@ -155,13 +155,12 @@ public:
         const SectionAxes axes(section);
         const SectionSearch search(section);
         const Point2 center = axes.from_plane(section.plane.to_uv(ball_.center));
-        const int reach = static_cast<int>(std::ceil(ball_.radius / step_));
-        std::vector<std::vector<Cap>> rows(static_cast<std::size_t>(2 * reach + 1));
-        parallel_for(2 * reach + 1, 4, threads_, [&](std::int64_t begin, std::int64_t end) {
+        std::array<std::vector<Cap>, 2 * kSteps + 1> rows;
+        parallel_for(2 * kSteps + 1, 4, threads_, [&](std::int64_t begin, std::int64_t end) {
             for (; begin < end; ++begin)
-                for (int i = -reach; i <= reach; ++i) {
+                for (int i = -kSteps; i <= kSteps; ++i) {
                     const Point2 at =
-                        axes.to_plane({center[0] + i * step_, center[1] + static_cast<double>(begin - reach) * step_});
+                        axes.to_plane({center[0] + i * step_, center[1] + static_cast<double>(begin - kSteps) * step_});
                     const Vec3 position = section.plane.from_uv(at);
                     if (distance(position, ball_.center) > ball_.radius || search.contains(at)) continue;
                     if (const double clear = search.clearance(at); clear > least)
@@ -182,6 +181,7 @@ public:
     }
 
 private:
+    static constexpr int kSteps = 16;  ///< from the ball's center to its surface
     // Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
     static constexpr double kTrust = 0.05;
 

@@ -11,10 +11,11 @@ namespace {
 /// Distances from a corner, with growing steps, that stay clear of `end`.
 std::vector<double> growing_steps(double end, double nearest, double longest) {
     std::vector<double> distances;
-    double step = nearest;
-    for (double at = nearest; at < end - step / 4; at += step) {
+    double at = nearest, step = nearest;
+    while (at < end - step / 4) {
         distances.push_back(at);
         step = std::clamp(at / 2, nearest, longest);
+        at += step;
     }
     return distances;
 }

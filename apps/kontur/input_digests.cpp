@@ -29,7 +29,7 @@ std::string image_sha256(const fs::path& image, const Progress& progress) {
 void carry_on(Provenance& made, const std::string& name, const Provenance& input) {
     constexpr std::size_t kMostEntries = 100;
     for (const auto& [its_name, value] : input)
-        if (made.size() < kMostEntries) made.emplace_back(name + "_" + its_name, value);
+        if (made.size() < kMostEntries) made.emplace_back(fmt::format("{}_{}", name, its_name), value);
 }
 
 }  // namespace

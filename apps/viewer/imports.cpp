@@ -196,9 +196,8 @@ class Worker {
 public:
     Worker(const Upload& upload, const fs::path& folder) {
         std::vector<std::string> words = words_of(upload);
-        std::vector<char*> argv;
-        for (std::string& word : words) argv.push_back(word.data());
-        argv.push_back(nullptr);
+        std::vector<char*> argv(words.size() + 1, nullptr);
+        std::transform(words.begin(), words.end(), argv.begin(), [](std::string& word) { return word.data(); });
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

@@ -160,7 +160,7 @@ Stretch Members::stretch(const char* key) const {
 }
 
 std::string Members::color(const char* key) const {
-    const std::string color = text(key, 7);
+    std::string color = text(key, 7);
     const auto is_hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
     if (color.size() != 7 || color[0] != '#' || !std::all_of(color.begin() + 1, color.end(), is_hex))
         refuse(fmt::format("'{}' is no colour like #e8b04a", key));

@@ -29,7 +29,7 @@ struct SliceEdges::Slice {
         const auto [s, t] = raster.plane.to_uv(around);
         const auto [s0, t0] = raster.plane.to_uv({});
         const auto on_lattice = [&](double x, double x0) {
-            return x0 + std::round((x - x0) / pixel_mm - kSidePixels / 2) * pixel_mm;
+            return x0 + std::round((x - x0) / pixel_mm - 0.5 * kSidePixels) * pixel_mm;
         };
         raster.plane.origin = raster.plane.from_uv(on_lattice(s, s0), on_lattice(t, t0));
         const float outside = static_cast<float>(sample(image, 0));

@@ -125,6 +125,10 @@ void bind_types(py::module_& m) {
     cap.def_readonly("most_mm", &Cap::most_mm, "float: f must not exceed it there.");
     cap.def_readonly("value_mm", &Cap::value_mm, "float: prescribed if it does.");
 
+    py::class_<Limits> limits(m, "Limits", "What bounds the extrapolation beyond the contours.");
+    limits.def_readonly("caps", &Limits::caps, "list of Cap: beyond the last contours.");
+    limits.def_readonly("leak_probes", &Limits::leak_probes, "list of Cap: where a leak would show.");
+
     py::class_<SolveReport> report(m, "SolveReport", "What the solver did.");
     report.def_readonly("solver", &SolveReport::solver, "str: the one that ran.");
     report.def_readonly("centres", &SolveReport::centres, "int: number of weights.");
@@ -178,11 +182,8 @@ Contour
     define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.", &refine,
            py::arg("contour"), py::arg("least_segments") = 0);
     define(
-        m, "find_caps", "Limits to extrapolation beyond the last contours: list of Cap.",
-        [](const ContourSet& set) { return find_limits(DrawnPlanes(set)).caps; }, py::arg("contours"));
-    define(
-        m, "find_leak_probes", "Points in the drawn planes where a leak would show: list of Cap.",
-        [](const ContourSet& set) { return find_limits(DrawnPlanes(set)).leak_probes; }, py::arg("contours"));
+        m, "find_limits", "Where the extrapolation beyond the contours is bounded: Limits.",
+        [](const ContourSet& set) { return find_limits(DrawnPlanes(set)); }, py::arg("contours"));
 
     const auto preparing = prepare_keywords();
     define(

@@ -28,11 +28,11 @@ struct LiveEditor::Worker {
     bool closing = false;
     std::jthread thread;  // last: starts when all else is there
 
-    Worker(EditorOptions options, Listener to, BandListener band_to)
-        : editor(std::move(options)),
+    Worker(const EditorOptions& options, Listener to, BandListener band_to)
+        : editor(options),
           listener(std::move(to)),
           ahead(std::move(band_to)),
-          thread([this](std::stop_token closed) { run(std::move(closed)); }) {}
+          thread([this](const std::stop_token& closed) { run(closed); }) {}
 
     ~Worker() {
         const std::lock_guard lock(mutex);
@@ -101,8 +101,8 @@ struct LiveEditor::Worker {
     }
 };
 
-LiveEditor::LiveEditor(EditorOptions options, Listener listener, BandListener ahead)
-    : worker_(std::make_unique<Worker>(std::move(options), std::move(listener), std::move(ahead))) {}
+LiveEditor::LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead)
+    : worker_(std::make_unique<Worker>(options, std::move(listener), std::move(ahead))) {}
 
 LiveEditor::~LiveEditor() = default;
 

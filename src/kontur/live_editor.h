@@ -39,7 +39,7 @@ public:
     /// Likewise, when a preview can be cut by planes but has no mesh yet.
     using BandListener = std::function<void(std::uint64_t edit, const SurfaceBand& band)>;
 
-    LiveEditor(EditorOptions options, Listener listener, BandListener ahead = {});
+    LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {});
     /// Cancels what runs and waits for it.
     ~LiveEditor();
 

@@ -191,6 +191,10 @@ TEST_F(ContourJson, NumberBeyondDoubleIsRefusedWithItsPlace) {
     EXPECT_NE(refusal(replaced("[2, 0, 3]", "[2, NaN, 3]")).find("is not valid JSON from byte"), std::string::npos);
 }
 
+TEST_F(ContourJson, OtherDocumentsAreToldApart) {
+    EXPECT_NE(refusal(R"({"version": "1.0.0", "contours": 7})").find("holds no contours"), std::string::npos);
+}
+
 TEST_F(ContourJson, OtherFramesAndVersionsAreUnsupported) {
     EXPECT_NE(refusal(replaced("LPS mm", "LAS mm"), ErrorKind::unsupported).find("\"LAS mm\""), std::string::npos);
     EXPECT_NE(refusal(replaced("\"frame\": \"LPS mm\", ", "")).find("'frame' is missing"), std::string::npos);

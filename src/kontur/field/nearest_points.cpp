@@ -88,13 +88,14 @@ void EarlierNeighbours::visit(std::int32_t c, Search& search) const {
     const Cluster& cluster = tree_.clusters[static_cast<std::size_t>(c)];
     if (cluster.is_leaf()) {
         double squared[kLeafSize];
-        squared_distances(clustered_, cluster.begin, cluster.size(), search.box, squared);
-        for (std::int32_t i = 0; i < cluster.size(); ++i) search.add(squared[i], tree_.order[cluster.begin + i]);
+        const std::int32_t count = cluster.size();
+        squared_distances(clustered_, cluster.begin, count, search.box, squared);
+        for (std::int32_t i = 0; i < count; ++i) search.add(squared[i], tree_.order[cluster.begin + i]);
         return;
     }
     const std::int32_t lower = cluster.first_child;
-    double distance[2];
-    for (const int child : {0, 1}) distance[child] = box_distance(search.box, tree_.clusters[lower + child]);
+    const double distance[] = {box_distance(search.box, tree_.clusters[lower]),
+                               box_distance(search.box, tree_.clusters[lower + 1])};
     const int nearer = distance[1] < distance[0] ? 1 : 0;
     for (const int child : {nearer, 1 - nearer})
         if (earliest_[lower + child] < search.limit && distance[child] * distance[child] <= search.reach)

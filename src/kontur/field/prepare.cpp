@@ -127,7 +127,7 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), options.corners, prepared);
-    if (options.gaps) find_gaps(fitted, 0.15 * diameter, 1.5e-3 * diameter, prepared.points, options.threads);
+    if (options.gaps) find_gaps(fitted, 0.15 * diameter, planes.tolerance_mm, prepared.points, options.threads);
     append_limits(planes, options, prepared);
     return prepared;
 }

@@ -28,6 +28,8 @@ PatientFrame read_frame(const json& document) {
 }
 
 void check_version(const json& document) {
+    if (document.is_object() && !document.contains("frame") && !document.contains("planes"))
+        corrupt("holds no contours: there is neither 'frame' nor 'planes'");
     if (!document.contains("version")) return;
     const json& version = document["version"];
     if (!version.is_number_integer()) corrupt("'version' is not a whole number");

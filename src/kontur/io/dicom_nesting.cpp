@@ -25,12 +25,14 @@ constexpr std::uint64_t kMostDisorderlyItems = 3000;
 /// Of what lies deflated beside the pixels, all elements together: DCMTK takes what memory an element claims before it
 /// inflates it.
 constexpr std::uint64_t kMostDeflatedMb = 128;
-constexpr const char* kDisorderly = "its elements do not follow one another as DICOM wants";
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
 
-struct Disorder {};  ///< thrown where the elements cannot be followed
-struct End {};       ///< thrown where the file ends
+/// Thrown where the elements cannot be followed.
+struct Disorder {
+    bool inflated;  ///< among inflated content: what its elements claim cannot be known
+};
+struct End {};  ///< thrown where the file ends
 
 struct Tag {
     std::uint16_t group = 0, element = 0;
@@ -109,7 +111,7 @@ public:
 private:
     void close_ended_levels() {
         while (!levels_.empty() && levels_.back().end <= at_) {
-            if (levels_.back().end < at_) throw Disorder{};
+            if (levels_.back().end < at_) throw Disorder{inflated_};
             levels_.pop_back();
         }
     }
@@ -123,14 +125,14 @@ private:
     void read_delimiter(const Tag& tag) {
         const std::uint64_t length = number(4);
         const bool in_item = !levels_.empty() && levels_.back().is_item;
-        if (levels_.empty()) throw Disorder{};
+        if (levels_.empty()) throw Disorder{inflated_};
         if (tag == kItem && !in_item) open(true, length, coding());
         else if ((tag == kItemEnd && in_item) || (tag == kSequenceEnd && !in_item)) levels_.pop_back();
-        else throw Disorder{};
+        else throw Disorder{inflated_};
     }
 
     void read_element(const Tag& tag) {
-        if (!levels_.empty() && !levels_.back().is_item) throw Disorder{};
+        if (!levels_.empty() && !levels_.back().is_item) throw Disorder{inflated_};
         Coding inside = coding();
         bool is_sequence = false;
         std::uint64_t length = 0;
@@ -168,7 +170,7 @@ private:
         constexpr std::string_view kLong = "OB OD OF OL OV OW SQ SV UC UN UR UT UV ";
         const std::string name = std::string(vr) + " ";
         if (kShort.find(name) != std::string_view::npos) return number(2);
-        if (kLong.find(name) == std::string_view::npos) throw Disorder{};
+        if (kLong.find(name) == std::string_view::npos) throw Disorder{inflated_};
         number(2);
         return number(4);
     }
@@ -179,7 +181,7 @@ private:
             const Tag tag = read_tag();
             const std::uint64_t length = number(4);
             if (tag == kSequenceEnd) return;
-            if (tag != kItem || length == kUndefined) throw Disorder{};
+            if (tag != kItem || length == kUndefined) throw Disorder{inflated_};
             skip(length);
         }
     }
@@ -195,7 +197,7 @@ private:
 /// What the file's meta information says, read up to the first element of the data set.
 std::string transfer_syntax(Scanner& meta) {
     constexpr Tag kLength{0x0002, 0x0000}, kSyntax{0x0002, 0x0010};
-    if (meta.read_tag() != kLength || meta.text(2) != "UL" || meta.number(2) != 4) throw Disorder{};
+    if (meta.read_tag() != kLength || meta.text(2) != "UL" || meta.number(2) != 4) throw Disorder{false};
     const std::uint64_t length = meta.number(4);
     std::string syntax;
     for (std::uint64_t used = 0; used < length;) {
@@ -217,17 +219,11 @@ void scan(InputFile& file) {
     Scanner meta(file, {});
     const std::string syntax = transfer_syntax(meta);
     Scanner scanner(file, {syntax != "1.2.840.10008.1.2", syntax == "1.2.840.10008.1.2.2"});
-    const bool is_deflated = syntax == "1.2.840.10008.1.2.1.99";
-    if (is_deflated) {
+    if (syntax == "1.2.840.10008.1.2.1.99") {
         file.inflate_raw();
         scanner.set_inflated();
     }
-    try {
-        scanner.scan();
-    } catch (const Disorder&) {
-        if (is_deflated) throw Error(ErrorKind::corrupt_file, kDisorderly);  // what its elements claim cannot be known
-        throw;
-    }
+    scanner.scan();
 }
 
 /// Items in all of the file, in either byte order.
@@ -252,9 +248,9 @@ void check_dicom_nesting(const std::filesystem::path& path) {
     try {
         scan(file);
     } catch (const End&) {
-    } catch (const Disorder&) {
-        if (item_count(path) > kMostDisorderlyItems)
-            throw Error(ErrorKind::corrupt_file, path.string() + ": " + kDisorderly);
+    } catch (const Disorder& disorder) {
+        if (disorder.inflated || item_count(path) > kMostDisorderlyItems)
+            throw Error(ErrorKind::corrupt_file, path.string() + ": its elements do not follow one another as DICOM wants");
     } catch (const Error& error) {
         throw std::string_view(error.what()).starts_with(path.string()) ? error : error.with_context(path.string());
     }

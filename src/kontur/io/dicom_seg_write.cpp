@@ -231,7 +231,7 @@ private:
     static void put_numbers(DcmItem& item, const DcmTagKey& tag, const std::array<Uint32, 2>& numbers) {
         auto element = std::make_unique<DcmUnsignedLong>(DcmTag(tag));
         element->putUint32Array(numbers.data(), numbers.size());
-        if (item.insert(element.get(), /*replaceOld=*/OFTrue).good()) element.release();
+        if (item.insert(element.get(), /*replaceOld=*/OFTrue).good()) (void)element.release();  // now the item's
     }
 
     static void put_algorithm(DcmItem& item, const DicomAlgorithm& algorithm) {

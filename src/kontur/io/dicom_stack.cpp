@@ -155,6 +155,7 @@ std::vector<DicomStack> split_by_frame_of_reference(Slices slices) {
 std::vector<double> positions_along_normal(const std::vector<DicomHeader>& slices) {
     const SlicePlacement& first = slices.front().placement;
     std::vector<double> positions;
+    positions.reserve(slices.size());
     for (const DicomHeader& slice : slices)
         positions.push_back(dot(first.normal(), slice.placement.position - first.position));
     return positions;

@@ -56,6 +56,7 @@ std::string file_sha256(const fs::path& path, const Progress& progress) {
 
 std::string files_sha256(const std::vector<fs::path>& paths, const Progress& progress) {
     std::vector<std::string> digests;
+    digests.reserve(paths.size());
     for (const fs::path& path : paths) digests.push_back(file_sha256(path, progress));
     return digests.size() == 1 ? digests.front() : digest_of(digests);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/nifti.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -226,7 +228,7 @@ std::string comment_extension(const Provenance& provenance) {
     if (provenance.empty()) return {};
     constexpr std::uint32_t kCommentCode = 6;
     std::string text = "kontur\n";
-    for (const auto& [name, value] : provenance) text += name + ": " + value + "\n";
+    for (const auto& [name, value] : provenance) text += fmt::format("{}: {}\n", name, value);
     const auto size = static_cast<std::uint32_t>((8 + text.size() + 15) / 16 * 16);
     text.resize(size - 8, '\0');
     std::string extension;

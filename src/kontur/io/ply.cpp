@@ -140,7 +140,8 @@ public:
     /// Length of a list whose items all fit into what is left.
     std::uint64_t next_length(const PlyProperty& list) {
         const double length = next(*list.list_count);
-        const double most = static_cast<double>(bytes_.size() / least_size(list.type));
+        const std::size_t most_items = bytes_.size() / least_size(list.type);
+        const auto most = static_cast<double>(most_items);
         if (!(length >= 0 && length <= most && length == std::floor(length)))
             throw Error(ErrorKind::corrupt_file,
                         fmt::format("a list of {} \"{}\" with {} bytes left in the file", length, list.name, bytes_.size()));

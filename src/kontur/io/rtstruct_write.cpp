@@ -81,6 +81,7 @@ std::vector<StoredPath> keyholes(const std::vector<Contour>& contours, const Nes
 /// PS3.3 C.8.8.6.3: when one contour of a ROI is combined by exclusive or, all are.
 std::vector<StoredPath> rings(const std::vector<Contour>& contours, const char* type) {
     std::vector<StoredPath> paths;
+    paths.reserve(contours.size());
     for (const Contour& contour : contours) paths.push_back({contour.points, type, &contour.plane});
     return paths;
 }

@@ -53,8 +53,9 @@ Plane plane_for(const Contour& contour, Planes& known, double tolerance) {
 void assign_planes(std::vector<Contour>& contours, double tolerance_mm) {
     std::vector<std::size_t> largest_first(contours.size());
     std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
-    std::vector<double> size;
-    for (const Contour& contour : contours) size.push_back(bounding_box(contour.points).diagonal());
+    std::vector<double> size(contours.size());
+    std::transform(contours.begin(), contours.end(), size.begin(),
+                   [](const Contour& contour) { return bounding_box(contour.points).diagonal(); });
     std::stable_sort(largest_first.begin(), largest_first.end(),
                      [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
     Planes known;

@@ -13,7 +13,7 @@ struct Edge {
     bool backward;
 
     bool same_points(const Edge& b) const { return low == b.low && high == b.high; }
-    friend auto operator<=>(const Edge&, const Edge&) = default;
+    friend auto operator<=>(const Edge&, const Edge&) = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14's own
 };
 
 std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {

@@ -170,7 +170,7 @@ void LiveWire::settle(std::uint32_t at) {
     settled_[at] = true;
     const Pixel from{first_.column + static_cast<int>(at) % window_width_,
                      first_.row + static_cast<int>(at) / window_width_};
-    for (std::uint8_t step = 0; step < kSteps.size(); ++step) {
+    for (std::size_t step = 0; step < kSteps.size(); ++step) {
         const Pixel to{from.column + kSteps[step].column, from.row + kSteps[step].row};
         if (!(clamped(to) == to)) continue;
         const std::size_t next = offset(to);
@@ -178,7 +178,7 @@ void LiveWire::settle(std::uint32_t at) {
         const std::uint32_t length = reached_ + static_cast<std::uint32_t>(edges_.cost(from, to));
         if (length >= distance_[next]) continue;
         distance_[next] = length;
-        parent_[next] = step;
+        parent_[next] = static_cast<std::uint8_t>(step);
         buckets_[length % buckets_.size()].push_back(static_cast<std::uint32_t>(next));
         ++queued_;
     }

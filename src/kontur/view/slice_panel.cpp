@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,8 +37,8 @@ private:
     }
 
     std::vector<Point2> to_panel(const std::vector<Vec3>& points) const {
-        std::vector<Point2> result;
-        for (const Vec3& p : points) result.push_back(to_panel(p));
+        std::vector<Point2> result(points.size());
+        std::transform(points.begin(), points.end(), result.begin(), [&](const Vec3& p) { return to_panel(p); });
         return result;
     }
 

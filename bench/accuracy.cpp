@@ -75,7 +75,7 @@ Mask segment_told_the_tilts(const PhantomCase& drawn, const Grid& grid) {
     fitting.fit.rounds = 0;
     fitting.fit.start_slopes = true_slopes(*drawn.body, prepared.points);
     const Fit told = fit(prepared, fitting.fit);
-    return fill(track_surface(told.function, grid, start_points(drawn.contours, prepared), 0));
+    return fill(track_surface(told.function, grid, start_points(drawn.contours, prepared, told.function, 0), 0));
 }
 
 /// Mean angle between the fitted and the true normals at the drawn points.

@@ -95,7 +95,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
     if (!fitting.fit.start_slopes.empty()) fitting.fit.rounds = std::min(fitting.fit.rounds, 1);
     const Fit fitted = fit(prepared, fitting.fit, progress);
     watch.lap("fit");
-    const std::vector<Vec3> starts = start_points(contours, prepared);
+    const std::vector<Vec3> starts = start_points(contours, prepared, fitted.function, fitting.prepare.click_margin_mm);
     const PreviewOptions lattice{preview_spacing(contours), options_.segment.threads};
     if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm, lattice.threads}, progress));
     EditedSurface surface = surface_of(fitted, starts, lattice, progress);
@@ -113,7 +113,8 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) 
     const Fitting fitting = fitting_for(contours, options_.segment);
     const PreparedContours prepared = prepare(contours, fitting);
     const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 3;
-    surface = surface_of(fit(prepared, fitting.fit, progress), start_points(contours, prepared),
+    const Fit fitted = fit(prepared, fitting.fit, progress);
+    surface = surface_of(fitted, start_points(contours, prepared, fitted.function, fitting.prepare.click_margin_mm),
                          {spacing_mm, options_.segment.threads}, progress);
     surface.refined = true;
     surface.residual = residual(surface.function, contours, options_.segment.threads);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "kontur/base/error.h"
 
@@ -51,6 +52,27 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
     return prepare;
 }
 
+/// Where the surface passes near a point at which |f| is about `margin_mm`; nothing where |f| is larger or it is farther
+/// away.
+std::optional<Vec3> surface_near(const Vec3& point, const ImplicitFunction& function, double margin_mm) {
+    constexpr int kSteps = 24, kHalvings = 12;
+    const double value = function.value(point);
+    if (std::abs(value) > 2 * margin_mm) return std::nullopt;
+    const auto has_other_sign = [&](const Vec3& p) { return (function.value(p) > 0) != (value > 0); };
+    for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+        for (const double step : {margin_mm, -margin_mm})
+            for (int n = 1; n <= kSteps; ++n) {
+                if (!has_other_sign(point + n * step * direction)) continue;
+                double near = (n - 1) * step, far = n * step;
+                for (int halving = 0; halving < kHalvings; ++halving) {
+                    const double middle = (near + far) / 2;
+                    (has_other_sign(point + middle * direction) ? far : near) = middle;
+                }
+                return point + far * direction;
+            }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
@@ -68,12 +90,15 @@ PreparedContours prepare(const ContourSet& contours, const Fitting& fitting) {
     return prepared;
 }
 
-std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared) {
+std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,
+                               const ImplicitFunction& function, double click_margin_mm) {
     std::vector<Vec3> starts = prepared.crossings;
     starts.insert(starts.end(), prepared.between_crossings.begin(), prepared.between_crossings.end());
     for (const BoundaryPoint& point : prepared.points) starts.push_back(point.position);
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+    for (const Vec3& click : contours.exterior)
+        if (const auto start = surface_near(click, function, click_margin_mm)) starts.push_back(*start);
     return starts;
 }
 

@@ -68,6 +68,35 @@ void describe_crossings(const ContourSet& contours, const Grid& grid, SegmentRep
 /// A value on the surface and one beside it for each point, and what ends the object; fewer where some nearly repeat others.
 std::size_t expected_centres(const PreparedContours& prepared) { return 2 * prepared.points.size() + prepared.caps.size(); }
 
+/// Whether one of the voxels around a point is in the mask.
+bool touches(const Mask& mask, const Affine3& to_index, const Vec3& p) {
+    const Vec3 at = to_index.apply(p);
+    const Index3& n = mask.grid.size;
+    for (int corner = 0; corner < 8; ++corner) {
+        const std::int64_t i = static_cast<std::int64_t>(std::floor(at.x)) + (corner & 1),
+                           j = static_cast<std::int64_t>(std::floor(at.y)) + (corner >> 1 & 1),
+                           k = static_cast<std::int64_t>(std::floor(at.z)) + (corner >> 2);
+        if (i >= 0 && i < n.i && j >= 0 && j < n.j && k >= 0 && k < n.k && mask.values[mask.grid.offset(i, j, k)])
+            return true;
+    }
+    return false;
+}
+
+/// Interior points that f has inside and the mask does not: what they made lies apart from the contours, where no surface is
+/// looked for.
+void describe_lost_clicks(const ContourSet& contours, const ImplicitFunction& function, const Mask& mask,
+                          std::vector<std::string>& warnings) {
+    const Affine3 to_index = mask.grid.index_to_mm.inverse();
+    for (std::size_t c = 0; c < contours.interior.size(); ++c) {
+        const Vec3& click = contours.interior[c];
+        if (!mask.grid.bounds_mm().contains(click) || !(function.value(click) > 0) || touches(mask, to_index, click))
+            continue;
+        warnings.push_back(fmt::format(
+            "interior point {} is not in the mask: it lies apart from the object, and no contour says what is there",
+            c + 1));
+    }
+}
+
 bool reaches_border(const Mask& mask) {
     const Index3& n = mask.grid.size;
     for (std::int64_t k = 0; k < n.k; ++k)
@@ -132,7 +161,9 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     const Fit fitted = fit(prepared, fitting.fit, progress);
     result.function = fitted.function;
     watch.lap("fit");
-    const SurfaceLattice surface = find_surface(result.function, grid, start_points(contours, prepared), options, progress);
+    const SurfaceLattice surface =
+        find_surface(result.function, grid,
+                     start_points(contours, prepared, result.function, fitting.prepare.click_margin_mm), options, progress);
     result.mask = fill(surface, options.threads);
     watch.lap("voxelize");
     if (options.mesh) {
@@ -153,6 +184,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.residual = residual(result.function, contours, options.threads);
     describe_crossings(contours, grid, report);
     describe_mask(surface, result.mask, report);
+    describe_lost_clicks(contours, result.function, result.mask, report.warnings);
     watch.lap("measure");
     return result;
 }

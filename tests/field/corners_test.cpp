@@ -43,7 +43,7 @@ TEST(Corners, AreWhereTheLineTurnsByThirtyDegrees) {
 }
 
 TEST(Corners, PointsGrowDenseTowardsThemAndStayOnTheEdges) {
-    const Contour refined = refine_to_corners(square(), 0.05, 4);
+    const Contour refined = refine_to_corners(square(), std::vector<bool>(4, true), 0.05, 4);
     const std::size_t n = refined.points.size();
     EXPECT_EQ(n % 4, 0u);
     for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(refined.points[side * n / 4], square().points[side]);
@@ -57,7 +57,8 @@ TEST(Corners, PointsGrowDenseTowardsThemAndStayOnTheEdges) {
         for (const Vec3& corner : square().points) to_corner = std::min(to_corner, distance(p, corner));
         EXPECT_LE(step, std::max(0.05, 1.3 * to_corner) + 1e-12);
     }
-    EXPECT_EQ(refine_to_corners(test::circle(kAxial, 20, 60), 0.05, 4).points, test::circle(kAxial, 20, 60).points);
+    const Contour circle = test::circle(kAxial, 20, 60);
+    EXPECT_EQ(refine_to_corners(circle, find_corners(circle), 0.05, 4).points, circle.points);
 }
 
 TEST(Corners, TheirPointsHaveNoNormalAndThoseBesideThemTheirEdges) {

@@ -17,18 +17,102 @@ namespace {
 // leads on beyond it, but not in its normal's direction.
 constexpr double kSlanted = 0.8;
 
+// A plane may show only some of the parts of an object. Where another one shows the object at less than this fraction of the
+// distance from the lines of the first, that decides.
+constexpr double kNearer = 0.25;
+
+/// The regions drawn in all planes, for questions about any point.
+class DrawnRegions {
+public:
+    explicit DrawnRegions(const std::vector<Section>& sections) {
+        for (const Section& section : sections) {
+            double radius = 0;
+            for (const Polygon2& outline : section.outlines)
+                for (const Point2& p : outline) radius = std::max(radius, std::hypot(p[0], p[1]));
+            regions_.push_back({section.plane, SectionSearch(section), radius});
+        }
+    }
+
+    /// Whether p lies over or under a region, nearer to it than `reach`, and its foot there fulfils the condition.
+    template <class Condition>
+    bool any_near(const Vec3& p, double reach, const Condition& holds) const {
+        return std::any_of(regions_.begin(), regions_.end(), [&](const Region& region) {
+            const double height = region.plane.distance_to(p);
+            return std::abs(height) < reach && region.contains(p) && holds(p - height * region.plane.normal);
+        });
+    }
+
+    /// A plane parallel to a section, on one side of it.
+    struct Parallel {
+        double distance;
+        const Plane* plane;
+        const SectionSearch* search;
+        std::vector<bool>
+            shows;  ///< for each outline of the section, whether a probe in it lies over or under the plane's region
+    };
+
+    /// Those farther than `tolerance` in the direction of the section's normal times `sign`, the nearest first.
+    std::vector<Parallel> parallel_to(const Section& section, const std::vector<Probe>& inside, double sign,
+                                      double tolerance) const {
+        std::vector<Parallel> found;
+        for (const Region& region : regions_) {
+            const double distance = sign * section.plane.distance_to(region.plane.origin);
+            if (distance <= tolerance || !are_parallel(section.plane, region.plane)) continue;
+            Parallel& parallel = found.emplace_back(
+                Parallel{distance, &region.plane, &region.search, std::vector<bool>(section.outlines.size())});
+            for (const Probe& probe : inside)
+                if (!parallel.shows[probe.outline] && region.contains(section.plane.from_uv(probe.at)))
+                    parallel.shows[probe.outline] = true;
+        }
+        std::sort(found.begin(), found.end(), [](const Parallel& a, const Parallel& b) { return a.distance < b.distance; });
+        return found;
+    }
+
+private:
+    struct Region {
+        const Plane& plane;
+        SectionSearch search;
+        double radius;  ///< around the plane's origin
+
+        /// Whether the foot of p lies in it.
+        bool contains(const Vec3& p) const {
+            const Point2 at = plane.to_uv(p);
+            return std::hypot(at[0], at[1]) <= radius && search.contains(at);
+        }
+    };
+    std::vector<Region> regions_;
+};
+
+/// How far a section lies from the one before it, rather one that shows a part of the object that it shows itself. One very
+/// near to it, compared with the next one or, without any, with the object's width, shows the same place once more and does
+/// not count.
+std::optional<double> distance_to_previous(const std::vector<DrawnRegions::Parallel>& behind, double width) {
+    constexpr double kSamePlace = 0.125;
+    std::vector<double> same_part, all;
+    for (const DrawnRegions::Parallel& plane : behind) {
+        all.push_back(plane.distance);
+        if (std::find(plane.shows.begin(), plane.shows.end(), true) != plane.shows.end())
+            same_part.push_back(plane.distance);
+    }
+    const std::vector<double>& distances = same_part.empty() ? all : same_part;
+    if (distances.empty()) return std::nullopt;
+    if (distances.size() == 1) return distances[0] < kSamePlace * width ? std::nullopt : std::optional(distances[0]);
+    return distances[distances[0] < kSamePlace * (distances[1] - distances[0]) ? 1 : 0];
+}
+
 /// One side of a section's plane, and what the contour set tells about it.
 class Side {
 public:
     /// `section` is one of the planes', `inside` are its probes; all must outlive the side.
-    Side(const DrawnPlanes& planes, const Section& section, const std::vector<Probe>& inside, double sign)
+    Side(const DrawnPlanes& planes, const DrawnRegions& regions, const Section& section, const std::vector<Probe>& inside,
+         double sign)
         : section_(section),
           inside_(inside),
           sign_(sign),
           tolerance_(planes.tolerance_mm),
           deepest_(deepest(inside)),
-          next_(planes.next(section.plane, sign)),
-          previous_(planes.next(section.plane, -sign)) {
+          ahead_(regions.parallel_to(section, inside, sign, tolerance_)),
+          previous_mm_(distance_to_previous(regions.parallel_to(section, inside, -sign, tolerance_), deepest_)) {
         for (const Section& other : planes.sections)
             if (!are_parallel(section.plane, other.plane)) consider(other);
         for (const Contour& contour : planes.set.contours)
@@ -41,16 +125,16 @@ public:
 
     void append_caps(std::vector<Cap>& caps) const {
         if (leads_on_) return;
-        if (next_) return append_towards_next(caps);
+        if (!ahead_.empty()) return append_towards_next(caps);
         if (slanted_reach_ < tolerance_) append_rounded_end(caps);
     }
 
     /// Whether no other contour says how the object goes on.
-    bool is_last() const { return !leads_on_ && !next_ && deepest_ > 0; }
+    bool is_last() const { return !leads_on_ && ahead_.empty(); }
 
     /// How far the object may go on beyond a last section.
     double height() const {
-        const double own = previous_ ? std::min(previous_->distance_mm, 1.5 * deepest_) : deepest_;
+        const double own = previous_mm_ ? std::min(*previous_mm_, 1.5 * deepest_) : deepest_;
         return std::max(own, 1.25 * std::max(single_reach_, slanted_reach_));
     }
 
@@ -81,18 +165,32 @@ private:
         return section_.plane.from_uv(p) + sign_ * height * section_.plane.normal;
     }
 
+    Point2 foot(const Probe& probe, const DrawnRegions::Parallel& plane) const {
+        return plane.plane->to_uv(above(probe.at, plane.distance));
+    }
+
+    /// The plane ahead that tells where the object goes on from a probe: the next one, unless it shows nothing of this part
+    /// of the object, and one beyond it shows it nearer to this place than the next one's lines are.
+    const DrawnRegions::Parallel& deciding(const Probe& probe) const {
+        const DrawnRegions::Parallel& next = ahead_.front();
+        if (next.shows[probe.outline]) return next;
+        const double beside = next.search->clearance(foot(probe, next));
+        const auto found = std::find_if(ahead_.begin() + 1, ahead_.end(), [&](const DrawnRegions::Parallel& beyond) {
+            return beyond.shows[probe.outline] && beyond.distance - next.distance < beside / 2;
+        });
+        return found == ahead_.end() ? next : *found;
+    }
+
     void append_towards_next(std::vector<Cap>& caps) const {
-        const auto [section, distance] = *next_;
-        const SectionSearch next(*section);
         for (const Probe& probe : inside_) {
-            const Vec3 there = above(probe.at, distance);
-            const Point2 at = section->plane.to_uv(there);
-            if (next.contains(at)) continue;
+            const DrawnRegions::Parallel& plane = deciding(probe);
+            const Point2 at = foot(probe, plane);
+            if (plane.search->contains(at)) continue;
             // Near the next outline the fit knows better; the depth here bounds how far the surface can have moved.
-            const double clear = std::min(next.clearance(at), probe.depth);
-            if (clear <= distance / 2) continue;
-            const double below = std::min(clear, distance) / 4;
-            caps.push_back({there, -below, -below});
+            const double clear = std::min(plane.search->clearance(at), probe.depth);
+            if (clear <= plane.distance / 2) continue;
+            const double below = std::min(clear, plane.distance) / 4;
+            caps.push_back({above(probe.at, plane.distance), -below, -below});
         }
     }
 
@@ -114,7 +212,8 @@ private:
     const Section& section_;
     const std::vector<Probe>& inside_;
     double sign_, tolerance_, deepest_;
-    std::optional<DrawnPlanes::Next> next_, previous_;
+    std::vector<DrawnRegions::Parallel> ahead_;
+    std::optional<double> previous_mm_;
     bool leads_on_ = false;
     double slanted_reach_ = 0;
     double single_reach_ = 0;  ///< of single points
@@ -140,16 +239,17 @@ double missing_reach(const Section& section, const std::vector<Section>& section
 
 bool has_open_contour(const DrawnPlanes& planes, const Plane& plane) {
     return std::any_of(planes.set.contours.begin(), planes.set.contours.end(),
-                       [&](const Contour& c) { return !c.closed && coincide(c.plane, plane, planes.tolerance_mm); });
+                       [&](const Contour& c) { return !c.closed && lies_in(c, plane, planes.tolerance_mm); });
 }
 
 /// Spreads leak probes over planes, on lattices of the same step and within the same ball.
 class LeakProbes {
 public:
-    LeakProbes(const Ball3& around, int threads)
-        : ball_{around.center, 2 * around.radius}, step_(ball_.radius / kSteps), threads_(threads) {}
+    LeakProbes(const DrawnRegions& regions, const Ball3& around, int threads)
+        : regions_(regions), ball_{around.center, 2 * around.radius}, step_(ball_.radius / kSteps), threads_(threads) {}
 
-    /// Outside of the section's contours, farther than a step and than twice the reach of what may be missing.
+    /// Outside of the section's contours, farther than a step and than twice the reach of what may be missing, and not where
+    /// another plane shows the object nearer by.
     void append_beside(const Section& section, double missing_reach, std::vector<Cap>& probes) const {
         const double least = std::max(step_, 2 * missing_reach);
         const SectionAxes axes(section);
@@ -163,7 +263,8 @@ public:
                         axes.to_plane({center[0] + i * step_, center[1] + static_cast<double>(begin - kSteps) * step_});
                     const Vec3 position = section.plane.from_uv(at);
                     if (distance(position, ball_.center) > ball_.radius || search.contains(at)) continue;
-                    if (const double clear = search.clearance(at); clear > least)
+                    const double clear = search.clearance(at);
+                    if (clear > least && !shown_by_others(position, section.plane.normal, clear))
                         rows[static_cast<std::size_t>(begin)].push_back(
                             {.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kTrust});
                 }
@@ -181,10 +282,18 @@ public:
     }
 
 private:
+    /// Whether another plane near by shows the object at a place, or planes on both sides of it do.
+    bool shown_by_others(const Vec3& p, const Vec3& normal, double clear) const {
+        return regions_.any_near(p, kNearer * clear, [](const Vec3&) { return true; }) ||
+               (regions_.any_near(p, clear, [&](const Vec3& foot) { return dot(foot - p, normal) > 0; }) &&
+                regions_.any_near(p, clear, [&](const Vec3& foot) { return dot(foot - p, normal) < 0; }));
+    }
+
     static constexpr int kSteps = 16;  ///< from the ball's center to its surface
     // Half the distance is a guess, which must not bend the surface near by: docs/decisions/0002-caps.md.
     static constexpr double kTrust = 0.05;
 
+    const DrawnRegions& regions_;
     Ball3 ball_;
     double step_;
     int threads_;
@@ -194,13 +303,14 @@ private:
 
 Limits find_limits(const DrawnPlanes& planes, int threads) {
     Limits limits;
-    const LeakProbes leak_probes(planes.ball, threads);
+    const DrawnRegions regions(planes.sections);
+    const LeakProbes leak_probes(regions, planes.ball, threads);
     for (const Section& section : planes.sections) {
         if (!has_open_contour(planes, section.plane))
             leak_probes.append_beside(section, missing_reach(section, planes.sections), limits.leak_probes);
         const std::vector<Probe> inside = probes(section);
         for (const double sign : {-1.0, 1.0}) {
-            const Side side(planes, section, inside, sign);
+            const Side side(planes, regions, section, inside, sign);
             side.append_caps(limits.caps);
             if (side.is_last()) leak_probes.append_beyond(side, inside, limits.leak_probes);
         }

@@ -54,8 +54,7 @@ std::vector<bool> find_corners(const Contour& contour) {
     return corners;
 }
 
-Contour refine_to_corners(const Contour& contour, double nearest_mm, double longest_mm) {
-    const std::vector<bool> corners = find_corners(contour);
+Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm) {
     const std::size_t n = contour.points.size(), edges = contour.closed ? n : n - 1;
     Contour refined = contour;
     refined.points.clear();

@@ -18,9 +18,9 @@ std::string_view name(Corners corners) noexcept;
 /// For each point of a closed contour whether it is a corner; none of an open one.
 std::vector<bool> find_corners(const Contour& contour);
 
-/// Subdivides edges ever more finely towards the corners: the first point is `nearest_mm` from its corner, each further one
-/// half as far again, up to steps of `longest_mm`. Drawn points stay. An edge of length l gets about
-/// 2 l / longest + 5 log(longest / nearest) points.
-Contour refine_to_corners(const Contour& contour, double nearest_mm, double longest_mm);
+/// Subdivides edges ever more finely towards the corners, one flag for each point: the first point is `nearest_mm` from its
+/// corner, each further one half as far again, up to steps of `longest_mm`. Drawn points stay. An edge of length l gets
+/// about 2 l / longest + 5 log(longest / nearest) points.
+Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm);
 
 }  // namespace kontur

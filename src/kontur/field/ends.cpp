@@ -17,12 +17,13 @@ namespace {
 /// The part of a section that one of its contours encloses, without the holes in it and the islands in those.
 Section region_of(const ContourSet& set, const Section& section, std::size_t contour) {
     const auto own = std::find(section.contours.begin(), section.contours.end(), contour) - section.contours.begin();
-    const Section outer{section.plane, {section.outlines[static_cast<std::size_t>(own)]}, {contour}};
+    const Section outer{section.plane, {section.outlines[static_cast<std::size_t>(own)]}, {contour}, {false}};
     Section region = outer;
     for (std::size_t o = 0; o < section.outlines.size(); ++o)
         if (set.contours[section.contours[o]].hole && outer.contains(section.outlines[o].front())) {
             region.outlines.push_back(section.outlines[o]);
             region.contours.push_back(section.contours[o]);
+            region.holes.push_back(true);
         }
     return region;
 }

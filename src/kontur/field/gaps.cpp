@@ -43,7 +43,6 @@ struct Drawing {
     Plane plane;
     std::vector<std::pair<Point2, Point2>> edges;
     std::vector<Box2> stretches;  ///< boxes of every kStretchEdges edges
-    std::vector<std::int32_t> contours;
 
     void add_edge(const Point2& from, const Point2& to) {
         if (edges.size() % kStretchEdges == 0) stretches.push_back({from, from});
@@ -53,17 +52,28 @@ struct Drawing {
     }
 };
 
-std::vector<Drawing> drawings_of(const ContourSet& set, double tolerance_mm) {
-    std::vector<Drawing> drawings;
+struct Drawings {
+    std::vector<Drawing> all;
+    std::vector<std::size_t> of;  ///< for each contour which one it belongs to
+
+    const Drawing& with(std::int32_t contour) const { return all[of[static_cast<std::size_t>(contour)]]; }
+};
+
+Drawings drawings_of(const ContourSet& set, double tolerance_mm) {
+    const std::vector<std::size_t> plane = shared_planes(set.contours, tolerance_mm);
+    Drawings drawings{{}, std::vector<std::size_t>(set.contours.size())};
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (plane[c] == c) {
+            drawings.of[c] = drawings.all.size();
+            drawings.all.push_back({set.contours[c].plane, {}, {}});
+        }
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         const Contour& contour = set.contours[c];
-        auto found = std::find_if(drawings.begin(), drawings.end(),
-                                  [&](const Drawing& d) { return coincide(d.plane, contour.plane, tolerance_mm); });
-        if (found == drawings.end()) found = drawings.insert(found, {contour.plane, {}, {}, {}});
-        found->contours.push_back(static_cast<std::int32_t>(c));
+        drawings.of[c] = drawings.of[plane[c]];
+        Drawing& drawing = drawings.all[drawings.of[c]];
         for (std::size_t i = contour.closed ? 0 : 1; i < contour.points.size(); ++i) {
             const Vec3 &from = contour.points[i > 0 ? i - 1 : contour.points.size() - 1], &to = contour.points[i];
-            found->add_edge(found->plane.to_uv(from), found->plane.to_uv(to));
+            drawing.add_edge(drawing.plane.to_uv(from), drawing.plane.to_uv(to));
         }
     }
     return drawings;
@@ -101,17 +111,14 @@ double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, dou
 
 void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
                int threads) {
-    const std::vector<Drawing> drawings = drawings_of(set, tolerance_mm);
-    std::vector<const Drawing*> drawing_of(set.contours.size());
-    for (const Drawing& drawing : drawings)
-        for (const std::int32_t c : drawing.contours) drawing_of[static_cast<std::size_t>(c)] = &drawing;
+    const Drawings drawings = drawings_of(set, tolerance_mm);
     // Points of refined contours lie on their edge only up to rounding.
-    const double own_edge = 1e-6 * tolerance_mm;
+    const double own_edge = 1e-5 * tolerance_mm;
     parallel_for(static_cast<std::int64_t>(points.size()), 128, threads, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
             if (point.contour != kNoContour && !(point.inplane_normal == Vec3{}))
-                point.gap_mm = gap(*drawing_of[static_cast<std::size_t>(point.contour)], point, reach_mm, own_edge);
+                point.gap_mm = gap(drawings.with(point.contour), point, reach_mm, own_edge);
         }
     });
 }

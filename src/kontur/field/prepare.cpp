@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "kontur/field/clicks.h"
@@ -14,6 +15,7 @@
 #include "kontur/field/reduce.h"
 #include "kontur/field/sides.h"
 #include "kontur/field/tidy.h"
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -44,11 +46,39 @@ void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
                         tidied.thinned_contours, tidied.thinned_points, tidied.thinned_mm));
 }
 
-void append_closed(const Contour& contour, std::int32_t index, Corners corners, PreparedContours& prepared) {
+/// The corners of all contours as they were drawn; reducing them makes others.
+class DrawnCorners {
+public:
+    DrawnCorners(const ContourSet& set, Corners corners) {
+        if (corners == Corners::rounded) return;
+        for (const Contour& contour : set.contours) {
+            const std::vector<bool> is_corner = find_corners(contour);
+            for (std::size_t i = 0; i < is_corner.size(); ++i)
+                if (is_corner[i]) points_.push_back(contour.points[i]);
+        }
+        std::sort(points_.begin(), points_.end(), comes_before);
+    }
+
+    /// For each point of a contour whether it is one of them.
+    std::vector<bool> among(const Contour& contour) const {
+        std::vector<bool> is_corner(contour.points.size(), false);
+        if (contour.closed)
+            std::transform(contour.points.begin(), contour.points.end(), is_corner.begin(), [&](const Vec3& p) {
+                return std::binary_search(points_.begin(), points_.end(), p, comes_before);
+            });
+        return is_corner;
+    }
+
+private:
+    static bool comes_before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
+    std::vector<Vec3> points_;
+};
+
+void append_closed(const Contour& contour, std::int32_t index, const DrawnCorners& corners, PreparedContours& prepared) {
     const ContourOrientation orientation = orient(contour);
     // At a corner the surface has no one direction: its edges' points beside it have theirs.
-    const std::vector<bool> is_corner =
-        corners == Corners::faithful ? find_corners(contour) : std::vector<bool>(contour.points.size(), false);
+    const std::vector<bool> is_corner = corners.among(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
         prepared.points.push_back({contour.points[i], is_corner[i] ? Vec3{} : orientation.normals[i], contour.plane.normal,
                                    index, contour.weight});
@@ -73,7 +103,7 @@ void append_surface_points(const ContourSet& set, PreparedContours& prepared) {
 }
 
 /// Contours beyond the drawn ones are copies of the first.
-void append_boundary(ContourSet& set, std::size_t drawn, Corners corners, PreparedContours& prepared) {
+void append_boundary(ContourSet& set, std::size_t drawn, const DrawnCorners& corners, PreparedContours& prepared) {
     const auto index = [&](std::size_t c) { return static_cast<std::int32_t>(c < drawn ? c : 0); };
     for (std::size_t c = 0; c < set.contours.size(); ++c)
         if (set.contours[c].closed) append_closed(set.contours[c], index(c), corners, prepared);
@@ -100,12 +130,20 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, Pre
     prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
 }
 
-Contour refined(const Contour& contour, const PrepareOptions& options) {
-    const auto least_segments = static_cast<int>(std::ceil(options.quality * options.least_segments));
+/// Of one contour among so many: each of them gets fewer where they are very many, so that they share what can be solved.
+int least_segments(const PrepareOptions& options, std::size_t contours) {
+    constexpr std::size_t kAllContours = 4800;
+    constexpr int kLeast = 12;
+    const auto share = std::max(kLeast, static_cast<int>(kAllContours / std::max<std::size_t>(contours, 1)));
+    return static_cast<int>(std::ceil(options.quality * std::min(options.least_segments, share)));
+}
+
+Contour refined(const Contour& contour, int least_segments, const DrawnCorners& corners, const PrepareOptions& options) {
     if (options.corners == Corners::rounded || !contour.closed) return refine(contour, least_segments);
     double perimeter = 0;
     for_each_edge(contour.points, [&](const Vec3& a, const Vec3& b) { perimeter += distance(a, b); });
-    return refine_to_corners(contour, options.corner_spacing_mm, perimeter / std::max(least_segments, 1));
+    return refine_to_corners(contour, corners.among(contour), options.corner_spacing_mm,
+                             perimeter / std::max(least_segments, 1));
 }
 
 }  // namespace
@@ -121,13 +159,15 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
     prepared.coplanar = is_coplanar(planes);
 
     ContourSet fitted = set;
-    for (Contour& contour : fitted.contours) contour = refined(reduce(contour, {options.quality}), options);
+    const DrawnCorners corners(set, options.corners);
+    const int least = least_segments(options, set.contours.size());
+    for (Contour& contour : fitted.contours) contour = refined(reduce(contour, {options.quality}), least, corners, options);
     if (prepared.coplanar && options.copy_shift_mm > 0) {
         const Contour& first = fitted.contours.front();
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
-    append_boundary(fitted, set.contours.size(), options.corners, prepared);
-    if (options.gaps) find_gaps(fitted, 0.15 * diameter, planes.tolerance_mm, prepared.points, options.threads);
+    append_boundary(fitted, set.contours.size(), corners, prepared);
+    if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, options.threads);
     append_limits(planes, options, prepared);
     return prepared;
 }

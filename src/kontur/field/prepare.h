@@ -13,7 +13,8 @@ namespace kontur {
 
 struct PrepareOptions {
     double quality = 1.0;      ///< fraction of each contour's points to keep (reduce), in (0, 1]
-    int least_segments = 48;   ///< contours of fewer segments, times quality, are subdivided (refine); 0: the paper's rule
+    int least_segments = 48;   ///< contours of fewer segments, times quality, are subdivided (refine); of more than 100
+                               ///< contours each gets less, at least 12; 0: the paper's rule
     bool caps = true;          ///< limit the extrapolation beyond the last contours, and watch for leaks
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
     FillRule fill_rule = FillRule::even_odd;  ///< what contours inside others mean

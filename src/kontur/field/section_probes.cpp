@@ -12,6 +12,36 @@ void for_each_edge_of_all(const Section& section, const Visit& visit) {
     for (const Polygon2& outline : section.outlines) for_each_edge(outline, visit);
 }
 
+/// The box of an outline along axes, and what it encloses.
+struct Outline {
+    Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+    double area = 0;
+};
+
+Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
+    Outline outline;
+    for (const Point2& vertex : polygon) {
+        const Point2 p = axes.from_plane(vertex);
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            outline.low[axis] = std::min(outline.low[axis], p[axis]);
+            outline.high[axis] = std::max(outline.high[axis], p[axis]);
+        }
+    }
+    const Point2& origin = polygon.front();
+    for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
+        outline.area += ((a[0] - origin[0]) * (b[1] - origin[1]) - (b[0] - origin[0]) * (a[1] - origin[1])) / 2;
+    });
+    outline.area = std::abs(outline.area);
+    return outline;
+}
+
+/// Whether that outline is the first but holes that encloses the place.
+bool belongs_to(const Section& section, std::size_t outline, const Point2& at) {
+    for (std::size_t o = 0; o < outline; ++o)
+        if (section.layer(o) > 0 && is_inside(section.outlines[o], at)) return false;
+    return is_inside(section.outlines[outline], at);
+}
+
 }  // namespace
 
 SectionAxes::SectionAxes(const Section& section) {
@@ -41,28 +71,35 @@ SectionAxes::SectionAxes(const Section& section) {
 }
 
 std::vector<Probe> probes(const Section& section) {
+    constexpr double kProbes = 118;                              // of a section without gaps in its regions
+    constexpr double kOfSmallRegion = 12, kOfAllRegions = 1200;  // however small they are beside others
     const SectionAxes axes(section);
-    Point2 low{1e300, 1e300}, high{-1e300, -1e300};
-    for (const Polygon2& outline : section.outlines)
-        for (const Point2& vertex : outline) {
-            const Point2 p = axes.from_plane(vertex);
-            for (std::size_t axis = 0; axis < 2; ++axis) {
-                low[axis] = std::min(low[axis], p[axis]);
-                high[axis] = std::max(high[axis], p[axis]);
-            }
-        }
-    const double width = high[0] - low[0], height = high[1] - low[1];
-    const double step = std::max(std::sqrt(width * height / 150), std::max(width, height) / 100);
-    // Symmetric about the middle: the axes' signs mean nothing.
-    const auto columns = static_cast<int>(width / 2 / step), rows = static_cast<int>(height / 2 / step);
+    std::vector<Outline> outlines;
+    double whole_area = 0;
+    for (std::size_t o = 0; o < section.outlines.size(); ++o) {
+        outlines.push_back(outline_along(axes, section.outlines[o]));
+        whole_area += section.layer(o) * outlines.back().area;
+    }
+    whole_area = std::max(whole_area, 0.0);  // holes may lie beside what they are cut from
+    const double least = std::clamp(kOfAllRegions / static_cast<double>(outlines.size()), 1.0, kOfSmallRegion);
     const SectionSearch search(section);
     std::vector<Probe> result;
-    for (int row = -rows; row <= rows; ++row)
-        for (int column = -columns; column <= columns; ++column) {
-            const Point2 at = axes.to_plane({(low[0] + high[0]) / 2 + column * step, (low[1] + high[1]) / 2 + row * step});
-            if (!search.contains(at)) continue;
-            if (const double depth = search.clearance(at); depth > step / 2) result.push_back({at, depth});
-        }
+    for (std::size_t o = 0; o < outlines.size(); ++o) {
+        if (section.layer(o) < 0) continue;
+        const auto& [low, high, area] = outlines[o];
+        const double width = high[0] - low[0], height = high[1] - low[1];
+        const double step =
+            std::max(std::min(std::sqrt(whole_area / kProbes), std::sqrt(area / least)), std::max(width, height) / 100);
+        // Symmetric about the middle: the axes' signs mean nothing.
+        const auto columns = static_cast<int>(width / 2 / step), rows = static_cast<int>(height / 2 / step);
+        for (int row = -rows; row <= rows; ++row)
+            for (int column = -columns; column <= columns; ++column) {
+                const Point2 at =
+                    axes.to_plane({(low[0] + high[0]) / 2 + column * step, (low[1] + high[1]) / 2 + row * step});
+                if (!search.contains(at) || !belongs_to(section, o, at)) continue;
+                if (const double depth = search.clearance(at); depth > step / 2) result.push_back({at, depth, o});
+            }
+    }
     return result;
 }
 

@@ -23,7 +23,8 @@ private:
 /// A point well inside of a section.
 struct Probe {
     Point2 at;
-    double depth;  ///< mm to the nearest outline
+    double depth;         ///< mm to the nearest outline
+    std::size_t outline;  ///< the one around it, but for holes
 };
 
 /// A lattice of some hundred points over the section, those inside of it. It turns with the section.

@@ -23,6 +23,12 @@ struct Sound {
     std::vector<std::size_t> index;
 };
 
+/// With nested contours as holes.
+ContourSet filled(ContourSet set) {
+    apply_fill_rule(set, FillRule::even_odd);
+    return set;
+}
+
 class SetCheck {
 public:
     SetCheck(const Sound& sound, const ContourSetCheckOptions& options, std::vector<Finding>& findings)
@@ -31,7 +37,7 @@ public:
           findings_(findings),
           box_(bounding_box(set_)),
           diameter_(diameter_mm(set_)),
-          sections_(sections_of(set_, 1.5e-4 * diameter_)),
+          sections_(sections_of(filled(set_), kSamePlane * diameter_)),
           limit_(options.disagreement_mm.value_or(0.015 * diameter_)) {}
 
     void run() {
@@ -92,7 +98,7 @@ private:
     }
 
     static Section outline_alone(const Section& section, std::size_t o) {
-        return {section.plane, {section.outlines[o]}, {}};
+        return {section.plane, {section.outlines[o]}, {}, {}};
     }
 
     void find_duplicates() {
@@ -117,7 +123,7 @@ private:
     }
 
     void find_holes_and_overlaps() {
-        const Nesting nesting = find_nesting(set_.contours, 1.5e-4 * diameter_);
+        const Nesting nesting = find_nesting(set_.contours, kSamePlane * diameter_);
         for (std::size_t c = 0; c < set_.contours.size(); ++c) {
             std::vector<std::size_t> around = nesting.enclosing[c];
             std::erase_if(around, [&](std::size_t other) { return is_duplicate(c, other); });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "kontur/shape/section.h"
 
@@ -18,7 +19,7 @@ struct Outline {
 
 Outline outline_of(const Contour& contour, const Plane& plane) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    Outline outline{{plane, {Polygon2{}}, {}}, {kFar, kFar}, {-kFar, -kFar}};
+    Outline outline{{plane, {Polygon2{}}, {}, {}}, {kFar, kFar}, {-kFar, -kFar}};
     for (const Vec3& point : contour.points) {
         const Point2& p = outline.section.outlines.front().emplace_back(plane.to_uv(point));
         for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -43,22 +44,10 @@ Position position_of(const Outline& outline, const Outline& other, double tolera
     std::size_t inside = 0, outside = 0;
     for (std::size_t i = 0; i < points.size(); i += stride) ++(other.section.contains(points[i]) ? inside : outside);
     if (inside == 0) return Position::outside;
-    if (outside == 0) return Position::inside;
     inside = outside = 0;
     for (std::size_t i = 0; i < points.size(); i += stride)
         if (other.section.clearance(points[i]) > tolerance) ++(other.section.contains(points[i]) ? inside : outside);
     return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
-}
-
-/// For each contour the first one in its plane.
-std::vector<std::size_t> first_in_plane(const std::vector<Contour>& contours, double tolerance_mm) {
-    std::vector<std::size_t> first(contours.size());
-    for (std::size_t i = 0; i < contours.size(); ++i) {
-        std::size_t j = 0;
-        while (j < i && !(first[j] == j && coincide(contours[j].plane, contours[i].plane, tolerance_mm))) ++j;
-        first[i] = j;
-    }
-    return first;
 }
 
 }  // namespace
@@ -67,7 +56,7 @@ std::string_view name(FillRule rule) noexcept { return rule == FillRule::even_od
 
 FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
     std::vector<Contour>& contours = set.contours;
-    const Nesting nesting = find_nesting(contours, 1.5e-4 * diameter_mm(set));
+    const Nesting nesting = find_nesting(contours, kSamePlane * diameter_mm(set));
     FillChanges changes;
     changes.crossings = nesting.crossings;
     if (rule == FillRule::even_odd) {
@@ -89,12 +78,33 @@ FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
     return changes;
 }
 
-bool coincide(const Plane& a, const Plane& b, double tolerance_mm) {
-    return std::abs(dot(a.normal, b.normal)) > 1 - 1e-9 && std::abs(a.distance_to(b.origin)) < tolerance_mm;
+bool lies_in(const Contour& contour, const Plane& plane, double tolerance_mm) {
+    constexpr double kAcross = 0.95;  // a tiny contour may lie near any plane
+    return std::abs(dot(contour.plane.normal, plane.normal)) > kAcross &&
+           std::all_of(contour.points.begin(), contour.points.end(),
+                       [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= tolerance_mm; });
+}
+
+std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm) {
+    std::vector<double> size(contours.size());
+    std::transform(contours.begin(), contours.end(), size.begin(),
+                   [](const Contour& contour) { return bounding_box(contour.points).diagonal(); });
+    std::vector<std::size_t> largest_first(contours.size());
+    std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
+    std::stable_sort(largest_first.begin(), largest_first.end(),
+                     [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+    std::vector<std::size_t> planes, plane_of(contours.size());
+    for (const std::size_t c : largest_first) {
+        const auto found = std::find_if(planes.begin(), planes.end(), [&](std::size_t other) {
+            return lies_in(contours[c], contours[other].plane, tolerance_mm);
+        });
+        plane_of[c] = found == planes.end() ? planes.emplace_back(c) : *found;
+    }
+    return plane_of;
 }
 
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) {
-    const std::vector<std::size_t> plane = first_in_plane(contours, tolerance_mm);
+    const std::vector<std::size_t> plane = shared_planes(contours, tolerance_mm);
     std::vector<Outline> outlines;
     for (std::size_t i = 0; i < contours.size(); ++i) outlines.push_back(outline_of(contours[i], contours[plane[i]].plane));
     Nesting nesting;

@@ -17,9 +17,15 @@ struct Nesting {
     std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< pairs of which one lies partly inside the other
 };
 
-/// Planes less than `tolerance_mm` apart whose normals agree up to sign are one. Points within `tolerance_mm` of the other
-/// contour count as neither inside nor outside. Quadratic in the contours of a plane; of each at most 2000 points are
-/// tested.
+/// Of a set's diameter: points this near to a plane lie in it. More than files round their coordinates by, less than slices
+/// are apart.
+inline constexpr double kSamePlane = 3e-4;
+
+/// For each contour whose plane it lies in with all its points within `tolerance_mm`: that of a larger one, else its own.
+std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm);
+
+/// Contours in one plane (shared_planes) are compared. Points within `tolerance_mm` of the other contour count as neither
+/// inside nor outside. Quadratic in the contours of a plane; of each at most 2000 points are tested.
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm);
 
 /// What contours inside others mean.
@@ -37,10 +43,10 @@ struct FillChanges {
 };
 
 /// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The tolerance of
-/// `find_nesting` is 0.015 % of the set's diameter.
+/// `find_nesting` is `kSamePlane` of the set's diameter.
 FillChanges apply_fill_rule(ContourSet& set, FillRule rule);
 
-/// Whether two planes are one: normals equal up to sign, the second's origin less than `tolerance_mm` off the first.
-bool coincide(const Plane& a, const Plane& b, double tolerance_mm);
+/// Whether a contour lies in a plane with all its points within `tolerance_mm`, and was not drawn across it.
+bool lies_in(const Contour& contour, const Plane& plane, double tolerance_mm);
 
 }  // namespace kontur

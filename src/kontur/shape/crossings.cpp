@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -23,8 +24,8 @@ struct Drawn {
 
 std::vector<Drawn> drawn_planes(const ContourSet& set) {
     std::vector<Drawn> planes;
-    for (const Section& section : sections_of(set, 1.5e-4 * diameter_mm(set))) {
-        Drawn drawn{{section.plane, {}, {}}, {}};
+    for (const Section& section : sections_of(set, kSamePlane * diameter_mm(set))) {
+        Drawn drawn{{section.plane, {}, {}, {}}, {}};
         for (std::size_t o = 0; o < section.outlines.size(); ++o) {
             const Contour& contour = set.contours[section.contours[o]];
             if (!contour.closed || contour.points.size() < 3) continue;

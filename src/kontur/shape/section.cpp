@@ -56,12 +56,25 @@ std::pair<double, double> distances2(const Point2& p, const Point2& low, const P
     return {nearest2, farthest2};
 }
 
+/// Each edge as a mass at its middle.
+Vec3 middle_of_lines(const ContourSet& set, const std::vector<std::size_t>& contours) {
+    Vec3 sum;
+    double mass = 0;
+    for (const std::size_t c : contours)
+        for_each_edge(set.contours[c].points, [&](const Vec3& a, const Vec3& b) {
+            sum += distance(a, b) / 2 * (a + b);
+            mass += distance(a, b);
+        });
+    return mass > 0 ? sum / mass : set.contours[contours.front()].points.front();
+}
+
 }  // namespace
 
 bool Section::contains(const Point2& p) const {
-    bool inside = false;
-    for (const Polygon2& outline : outlines) inside ^= is_inside(outline, p);
-    return inside;
+    int layers = 0;
+    for (std::size_t o = 0; o < outlines.size(); ++o)
+        if (is_inside(outlines[o], p)) layers += layer(o);
+    return layers > 0;
 }
 
 Section::Nearest Section::nearest(const Point2& p) const {
@@ -88,14 +101,20 @@ SectionSearch::SectionSearch(const Section& section) : section_(section) {
 }
 
 bool SectionSearch::contains(const Point2& p) const {
-    bool inside = false;
-    for (const Stretch& stretch : stretches_) {
-        if (stretch.low[1] > p[1] || stretch.high[1] <= p[1]) continue;  // no edge goes from one side to the other
-        const Polygon2& outline = section_.outlines[stretch.outline];
-        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-            inside ^= passes_right_of(p, before(outline, i), outline[i]);
+    int layers = 0;
+    bool inside = false;  // of the outline whose stretches are looked at
+    for (std::size_t s = 0; s < stretches_.size(); ++s) {
+        const Stretch& stretch = stretches_[s];
+        if (stretch.begin == 0) inside = false;
+        if (stretch.low[1] <= p[1] && stretch.high[1] > p[1]) {  // else no edge goes from one side to the other
+            const Polygon2& outline = section_.outlines[stretch.outline];
+            for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+                inside ^= passes_right_of(p, before(outline, i), outline[i]);
+        }
+        const bool is_last = s + 1 == stretches_.size() || stretches_[s + 1].begin == 0;
+        if (is_last && inside) layers += section_.layer(stretch.outline);
     }
-    return inside;
+    return layers > 0;
 }
 
 Section::Nearest SectionSearch::nearest(const Point2& p) const {
@@ -114,16 +133,26 @@ Section::Nearest SectionSearch::nearest(const Point2& p) const {
 }
 
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm) {
+    const std::vector<std::size_t> plane = shared_planes(set.contours, tolerance_mm);
     std::vector<Section> sections;
+    std::vector<std::size_t> drawn_in;  // for each section, whose plane it has
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
-        const Contour& contour = set.contours[c];
-        if (!contour.closed) continue;
-        auto found = std::find_if(sections.begin(), sections.end(),
-                                  [&](const Section& s) { return coincide(s.plane, contour.plane, tolerance_mm); });
-        if (found == sections.end()) found = sections.insert(found, {contour.plane, {}, {}});
-        found->contours.push_back(c);
-        Polygon2& outline = found->outlines.emplace_back();
-        for (const Vec3& p : contour.points) outline.push_back(found->plane.to_uv(p));
+        if (!set.contours[c].closed) continue;
+        const auto at = static_cast<std::size_t>(std::find(drawn_in.begin(), drawn_in.end(), plane[c]) - drawn_in.begin());
+        if (at == sections.size()) {
+            drawn_in.push_back(plane[c]);
+            sections.emplace_back().plane = set.contours[plane[c]].plane;
+        }
+        sections[at].contours.push_back(c);
+        sections[at].holes.push_back(set.contours[c].hole);
+    }
+    for (Section& section : sections) {
+        const Vec3 middle = middle_of_lines(set, section.contours);
+        section.plane.origin = middle - section.plane.distance_to(middle) * section.plane.normal;
+        for (const std::size_t c : section.contours) {
+            Polygon2& outline = section.outlines.emplace_back();
+            for (const Vec3& p : set.contours[c].points) outline.push_back(section.plane.to_uv(p));
+        }
     }
     return sections;
 }
@@ -137,7 +166,7 @@ DrawnPlanes::DrawnPlanes(const ContourSet& drawn)
     : set(drawn),
       ball(smallest_ball(drawn)),
       tolerance_mm(1.5e-3 * ball.diameter()),
-      sections(sections_of(drawn, tolerance_mm)) {}
+      sections(sections_of(drawn, kSamePlane * ball.diameter())) {}
 
 std::optional<DrawnPlanes::Next> DrawnPlanes::next(const Plane& plane, double sign) const {
     std::optional<Next> nearest;

@@ -11,11 +11,13 @@
 
 namespace kontur {
 
-/// The contours drawn in one plane, as the region that they enclose by the even-odd rule; in the plane's (u, v), mm.
+/// The contours drawn in one plane, as the region that they enclose: where more of them than holes lie around a point; each
+/// by itself by the even-odd rule. So what is drawn twice is there once. In the plane's (u, v), mm.
 struct Section {
     Plane plane;
     std::vector<Polygon2> outlines;
     std::vector<std::size_t> contours;  ///< for each outline, which contour of the set it is
+    std::vector<bool> holes;            ///< for each outline, whether it is a hole; without any, none is
 
     /// A point of an outline; without outlines the distance is infinite.
     struct Nearest {
@@ -23,6 +25,9 @@ struct Section {
         Point2 position{};
         std::size_t outline = 0;
     };
+
+    /// What the outline adds to the contours around a point in it.
+    int layer(std::size_t outline) const { return outline < holes.size() && holes[outline] ? -1 : 1; }
 
     bool contains(const Point2& p) const;
     Nearest nearest(const Point2& p) const;
@@ -51,8 +56,9 @@ private:
     std::vector<Stretch> stretches_;
 };
 
-/// The set's closed contours by plane, in the order of the first contour of each. Planes with the same normal up to sign
-/// that are less than `tolerance_mm` apart are one.
+/// The set's closed contours by plane (shared_planes with that tolerance), in the order of the first contour of each. Where
+/// they are holes is taken from them: apply_fill_rule. A section's plane has its origin amid its outlines, wherever those of
+/// its contours have theirs.
 std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);
 
 /// Whether two planes follow each other in a stack: tilted against each other by less than 6 degrees.
@@ -64,14 +70,14 @@ struct DrawnPlanes {
 
     const ContourSet& set;
     Ball3 ball;           ///< the smallest one around the set
-    double tolerance_mm;  ///< planes less than this apart are one: 0.15 % of the ball's diameter
+    double tolerance_mm;  ///< planes less than this apart do not follow one another: 0.15 % of the ball's diameter
     std::vector<Section> sections;
 
     struct Next {
         const Section* section;
         double distance_mm;
     };
-    /// The next one parallel to a plane, ahead of it in the direction of its normal times `sign`.
+    /// The next one parallel to a plane, ahead of its origin in the direction of its normal times `sign`.
     std::optional<Next> next(const Plane& plane, double sign) const;
 };
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people and programs draw without meaning anything by it: twice, in planes that show only some of the parts, with any
+// origin of a plane, rounded.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kontur/segment.h"
+#include "support/contour_sets.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kRadius = 50;
+
+Contour circle_at(const Vec3& center, double radius, int count = 60, const Vec3& normal = {0, 0, 1}) {
+    return test::circle(make_plane(center, normal), radius, count);
+}
+
+/// Axial circles of a ball, of an ellipsoid of 40 x 40 x 60 mm beside it, and of the wall of a cup.
+ContourSet ball(const std::vector<double>& heights) {
+    ContourSet set;
+    for (const double z : heights) set.contours.push_back(circle_at({0, 0, z}, std::sqrt(kRadius * kRadius - z * z)));
+    return set;
+}
+
+void add_kidney(ContourSet& set, double x, const std::vector<double>& heights) {
+    for (const double z : heights) set.contours.push_back(circle_at({x, 0, z}, 40 * std::sqrt(1 - z * z / 3600)));
+}
+
+Segmentation segmented(const ContourSet& set, double spacing_mm, double margin_mm, const SegmentOptions& options = {}) {
+    return segment(set, grid_around(bounding_box(set), {spacing_mm, spacing_mm, spacing_mm}, margin_mm), options);
+}
+
+double volume_ml(const ContourSet& set, double spacing_mm = 3, double margin_mm = 40, const SegmentOptions& options = {}) {
+    return segmented(set, spacing_mm, margin_mm, options).report.mask_volume_ml;
+}
+
+bool warns(const SegmentReport& report, const std::string& part) {
+    return std::ranges::any_of(report.warnings, [&](const std::string& w) { return w.find(part) != std::string::npos; });
+}
+
+TEST(DrawnOddly, TwiceIsOnce) {
+    const double once = volume_ml(ball({-30, 0, 30}));
+    EXPECT_NEAR(once, 531, 5);
+    for (const std::vector<double>& heights :
+         {std::vector<double>{-30, 0, 30, 0}, {-30, 0, 30, -30, 0, 30}, {-30, 0, 30, 0.01}, {-30, 0, 30, 0.1}})
+        EXPECT_NEAR(volume_ml(ball(heights)), once, 0.01 * once) << heights.size();
+    ContourSet redrawn = ball({-30, 0, 30, 0});
+    for (std::size_t i = 0; i < 60; ++i) redrawn.contours[3].points[i].x += 2 * std::sin(0.7 * static_cast<double>(i));
+    EXPECT_NEAR(volume_ml(redrawn), once, 0.07 * once) << "again by hand, in the same plane: what either line encloses";
+}
+
+TEST(DrawnOddly, TwoPlanesAtTheSamePlaceAreOneEnd) {
+    const double once = volume_ml(ball({-30, 0, 30}));
+    EXPECT_NEAR(volume_ml(ball({-30.5, -30, 0, 30, 30.5})), once, 0.03 * once);
+    EXPECT_NEAR(volume_ml(ball({0, 2})), volume_ml(ball({0})), 0.05 * once);
+}
+
+TEST(DrawnOddly, APlaneNeedNotShowAllParts) {
+    ContourSet one_more;
+    add_kidney(one_more, 0, {-40, -20, 0, 20, 40});
+    add_kidney(one_more, 120, {-40, -20, 0, 10, 20, 40});
+    const Segmentation both = segmented(one_more, 3, 40);
+    EXPECT_EQ(both.report.mask_components, 2);
+    EXPECT_NEAR(both.report.mask_volume_ml, 802, 10);
+
+    ContourSet in_turns;
+    for (double z = -48; z <= 48; z += 4) {
+        add_kidney(in_turns, 0, {z});
+        add_kidney(in_turns, 120, {z + 2});
+    }
+    const Segmentation turns = segmented(in_turns, 3, 40);
+    EXPECT_EQ(turns.report.mask_components, 2);
+    EXPECT_GT(turns.report.mask_volume_ml, 750);
+}
+
+TEST(DrawnOddly, AnArchIsNotCutByItsOwnPlanes) {
+    ContourSet arch;
+    for (int i = 0; i < 9; ++i) {
+        const double angle = 1.2 * std::numbers::pi * i / 8;
+        const Vec3 out{std::cos(angle), 0, std::sin(angle)};
+        arch.contours.push_back(circle_at(40 * out, 12, 40, cross(out, {0, 1, 0})));
+    }
+    const Segmentation result = segmented(arch, 2, 40);
+    EXPECT_EQ(result.report.mask_components, 1);
+    EXPECT_NEAR(result.report.mask_volume_ml, std::numbers::pi * 144 * 40 * 1.2 * std::numbers::pi / 1000, 15);
+}
+
+TEST(DrawnOddly, ThinAndScatteredSectionsEnd) {
+    ContourSet cup;
+    for (int i = 0; i < 5; ++i)
+        for (const double radius : {40.0, 32.0}) cup.contours.push_back(circle_at({0, 0, 10.0 * i}, radius - 3 * i));
+    ContourSet tubes;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            for (const double z : {0.0, 10.0, 20.0}) tubes.contours.push_back(circle_at({60.0 * i, 60.0 * j, z}, 15, 30));
+    for (const auto& [set, least, most] : {std::tuple{cup, 55.0, 95.0}, {tubes, 226.0, 420.0}}) {
+        const Segmentation result = segmented(set, 3, 80);
+        EXPECT_FALSE(warns(result.report, "border"));
+        EXPECT_GT(result.report.mask_volume_ml, least);
+        EXPECT_LT(result.report.mask_volume_ml, most);
+    }
+}
+
+TEST(DrawnOddly, ThePlanesOriginsMeanNothing) {
+    const auto stack = [](double aside) {
+        ContourSet set;
+        double tilt = 0.03;
+        for (const double z : {-30.0, -15.0, 0.0, 15.0, 30.0}) {
+            const Vec3 normal = normalized({0, tilt, 1});
+            Contour contour = circle_at(z * normal, std::sqrt(kRadius * kRadius - z * z), 60, normal);
+            contour.plane.origin += aside * contour.plane.v;
+            set.contours.push_back(contour);
+            tilt = -tilt;
+        }
+        return set;
+    };
+    const Segmentation here = segmented(stack(0), 3, 40), there = segmented(stack(300), 3, 40);
+    EXPECT_NEAR(here.report.mask_volume_ml, 515, 15);
+    EXPECT_EQ(here.mask.values, there.mask.values);
+}
+
+TEST(DrawnOddly, HolesAreFoundInPlanesFittedToRoundedPoints) {
+    const Vec3 axis = normalized({0.5, -0.4, 0.8});
+    ContourSet tube;
+    for (int i = 0; i < 5; ++i)
+        for (const double radius : {12.0, 8.0}) {
+            Contour contour = circle_at(6.0 * i * axis, radius, 24, axis);
+            for (Vec3& p : contour.points)
+                for (int c = 0; c < 3; ++c) p[c] = std::round(100 * p[c]) / 100;
+            contour.plane = *fit_plane(contour.points);
+            tube.contours.push_back(contour);
+        }
+    const Segmentation result = segmented(tube, 1, 10);
+    EXPECT_TRUE(warns(result.report, "5 contours inside others became holes"));
+    EXPECT_EQ(result.report.mask_components, 1);
+    EXPECT_NEAR(result.report.mask_volume_ml, 7.1, 0.5);
+}
+
+TEST(DrawnOddly, VeryManySmallContoursShareTheirPoints) {
+    ContourSet many;
+    for (int n = 0; n < 200; ++n) many.contours.push_back(circle_at({20.0 * (n % 20), 20.0 * (n / 20), 0}, 5, 4));
+    EXPECT_LT(segmented(many, 5, 10).report.centres, 200 * (2 * 24 + 2 * (6 + 4)))
+        << "48 segments each would be twice as many";
+}
+
+TEST(DrawnOddly, AClickOutsideMakesACavityAndOneFarAsideIsReported) {
+    ContourSet hollow = ball({-30, 0, 30});
+    hollow.exterior = {{0, 0, 15}};
+    const Mask mask = segmented(hollow, 3, 20).mask;
+    const Vec3 at = mask.grid.index_to_mm.inverse().apply({0, 0, 15});
+    EXPECT_EQ(mask.values[mask.grid.offset(std::lround(at.x), std::lround(at.y), std::lround(at.z))], 0);
+
+    ContourSet aside = ball({-30, 0, 30});
+    aside.interior = {{120, 0, 0}};
+    EXPECT_TRUE(warns(segmented(aside, 3, 100).report, "interior point 1 is not in the mask"));
+    aside.interior = {{51, 0, 0}};
+    EXPECT_FALSE(warns(segmented(aside, 3, 20).report, "is not in the mask"));
+}
+
+TEST(DrawnOddly, CornersAreThoseThatWereDrawn) {
+    SegmentOptions options;
+    options.quality = 0.1;
+    const double rounded = volume_ml(ball({-30, 0, 30}), 3, 20, options);
+    options.corners = Corners::faithful;
+    EXPECT_NEAR(volume_ml(ball({-30, 0, 30}), 3, 20, options), rounded, 0.01 * rounded);
+}
+
+}  // namespace
+}  // namespace kontur

@@ -117,7 +117,7 @@ void run(const ConvertCommand& command, Console& console) {
     const FileKind kind = check_kinds(command);
     check_options(command, kind);
     std::vector<fs::path> inputs = command.more;
-    inputs.push_back(command.input.path);
+    inputs.insert(inputs.end(), {command.input.path, command.image});
     check_output(command.output, inputs);
     check_dicom_images(command.output, command.image);
     Outputs outputs;

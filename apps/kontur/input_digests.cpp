@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 /// A slice of a DICOM series stands for its folder.
 std::string image_sha256(const fs::path& image, const Progress& progress) {
-    const bool is_slice = !fs::is_directory(image) && looks_like_dicom(image) && !is_dicom_seg(image) && !is_rtstruct(image);
-    return file_sha256(is_slice ? fs::absolute(image).parent_path() : image, progress);
+    const fs::path folder = series_folder(image);
+    return file_sha256(folder.empty() ? image : folder, progress);
 }
 
 /// Appends what an input says of itself, `name` in front of each of its names. A file that came by very many steps keeps

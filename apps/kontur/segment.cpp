@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <future>
 #include <utility>
@@ -43,8 +44,7 @@ void check(const SegmentCommand& command) {
 
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
-    for (const fs::path& output : {command.output, command.rtstruct, command.mesh, command.picture, command.report})
-        if (!output.empty()) check_output(output, inputs);
+    check_outputs(std::array{command.output, command.rtstruct, command.mesh, command.picture, command.report}, inputs);
 
     if (command.image.path.empty() && command.spacing_mm.empty())
         throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");

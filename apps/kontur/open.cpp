@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <stop_token>
 
+#include "child_process.h"
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "viewer/image_identity.h"
@@ -135,7 +136,7 @@ void open_browser(const std::string& address) {
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
         posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
-    posix_spawnp(&child, program.c_str(), &silent, nullptr, words, environ);
+    posix_spawnp(&child, program.c_str(), &silent, SpawnAttributes().get(), words, environ);
     posix_spawn_file_actions_destroy(&silent);
 }
 
@@ -161,7 +162,7 @@ void run(const OpenCommand& command, Console& console) {
     viewer::Server server(session, command.server);
     console.print(
         fmt::format("{}\nproject {}; every edit is saved at once, Ctrl+C ends\n", server.address(), project.string()));
-    std::fflush(stdout);
+    flush_stdout();  // who does not learn the address cannot use it
     if (!command.no_browser) open_browser(server.address());
     const std::stop_callback stop(progress.stop, [&] { server.stop(); });
     server.run();

@@ -38,8 +38,9 @@ std::string content_of(const fs::path& path) {
 /// whole after the case's outputs did.
 class Journal {
 public:
-    Journal(const fs::path& table, const fs::path& folder)
-        : base_(table.has_parent_path() ? table.parent_path() : fs::path(".")),
+    Journal(const Cohort& cohort, const fs::path& table, const fs::path& folder)
+        : cohort_(cohort),
+          base_(table.has_parent_path() ? table.parent_path() : fs::path(".")),
           folder_(folder.empty() ? base_ / (table.stem().string() + ".journal") : folder) {
         std::error_code failure;
         fs::create_directories(folder_, failure);
@@ -52,10 +53,12 @@ public:
         return folder_ / fmt::format("{:05}{}", one.number, extension);
     }
 
+    std::string made_from(const Case& one) const { return fingerprint(one, cohort_, base_); }
+
     /// null: nothing is known about the case as it is now.
     Facts entry(const Case& one) const {
         Facts found = Facts::parse(content_of(file(one, ".json")), nullptr, /*allow_exceptions=*/false);
-        if (!found.is_object() || found.value("made_from", "") != fingerprint(one, base_)) return nullptr;
+        if (!found.is_object() || found.value("made_from", "") != made_from(one)) return nullptr;
         return found;
     }
 
@@ -69,6 +72,7 @@ public:
     void write(const Case& one, const Facts& facts) const { write_file_atomically(file(one, ".json"), to_json_text(facts)); }
 
 private:
+    const Cohort& cohort_;
     fs::path base_, folder_;
 };
 
@@ -95,7 +99,12 @@ std::string error_in(const fs::path& log, int exit_code) {
 class Batch {
 public:
     Batch(const BatchCommand& command, Console& console)
-        : command_(command), console_(console), cases_(read_cases(command.table)), journal_(command.table, command.journal) {
+        : command_(command),
+          console_(console),
+          cohort_(read_cases(command.table)),
+          cases_(cohort_.cases),
+          journal_(cohort_, command.table, command.journal) {
+        if (!command.summary.empty()) check_apart(command.summary, cohort_);
         if (command.row > 0) keep_row();
         jobs_ = command.jobs > 0 ? command.jobs : 1;
         for (const Case& one : cases_)
@@ -160,12 +169,12 @@ private:
     void start_next() {
         const Case& one = *waiting_.front();
         waiting_.erase(waiting_.begin());
-        std::vector<std::string> words = one.words;
+        std::vector<std::string> more;
         fs::path report = one.report.empty() ? journal_.file(one, ".report.json") : journal_.base() / one.report;
-        if (one.report.empty()) words.insert(words.end(), {"--report", report.string()});
-        if (!one.has_threads) words.insert(words.end(), {"--threads", std::to_string(threads())});
-        running_.push_back({&one, fingerprint(one, journal_.base()), report, Clock::now(),
-                            ChildProcess(words, journal_.base(), journal_.file(one, ".log"))});
+        if (one.report.empty()) more.push_back("--report=" + report.string());
+        if (!one.has_threads) more.push_back(fmt::format("--threads={}", threads()));
+        running_.push_back({&one, journal_.made_from(one), report, Clock::now(),
+                            ChildProcess(words_of(one, more), journal_.base(), journal_.file(one, ".log"))});
     }
 
     int threads() const { return command_.threads > 0 ? command_.threads : std::max(1, thread_count(0) / jobs_); }
@@ -219,7 +228,8 @@ private:
 
     const BatchCommand& command_;
     Console& console_;
-    std::vector<Case> cases_;
+    const Cohort cohort_;
+    std::vector<Case> cases_;  ///< those to be made
     Journal journal_;
     std::vector<const Case*> waiting_;
     std::list<Running> running_;
@@ -250,7 +260,7 @@ std::string table_of(const Facts& summary) {
 
 void run(const BatchCommand& command, Console& console) {
     if (!command.summary.empty()) check_output(command.summary, std::array{command.table});
-    if (command.count) return console.print(fmt::format("{}\n", read_cases(command.table).size()));
+    if (command.count) return console.print(fmt::format("{}\n", read_cases(command.table).cases.size()));
     Batch batch(command, console);
     batch.work();
     const Facts summary = batch.summary();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,19 +12,34 @@ namespace kontur::app {
 struct Case {
     std::size_t number = 0;  ///< of the row, from 1
     std::string name;
-    std::vector<std::string> words;             ///< behind "kontur": segment, contours, options
-    std::vector<std::filesystem::path> inputs;  ///< relative to the table's folder, as in the words
+    std::vector<std::string> options;           ///< of segment, each one word: --NAME=VALUE or --NAME
+    std::vector<std::string> contours;          ///< files
+    std::vector<std::filesystem::path> inputs;  ///< relative to the table's folder, as in the row
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path report;  ///< "": not among the row's outputs
     bool has_threads = false;      ///< the row says with how many
 };
 
+/// What stands behind "kontur" to make the case, with some options more.
+std::vector<std::string> words_of(const Case& one, const std::vector<std::string>& more = {});
+
+/// A table's rows, and the lines that name the files and DICOM folders in them (by their `destination`) first.
+struct Cohort {
+    std::vector<Case> cases;
+    std::map<std::filesystem::path, std::size_t> inputs, outputs;
+};
+
 /// Reads the table: columns `contours` (several files separated by ';') and `image` or `spacing-mm`, `output`, optionally
 /// `case` (a name), and any other option of `segment` without its dashes; empty cells are options not given. Throws
-/// Error(invalid_input), naming the line, for whatever `segment` would not accept and for an output of two rows.
-std::vector<Case> read_cases(const std::filesystem::path& table);
+/// Error(invalid_input), naming the line, for whatever `segment` would not accept, for an output of two rows and for one
+/// that would replace an input of any row.
+Cohort read_cases(const std::filesystem::path& table);
 
-/// What a case was made from: its words, and size and time of its inputs. A changed one has to be made again.
-std::string fingerprint(const Case& one, const std::filesystem::path& folder);
+/// Throws Error(invalid_input) when writing to `target` would replace an input or an output of the cohort.
+void check_apart(const std::filesystem::path& target, const Cohort& cohort);
+
+/// What a case was made from: its words, and names, sizes and times of the files that it reads: all in a DICOM folder but
+/// the cohort's own outputs, and the data file of a detached header. A changed one has to be made again.
+std::string fingerprint(const Case& one, const Cohort& cohort, const std::filesystem::path& folder);
 
 }  // namespace kontur::app

@@ -4,13 +4,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
 #include <utility>
 
+#include "interrupt.h"
 #include "kontur/base/error.h"
 
 namespace kontur::app {
@@ -19,6 +19,17 @@ namespace {
 int to_exit_code(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
 
 }  // namespace
+
+SpawnAttributes::SpawnAttributes() {
+    sigset_t ignored;
+    sigemptyset(&ignored);
+    for (const int signal : kIgnoredSignals) sigaddset(&ignored, signal);
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setsigdefault(&attributes_, &ignored);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF);
+}
+
+SpawnAttributes::~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& folder,
                            const std::filesystem::path& log) {
@@ -35,7 +46,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::fil
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    const int failure = posix_spawn(&id_, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+    const int failure = posix_spawn(&id_, "/proc/self/exe", &actions, SpawnAttributes().get(), argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (failure != 0) {
         id_ = 0;

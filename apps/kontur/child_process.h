@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <spawn.h>
 #include <sys/types.h>
 
 #include <filesystem>
@@ -9,6 +10,20 @@
 #include <vector>
 
 namespace kontur::app {
+
+/// How to start a program with the signals as they were before this one began to ignore some.
+class SpawnAttributes {
+public:
+    SpawnAttributes();
+    ~SpawnAttributes();
+    SpawnAttributes(const SpawnAttributes&) = delete;
+    SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+
+    const posix_spawnattr_t* get() const { return &attributes_; }
+
+private:
+    posix_spawnattr_t attributes_;
+};
 
 /// This program run again with other words, in a process of its own: whatever becomes of it, this one goes on.
 class ChildProcess {

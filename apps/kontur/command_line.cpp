@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <limits>
 #include <memory>
 
 #include "commands.h"
@@ -50,7 +52,9 @@ struct Binder {
     CLI::Option* defaulted(const std::string& name, Value& value, const std::string& unit, const std::string& help) {
         return option(name, value, unit, help)->capture_default_str();
     }
-    void flag(const std::string& name, bool& value, const std::string& help) { sub->add_flag(name, value, help); }
+    CLI::Option* flag(const std::string& name, bool& value, const std::string& help) {
+        return sub->add_flag(name, value, help);
+    }
     void quiet() { flag("--quiet", invocation.quiet, "No progress bar and no results, only warnings and errors"); }
 
     Invocation& invocation;
@@ -58,14 +62,33 @@ struct Binder {
     std::shared_ptr<Command> command;
 };
 
+/// A number of this range, which "nan" is not. What is no number at all the option's type refuses by itself.
+CLI::Validator between(double least, double most) {
+    return {[=](const std::string& word) {
+                double value = 0;
+                const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+                if (failure == std::errc::invalid_argument || (value >= least && value <= most)) return std::string();
+                return fmt::format("is {}, but must be from {} to {}", word, least, most);
+            },
+            ""};
+}
+
+CLI::Option* add_threads(CLI::App& sub, int& threads, const std::string& help = "Threads; 0: as many as the machine has") {
+    constexpr double kMostThreads = 4096;
+    return sub.add_option("--threads", threads, help)
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(between(0, kMostThreads));
+}
+
 /// One of several named values, shown as a|b|c.
 template <class Value>
 void add_choice(CLI::App& sub, const std::string& flag, Value& value, std::vector<std::pair<std::string, Value>> choices,
-                const std::string& help) {
+                const std::string& help, const std::optional<Value>& shown_default = {}) {
     std::string names, default_name;
     for (const auto& [name, choice] : choices) {
         names += (names.empty() ? "" : "|") + name;
-        if (choice == value) default_name = name;
+        if (choice == shown_default.value_or(value)) default_name = name;
     }
     sub.add_option_function<std::string>(
            flag,
@@ -96,14 +119,16 @@ void add_series_options(CLI::App& sub, DicomSeriesOptions& series) {
     sub.add_option("--volume", series.volume, "Which volume of the series (time, echo), from 1")->type_name("N");
 }
 
-void add_rtstruct_options(CLI::App& sub, WriteRtstructOptions& write) {
-    add_choice<HoleEncoding>(
-        sub, "--holes", write.holes,
+void add_holes(CLI::App& sub, std::optional<HoleEncoding>& holes) {
+    add_choice<std::optional<HoleEncoding>>(
+        sub, "--holes", holes,
         {{"keyhole", HoleEncoding::keyhole}, {"xor", HoleEncoding::exclusive}, {"nested", HoleEncoding::nested}},
-        "How an RTSTRUCT stores holes: one path with a channel, XOR contours, contours in contours");
+        "How an RTSTRUCT stores holes: one path with a channel, XOR contours, contours in contours",
+        WriteRtstructOptions{}.holes);
 }
 
 void add_segment_method(CLI::App& sub, SegmentOptions& o) {
+    constexpr double kMostMb = 1e9;
     add_choice<Kernel>(sub, "--kernel", o.kernel, {{"triharmonic", Kernel::triharmonic}, {"biharmonic", Kernel::biharmonic}},
                        "Radial function: r^3 or r");
     add_choice<Normals>(sub, "--normals", o.normals, {{"surface", Normals::surface}, {"in-plane", Normals::in_plane}},
@@ -141,8 +166,9 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
         "passes; or compute all voxels");
     sub.add_option("--max-memory-mb", o.max_memory_mb,
                    "Refuse a run that would take more, with the estimate [what the machine has]")
-        ->type_name("MB");
-    sub.add_option("--threads", o.threads, "Threads; 0: as many as the machine has")->type_name("N")->capture_default_str();
+        ->type_name("MB")
+        ->check(between(0, kMostMb));
+    add_threads(sub, o.threads);
 }
 
 void add_segment(CLI::App& app, Invocation& invocation) {
@@ -167,11 +193,13 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
-    add_rtstruct_options(*bind.sub, c.write_rtstruct);
+    add_holes(*bind.sub, c.holes);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
     add_segment_method(*bind.sub, c.options);
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
+    for (const char* name : {"--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
+        bind.sub->get_option(name)->needs(image);
     bind.quiet();
 }
 
@@ -201,12 +229,14 @@ void add_batch(CLI::App& app, Invocation& invocation) {
     BatchCommand& c = *bind.command;
     bind.word("TABLE", c.table, "CSV with the columns contours, image, output and any option of segment");
     bind.defaulted("--jobs", c.jobs, "N", "Cases at a time")->check(CLI::Range(1, 4096));
-    bind.option("--row", c.row, "N", "Only this row, from 1: for job arrays of a cluster")->check(CLI::PositiveNumber);
-    bind.flag("--collect", c.collect, "Make nothing, only sum up what was done before");
-    bind.flag("--count", c.count, "Make nothing, only print the number of rows");
-    bind.defaulted("--threads", c.threads, "N", "Threads of a case that names none; 0: the machine's, shared by the jobs");
+    CLI::Option* row = bind.option("--row", c.row, "N", "Only this row, from 1: for job arrays of a cluster");
+    row->check(CLI::PositiveNumber);
+    CLI::Option* collect = bind.flag("--collect", c.collect, "Make nothing, only sum up what was done before");
+    CLI::Option* count = bind.flag("--count", c.count, "Make nothing, only print the number of rows");
+    add_threads(*bind.sub, c.threads, "Threads of a case that names none; 0: the machine's, shared by the jobs");
     bind.option("--journal", c.journal, "DIR", "Where to note what was done [TABLE without .csv, and .journal]");
-    bind.option("--summary", c.summary, "FILE", "Summary to write: .json");
+    CLI::Option* summary = bind.option("--summary", c.summary, "FILE", "Summary to write: .json");
+    count->excludes(row)->excludes(collect)->excludes(summary);
     bind.quiet();
 }
 
@@ -223,12 +253,12 @@ void add_trace(CLI::App& app, Invocation& invocation) {
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();
     bind.option("--name", c.name, "NAME", "The structure's name");
-    add_rtstruct_options(*bind.sub, c.write_rtstruct);
+    add_holes(*bind.sub, c.holes);
     bind.option("--label", c.label, "N", "The label to cut; needed when there are several");
     bind.defaulted("--step-mm", c.options.step_mm, "MM", "Sampling distance on a plane; 0: half the smallest spacing");
     bind.defaulted("--tolerance-mm", c.options.tolerance_mm, "MM", "How far dropped points may lie off the contour");
     bind.defaulted("--min-area-mm2", c.options.min_area_mm2, "MM2", "Smaller contours are dropped");
-    bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");
+    add_threads(*bind.sub, c.options.threads);
     add_read_options(*bind.sub, c.read);
     bind.quiet();
 }
@@ -242,7 +272,7 @@ void add_compare(CLI::App& app, Invocation& invocation) {
     bind.word("B", c.b, "Another one on the same grid");
     bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
     bind.flag("--json", c.json, "Print JSON");
-    bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");
+    add_threads(*bind.sub, c.options.threads);
     add_read_options(*bind.sub, c.read);
 }
 
@@ -269,7 +299,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
     bind.option("--label", c.label, "N", "Of a label map or segmentation only this label");
     bind.option("--add", c.more, "MASK", "One more mask for a SEG, as a segment that may overlap others; again for more")
         ->allow_extra_args(false);
-    add_rtstruct_options(*bind.sub, c.write_rtstruct);
+    add_holes(*bind.sub, c.holes);
     add_read_options(*bind.sub, c.input.options);
     add_series_options(*bind.sub, c.input.options.dicom);
     bind.quiet();
@@ -284,7 +314,7 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
         ->allow_extra_args(false);
     bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
     bind.defaulted("--seed", c.options.seed, "N", "Of the noise");
-    bind.defaulted("--threads", c.options.threads, "N", "Threads; 0: as many as the machine has");
+    add_threads(*bind.sub, c.options.threads);
     bind.quiet();
 }
 
@@ -297,9 +327,11 @@ void add_open(CLI::App& app, Invocation& invocation) {
     bind.option("--project", c.project, "FILE",
                 "Project to keep the work in [beside the contours, else in your data folder]");
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
-    bind.defaulted("--port", c.server.port, "N", "Port on 127.0.0.1; 0: any free one");
+    bind.defaulted("--port", c.server.port, "N", "Port on 127.0.0.1; 0: any free one")
+        ->check(between(0, std::numeric_limits<std::uint16_t>::max()));
     bind.option("--token", c.server.token, "TEXT", "Secret of the address [random]");
-    bind.defaulted("--timeout", c.server.idle_timeout_s, "S", "End after so many seconds without an open page; 0: never");
+    bind.defaulted("--timeout", c.server.idle_timeout_s, "S", "End after so many seconds without an open page; 0: never")
+        ->check(between(0, std::numeric_limits<int>::max()));
     bind.flag("--no-browser", c.no_browser, "Only print the address");
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);

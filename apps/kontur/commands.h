@@ -34,9 +34,9 @@ struct SegmentCommand {
     std::filesystem::path output;
     std::filesystem::path rtstruct, mesh, picture, report;  ///< empty: not asked for
     WriteMaskOptions mask;
-    std::string name;  ///< of the structure; empty: the contour file's
-    WriteRtstructOptions write_rtstruct;
-    bool date = false;  ///< say in the outputs when they were made
+    std::string name;                   ///< of the structure; empty: the contour file's
+    std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
+    bool date = false;                  ///< say in the outputs when they were made
     SegmentOptions options;
 };
 void run(const SegmentCommand& command, Console& console);
@@ -78,8 +78,8 @@ struct TraceCommand {
     std::filesystem::path planes;  ///< empty: the slices of `image` cut
     ImageInput image;
     std::filesystem::path output;
-    std::string name;  ///< of the structure; empty: the mask file's
-    WriteRtstructOptions write_rtstruct;
+    std::string name;                   ///< of the structure; empty: the mask file's
+    std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
     TraceOptions options;
 };
 void run(const TraceCommand& command, Console& console);
@@ -119,7 +119,7 @@ struct ConvertCommand {
     ReadContoursOptions contours;
     std::filesystem::path image;  ///< DICOM series that DICOM output refers to
     std::filesystem::path output;
-    WriteRtstructOptions write_rtstruct;
+    std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
 };
 void run(const ConvertCommand& command, Console& console);
 

@@ -9,7 +9,15 @@
 #include <cstdio>
 #include <utility>
 
+#include "kontur/base/error.h"
+
 namespace kontur::app {
+
+void print_stderr(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+void flush_stdout() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw Error(ErrorKind::io, "standard output cannot be written");
+}
 
 Console::Console(bool quiet, std::stop_token stop)
     : quiet_(quiet), has_bar_(!quiet && isatty(STDERR_FILENO)), stop_(std::move(stop)) {}
@@ -26,18 +34,18 @@ Progress Console::progress() {
 void Console::print(std::string_view text) {
     if (quiet_) return;
     clear_bar();
-    std::fwrite(text.data(), 1, text.size(), stdout);  // main checks that it arrived
+    std::fwrite(text.data(), 1, text.size(), stdout);  // flush_stdout() tells whether it arrived
 }
 
 void Console::warn(std::string_view sentence) {
     clear_bar();
-    fmt::print(stderr, "kontur: warning: {}\n", sentence);
+    print_stderr(fmt::format("kontur: warning: {}\n", sentence));
 }
 
 void Console::note(std::span<const std::string> sentences) {
     if (quiet_) return;
     clear_bar();
-    for (const std::string& sentence : sentences) fmt::print(stderr, "kontur: note: {}\n", sentence);
+    for (const std::string& sentence : sentences) print_stderr(fmt::format("kontur: note: {}\n", sentence));
 }
 
 ReadImageOptions Console::noting(ReadImageOptions options) {
@@ -52,13 +60,13 @@ void Console::draw(std::string_view stage, double fraction) {
     std::string bar = fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", kCells - filled, 100 * done, stage);
     if (bar == bar_) return;
     bar_ = std::move(bar);
-    fmt::print(stderr, "\r{}\x1b[K", bar_);
+    print_stderr(fmt::format("\r{}\x1b[K", bar_));
 }
 
 void Console::clear_bar() {
     if (bar_.empty()) return;
     bar_.clear();
-    fmt::print(stderr, "\r\x1b[K");
+    print_stderr("\r\x1b[K");
 }
 
 }  // namespace kontur::app

@@ -11,6 +11,13 @@
 
 namespace kontur::app {
 
+/// Text on stderr, as far as that can be written: whoever closed it wants no words, but the work done.
+void print_stderr(const std::string& text);
+
+/// What was printed must have arrived: a full disk or a closed pipe behind stdout is a failure like any other. Throws
+/// Error(io).
+void flush_stdout();
+
 /// What a command says to the person at the terminal: results on stdout, warnings and a progress bar on stderr.
 class Console {
 public:

@@ -90,22 +90,28 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
             const ImageInput images{command.image, command.input.options};
-            WriteRtstructOptions write = command.write_rtstruct;
-            write.provenance = made;
-            return console.note(write_contours(output, loaded.contours, images, write));
+            return console.note(write_contours(output, loaded.contours, images, rtstruct_options(command.holes, made)));
         }
         case FileKind::mesh:
             return write_mesh(output, read_mesh(command.input.path), made);
     }
 }
 
-/// Options that only masks know.
+/// Options that would change nothing.
 void check_options(const ConvertCommand& command, FileKind kind) {
     const auto refuse = [](const char* why) { throw Error(ErrorKind::invalid_input, why); };
+    const ReadImageOptions& read = command.input.options;
+    const bool is_dicom = is_dicom_name(command.output);
+    check_holes(command.holes, is_dicom && kind == FileKind::contours);
+    if (!command.image.empty() && !is_dicom) refuse("--image is for DICOM (.dcm), which refers to images");
+    if (command.contours.roi && kind != FileKind::contours) refuse("--roi chooses from a structure set");
+    if ((read.frame || read.prefer || read.allow_missing_geometry) && kind != FileKind::image)
+        refuse("--frame, --prefer and --allow-missing-geometry are for images");
+    if ((read.dicom.series_uid || read.dicom.volume) && kind != FileKind::image && !is_dicom)
+        refuse("--series and --volume choose from DICOM images");
     if (command.label && kind != FileKind::image) refuse("--label chooses from a label map or a segmentation");
     if (command.more.empty()) return;
-    if (kind != FileKind::image || !is_dicom_name(command.output))
-        refuse("--add is for segments of a DICOM SEG (.dcm), which may overlap");
+    if (kind != FileKind::image || !is_dicom) refuse("--add is for segments of a DICOM SEG (.dcm), which may overlap");
     if (command.label) refuse("--label cannot choose where --add names several files");
     for (const fs::path& path : command.more)
         if (input_kind(path) != FileKind::image) refuse("--add takes masks and label maps");
@@ -117,7 +123,7 @@ void run(const ConvertCommand& command, Console& console) {
     const FileKind kind = check_kinds(command);
     check_options(command, kind);
     std::vector<fs::path> inputs = command.more;
-    inputs.push_back(command.input.path);
+    inputs.insert(inputs.end(), {command.input.path, command.image});
     check_output(command.output, inputs);
     check_dicom_images(command.output, command.image);
     Outputs outputs;

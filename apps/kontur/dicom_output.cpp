@@ -43,6 +43,18 @@ void check_dicom_images(const fs::path& output, const fs::path& images) {
                     fmt::format("{} is no DICOM series, to which {} could refer", images.string(), output.string()));
 }
 
+void check_holes(const std::optional<HoleEncoding>& holes, bool is_rtstruct) {
+    if (holes && !is_rtstruct)
+        throw Error(ErrorKind::invalid_input, "--holes says how an RTSTRUCT stores holes, and none is written");
+}
+
+WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const Provenance& made) {
+    WriteRtstructOptions options;
+    options.holes = holes.value_or(options.holes);
+    options.provenance = made;
+    return options;
+}
+
 std::vector<std::string> write_contours(const fs::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options) {
     if (!is_dicom_name(path)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace kontur::app {
 
 /// Throws Error(invalid_input), before any work is done, when DICOM is to be written without DICOM images to refer to.
 void check_dicom_images(const std::filesystem::path& output, const std::filesystem::path& images);
+
+/// Throws Error(invalid_input) when it was said how to store holes, but no contours go to DICOM.
+void check_holes(const std::optional<HoleEncoding>& holes, bool is_rtstruct);
+
+WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const Provenance& made);
 
 /// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm; how they were made is in
 /// `options.provenance`. Returns what the user should know.

@@ -8,6 +8,8 @@
 #include <cctype>
 
 #include "kontur/base/error.h"
+#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom_series.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 
@@ -33,6 +35,22 @@ FileKind input_kind(const fs::path& path) {
     if (has_extension(path, ".json") || is_rtstruct(path)) return FileKind::contours;
     if (is_mesh_name(path)) return FileKind::mesh;
     return FileKind::image;
+}
+
+bool is_dicom_slice(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored) || !looks_like_dicom(path)) return false;
+    try {
+        return !is_dicom_seg(path) && !is_rtstruct(path);
+    } catch (const Error&) {
+        return true;
+    }
+}
+
+fs::path series_folder(const fs::path& input) {
+    std::error_code ignored;
+    if (fs::is_directory(input, ignored)) return input;
+    return is_dicom_slice(input) ? fs::absolute(input).parent_path() : fs::path();
 }
 
 bool is_dicom_name(const fs::path& path) { return has_extension(path, ".dcm"); }

@@ -30,6 +30,12 @@ FileKind input_kind(const std::filesystem::path& path);
 /// Error(unsupported), listing the known ones.
 std::optional<FileKind> output_kind(const std::filesystem::path& path);
 
+/// A slice of a DICOM series, by its content: no segmentation and no structure set. A damaged one counts, too.
+bool is_dicom_slice(const std::filesystem::path& path);
+
+/// The folder whose slices are read when a DICOM series is given by its folder or by one of its slices; "" for another file.
+std::filesystem::path series_folder(const std::filesystem::path& input);
+
 /// A name for DICOM output: it ends with .dcm.
 bool is_dicom_name(const std::filesystem::path& path);
 

@@ -3,14 +3,14 @@
 
 #include <fmt/chrono.h>
 
+#include <charconv>
 #include <cstdlib>
 #include <ctime>
+#include <string_view>
 
-#include "kontur/io/dicom_seg.h"
-#include "kontur/io/dicom_series.h"
+#include "kontur/base/error.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/read_provenance.h"
-#include "kontur/io/rtstruct.h"
 
 namespace kontur::app {
 
@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 /// A slice of a DICOM series stands for its folder.
 std::string image_sha256(const fs::path& image, const Progress& progress) {
-    const bool is_slice = !fs::is_directory(image) && looks_like_dicom(image) && !is_dicom_seg(image) && !is_rtstruct(image);
-    return file_sha256(is_slice ? fs::absolute(image).parent_path() : image, progress);
+    const fs::path folder = series_folder(image);
+    return file_sha256(folder.empty() ? image : folder, progress);
 }
 
 /// Appends what an input says of itself, `name` in front of each of its names. A file that came by very many steps keeps
@@ -30,6 +30,16 @@ void carry_on(Provenance& made, const std::string& name, const Provenance& input
     constexpr std::size_t kMostEntries = 100;
     for (const auto& [its_name, value] : input)
         if (made.size() < kMostEntries) made.emplace_back(fmt::format("{}_{}", name, its_name), value);
+}
+
+std::time_t seconds_since_1970(std::string_view text) {
+    constexpr std::int64_t kEndOf9999 = 253'402'300'799;
+    std::int64_t seconds = -1;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+    if (failure != std::errc() || end != text.data() + text.size() || seconds < 0 || seconds > kEndOf9999)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("SOURCE_DATE_EPOCH is {}; it is a number of seconds from 0 to {}", text, kEndOf9999));
+    return static_cast<std::time_t>(seconds);
 }
 
 }  // namespace
@@ -55,7 +65,7 @@ Provenance made_by(const std::string& command, const std::vector<std::pair<std::
 
 std::string utc_date() {
     const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
-    const std::time_t seconds = epoch ? static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10)) : std::time(nullptr);
+    const std::time_t seconds = epoch ? seconds_since_1970(epoch) : std::time(nullptr);
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds));
 }
 

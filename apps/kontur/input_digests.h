@@ -20,7 +20,8 @@ Provenance input_digests(const SegmentCommand& command, const Progress& progress
 Provenance made_by(const std::string& command, const std::vector<std::pair<std::string, std::filesystem::path>>& inputs,
                    const std::string& options, const Progress& progress);
 
-/// Such as "2026-11-21T09:30:00Z": SOURCE_DATE_EPOCH where it is set (reproducible-builds.org), else now.
+/// Such as "2026-11-21T09:30:00Z": SOURCE_DATE_EPOCH where it is set (reproducible-builds.org), else now. Throws
+/// Error(invalid_input) when that is no number of seconds in the years 1970 to 9999.
 std::string utc_date();
 
 }  // namespace kontur::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "commands.h"
@@ -145,6 +146,8 @@ Facts inspect(const InspectCommand& command, const fs::path& path, Console& cons
     return facts;
 }
 
+bool holds_contours(const fs::path& path) { return input_kind(path) == FileKind::contours; }
+
 }  // namespace
 
 void run(const InspectCommand& command, Console& console) {
@@ -168,6 +171,8 @@ void run(const InspectCommand& command, Console& console) {
     }
     if (command.json) console.print(to_json_text(all));
     if (first_error) throw *first_error;
+    if (command.check && std::none_of(command.files.begin(), command.files.end(), holds_contours))
+        throw Error(ErrorKind::invalid_input, "--check is for contours, which none of the files holds");
 }
 
 }  // namespace kontur::app

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -17,13 +19,14 @@ namespace kontur::app {
 namespace {
 
 int fail(std::string_view sentence, int exit_code) {
-    fmt::print(stderr, "kontur: error: {}\n", sentence);
+    print_stderr(fmt::format("kontur: error: {}\n", sentence));
     return exit_code;
 }
 
-/// What was printed must have arrived: a full disk behind a redirected stdout is a failure like any other.
-void flush_stdout() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw Error(ErrorKind::io, "standard output cannot be written");
+/// A stream that was closed is one that cannot be written; else the first file opened would take its place, and its words.
+void fill_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);  // takes the lowest number that is free
 }
 
 void run_command(const Invocation& invocation) {
@@ -34,7 +37,8 @@ void run_command(const Invocation& invocation) {
 
 int run(const Invocation& invocation) {
     try {
-        run_command(invocation);
+        if (invocation.command) run_command(invocation);
+        else std::fwrite(invocation.text.data(), 1, invocation.text.size(), stdout);
         flush_stdout();
         return 0;
     } catch (const Error& error) {
@@ -50,13 +54,12 @@ int run(const Invocation& invocation) {
 }
 
 int main(int argc, char** argv) {
+    fill_closed_streams();
     if (argc > 1 && std::string_view(argv[1]) == viewer::kImportWorker) return viewer::import_worker(argc, argv);
-    signal(SIGXFSZ, SIG_IGN);  // a file beyond the user's limit is then told as a disk that is full
+    // A file beyond the user's limit, a reader of stdout that has gone: told as what cannot be written, and nothing is left.
+    for (const int signal : kIgnoredSignals) std::signal(signal, SIG_IGN);
     const Invocation invocation = parse_command_line(argc, argv);
-    if (invocation.command) return run(invocation);
-    if (invocation.exit_code != 0) return fail(invocation.text, invocation.exit_code);
-    fmt::print("{}", invocation.text);
-    return 0;
+    return invocation.exit_code != 0 ? fail(invocation.text, invocation.exit_code) : run(invocation);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <stop_token>
 
+#include "child_process.h"
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "viewer/image_identity.h"
@@ -49,6 +50,13 @@ Words sorted(const std::vector<fs::path>& files) {
     return words;
 }
 
+void check_one_project(const OpenCommand& command, const Words& words) {
+    std::error_code ignored;
+    if (command.project.empty() || words.project.empty() || fs::equivalent(command.project, words.project, ignored)) return;
+    throw Error(ErrorKind::invalid_input, fmt::format("{} and --project {} are two projects; one at a time can be opened",
+                                                      words.project.string(), command.project.string()));
+}
+
 Image phantom_image(const Progress& progress) {
     const std::vector<PhantomVolume> scans = phantom_volumes();
     const auto scan =
@@ -77,9 +85,10 @@ viewer::OpenedImage open_image(const ImageInput& input, const Progress& progress
 fs::path data_folder() {
     const char* xdg = std::getenv("XDG_DATA_HOME");
     const char* home = std::getenv("HOME");
-    if (!xdg && !home)
+    const bool has_xdg = xdg && fs::path(xdg).is_absolute();
+    if (!has_xdg && !(home && fs::path(home).is_absolute()))
         throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
-    fs::path folder = (xdg && fs::path(xdg).is_absolute() ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
+    fs::path folder = (has_xdg ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
@@ -135,7 +144,7 @@ void open_browser(const std::string& address) {
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
         posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
-    posix_spawnp(&child, program.c_str(), &silent, nullptr, words, environ);
+    posix_spawnp(&child, program.c_str(), &silent, SpawnAttributes().get(), words, environ);
     posix_spawn_file_actions_destroy(&silent);
 }
 
@@ -144,6 +153,7 @@ void open_browser(const std::string& address) {
 void run(const OpenCommand& command, Console& console) {
     const Progress progress = console.progress();
     const Words words = sorted(command.files);
+    check_one_project(command, words);
     ImageInput input = command.image;
     input.path = words.image;
     if (input.path.empty() && !words.project.empty()) input.path = viewer::image_of_project(words.project).path;
@@ -161,7 +171,7 @@ void run(const OpenCommand& command, Console& console) {
     viewer::Server server(session, command.server);
     console.print(
         fmt::format("{}\nproject {}; every edit is saved at once, Ctrl+C ends\n", server.address(), project.string()));
-    std::fflush(stdout);
+    flush_stdout();  // who does not learn the address cannot use it
     if (!command.no_browser) open_browser(server.address());
     const std::stop_callback stop(progress.stop, [&] { server.stop(); });
     server.run();

@@ -6,9 +6,12 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <set>
 #include <system_error>
 
+#include "files.h"
 #include "kontur/base/error.h"
+#include "kontur/io/atomic_file.h"
 
 namespace kontur::app {
 namespace {
@@ -19,11 +22,10 @@ namespace fs = std::filesystem;
     throw Error(ErrorKind::io, fmt::format("cannot write {}: {}", target.string(), reason));
 }
 
-/// Where a symbolic link leads, so that the link stays and what it names is replaced.
-fs::path resolved(const fs::path& target) {
-    std::error_code error;
-    const fs::path path = fs::weakly_canonical(fs::absolute(target), error);
-    return error ? fs::absolute(target) : path;
+[[noreturn]] void refuse(const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); }
+
+[[noreturn]] void refuse_second(const fs::path& target) {
+    refuse(fmt::format("{} is named for two outputs; each needs a file of its own", target.string()));
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -32,19 +34,45 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
+/// A second name, so that the target is there at any time; a move where the file system or its rules know no second names.
+void keep(const fs::path& target, const fs::path& kept, std::error_code& error) {
+    fs::create_hard_link(target, kept, error);
+    if (error) fs::rename(target, kept, error);
+}
+
 }  // namespace
 
+fs::path destination(const fs::path& target) {
+    const fs::path path = fs::absolute(link_destination(target));
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(path, error);
+    return error ? path : canonical;
+}
+
 void check_output(const fs::path& target, std::span<const fs::path> inputs) {
-    const fs::path path = resolved(target);
+    if (target.empty()) return;
+    const fs::path path = destination(target);
     const fs::path folder = path.parent_path();
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) fail(target, fmt::format("the folder {} does not exist", folder.string()));
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) fail(target, "it is no regular file");
-    for (const fs::path& input : inputs)
+    for (const fs::path& input : inputs) {
         if (fs::equivalent(path, input, ignored))
-            throw Error(ErrorKind::invalid_input,
-                        fmt::format("{} is an input, which an output may not replace", target.string()));
-    if (access(folder.c_str(), W_OK) != 0) fail(target, std::generic_category().message(errno));
+            refuse(fmt::format("{} is an input, which an output may not replace", target.string()));
+        if (fs::equivalent(folder, series_folder(input), ignored) && is_dicom_slice(path))
+            refuse(fmt::format("{} is a slice of the input {}, which an output may not replace", target.string(),
+                               input.string()));
+    }
+    const bool is_protected = fs::exists(path, ignored) && access(path.c_str(), W_OK) != 0;
+    if (is_protected || access(folder.c_str(), W_OK) != 0) fail(target, std::generic_category().message(errno));
+}
+
+void check_outputs(std::span<const fs::path> targets, std::span<const fs::path> inputs) {
+    std::set<fs::path> known;
+    for (const fs::path& target : targets) {
+        check_output(target, inputs);
+        if (!target.empty() && !known.insert(destination(target)).second) refuse_second(target);
+    }
 }
 
 Outputs::~Outputs() {
@@ -60,9 +88,9 @@ void Outputs::create_folder(const fs::path& folder) {
 }
 
 void Outputs::write(const fs::path& target, const std::function<void(const fs::path&)>& writer) {
-    const fs::path path = resolved(target);
+    const fs::path path = destination(target);
     const fs::path temporary = staging_folder(path.parent_path()) / path.filename();
-    files_[path] = temporary;
+    if (!files_.emplace(path, temporary).second) refuse_second(target);
     try {
         writer(temporary);
     } catch (const Error& error) {
@@ -78,13 +106,34 @@ fs::path Outputs::staging_folder(const fs::path& folder) {
 }
 
 void Outputs::commit() {
+    std::vector<Replaced> before;
     for (const auto& [target, temporary] : files_) {
         std::error_code error;
-        if (fs::exists(target, error)) fs::permissions(temporary, fs::status(target).permissions(), error);
-        fs::rename(temporary, target, error);
-        if (error) fail(target, error.message());
+        const bool is_new = !fs::exists(target, error);
+        if (!is_new) {
+            fs::permissions(temporary, fs::status(target).permissions(), error);
+            const Replaced old{target, temporary.parent_path() / fmt::format(".replaced-{}", before.size())};
+            keep(old.target, old.kept, error);
+            if (!error) before.push_back(old);
+        }
+        if (!error) fs::rename(temporary, target, error);
+        if (error) {
+            take_back(before);
+            fail(target, error.message());
+        }
+        if (is_new) before.push_back({target, {}});
     }
     created_folder_.clear();
+}
+
+void Outputs::take_back(std::vector<Replaced>& before) {
+    for (; !before.empty(); before.pop_back()) {
+        const auto& [target, kept] = before.back();
+        std::error_code error;
+        if (kept.empty()) fs::remove(target, error);
+        else fs::rename(kept, target, error);
+        if (error) folders_.erase(target.parent_path());  // rather a hidden folder left than what it keeps lost
+    }
 }
 
 }  // namespace kontur::app

@@ -9,9 +9,17 @@
 
 namespace kontur::app {
 
+/// The file that a name leads to, absolute and without links, so that two names of one file become one. Throws Error(io) for
+/// links that lead in a circle.
+std::filesystem::path destination(const std::filesystem::path& target);
+
 /// Throws, before any work is done, what writing to `target` would throw after it: Error(invalid_input) when it is one of
-/// the `inputs`, Error(io) when its folder does not exist or may not be written to, or it is no regular file.
+/// the `inputs` or a slice of a DICOM series among them (given by its folder or one slice), Error(io) when its folder does
+/// not exist or may not be written to, or it is no regular file or write-protected. Empty paths are left out.
 void check_output(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
+
+/// The same for all outputs of a command, of which no two may be one file.
+void check_outputs(std::span<const std::filesystem::path> targets, std::span<const std::filesystem::path> inputs);
 
 /// The files of one command, which appear all together or not at all. Each is written into a hidden folder beside its target
 /// and moved into place by `commit`; without a commit (an error, Ctrl-C) the hidden folders vanish with their content.
@@ -29,10 +37,17 @@ public:
     /// Makes the folder if it is not there; without a commit it vanishes again. Throws Error(io).
     void create_folder(const std::filesystem::path& folder);
 
-    /// Moves everything into place. Call once, last. Throws Error(io).
+    /// Moves everything into place; when one file cannot be moved, those before it are taken back. Call once, last. Throws
+    /// Error(io).
     void commit();
 
 private:
+    /// What stood at a target before the commit.
+    struct Replaced {
+        std::filesystem::path target, kept;  ///< kept: "" for nothing
+    };
+
+    void take_back(std::vector<Replaced>& before);
     std::filesystem::path staging_folder(const std::filesystem::path& folder);
 
     std::map<std::filesystem::path, std::filesystem::path> folders_;  ///< target folder to hidden folder

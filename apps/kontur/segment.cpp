@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <future>
 #include <utility>
@@ -33,6 +34,7 @@ void check_extension(const fs::path& path, std::string_view extension) {
 void check(const SegmentCommand& command) {
     check_output_kind(command.output, FileKind::image);
     check_dicom_images(command.output, command.image.path);
+    check_holes(command.holes, !command.rtstruct.empty());
     if (!command.rtstruct.empty()) {
         check_extension(command.rtstruct, ".dcm");
         check_dicom_images(command.rtstruct, command.image.path);
@@ -43,13 +45,13 @@ void check(const SegmentCommand& command) {
 
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
-    for (const fs::path& output : {command.output, command.rtstruct, command.mesh, command.picture, command.report})
-        if (!output.empty()) check_output(output, inputs);
+    check_outputs(std::array{command.output, command.rtstruct, command.mesh, command.picture, command.report}, inputs);
 
     if (command.image.path.empty() && command.spacing_mm.empty())
         throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
     if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
         throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
+    if (command.date) utc_date();  // which may be set to what is no date
 }
 
 struct Inputs {
@@ -102,9 +104,7 @@ void write_structure_set(const fs::path& path, const SegmentCommand& command, co
                          const Provenance& made, const Progress& progress) {
     ContourSet set = slice_contours(result.mask, result.function, command.options.threads, progress);
     set.name = inputs.contours.name;
-    WriteRtstructOptions write = command.write_rtstruct;
-    write.provenance = made;
-    for (std::string& note : write_contours(path, set, command.image, write))
+    for (std::string& note : write_contours(path, set, command.image, rtstruct_options(command.holes, made)))
         result.report.warnings.push_back(std::move(note));
 }
 

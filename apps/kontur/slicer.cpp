@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -194,6 +195,9 @@ void check(const SlicerCommand& command) {
         throw Error(ErrorKind::invalid_input, "neither a label map nor a model was chosen for the result");
     if (!command.output_mask.empty()) check_output_kind(command.output_mask, FileKind::image);
     if (!command.output_model.empty()) check_output_kind(command.output_model, FileKind::mesh);
+    std::vector<fs::path> inputs = command.contours;
+    inputs.push_back(command.reference);
+    check_outputs(std::array{command.output_mask, command.output_model, command.return_parameters}, inputs);
 }
 
 struct Made {

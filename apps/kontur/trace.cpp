@@ -40,6 +40,7 @@ void check(const TraceCommand& command) {
     check_output(command.output, std::array{command.mask, command.planes, command.image.path});
     check_output_kind(command.output, FileKind::contours);
     check_dicom_images(command.output, command.image.path);
+    check_holes(command.holes, is_dicom_name(command.output));
 }
 
 }  // namespace
@@ -53,8 +54,7 @@ void run(const TraceCommand& command, Console& console) {
     if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));
     set.name = command.name;
 
-    WriteRtstructOptions write = command.write_rtstruct;
-    write.provenance = provenance_of(command, progress);
+    const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, progress));
     Outputs outputs;
     outputs.write(command.output,
                   [&](const std::filesystem::path& path) { console.note(write_contours(path, set, command.image, write)); });

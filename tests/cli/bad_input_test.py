@@ -13,7 +13,7 @@ import tempfile
 
 import numpy
 import pytest
-from support import KONTUR, ball_array, ball_planes, circle, kontur, names, write_nifti, write_planes
+from support import KONTUR, as_nobody, ball_array, ball_planes, circle, kontur, names, write_nifti, write_planes
 
 IMAGE, OUT = "image.nii.gz", "out.nii.gz"
 
@@ -256,14 +256,6 @@ def test_a_full_disk(folder, full_disk):
     assert result.returncode == 74
     assert "No space left on device" in result.stderr
     assert names(full_disk) == []
-
-
-def as_nobody():
-    """Root may write everywhere."""
-    if os.geteuid() == 0:
-        os.setgroups([])
-        os.setgid(65534)
-        os.setuid(65534)
 
 
 def test_a_folder_without_permission(folder):

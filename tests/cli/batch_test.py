@@ -7,12 +7,14 @@ import pty
 import re
 import signal
 import subprocess
+import sys
 import time
 
 import numpy
 import pytest
-from support import KONTUR, ball_array, ball_planes, kontur, names, read_nifti, write_nifti, write_planes
+from support import KONTUR, ball_array, ball_planes, circle, kontur, names, read_nifti, write_nifti, write_planes
 
+SUPPORT = pathlib.Path(__file__).parent.parent / "support"
 ARRAY_SCRIPT = pathlib.Path(__file__).parent.parent.parent / "examples" / "slurm" / "kontur-array.sh"
 
 
@@ -147,7 +149,7 @@ def test_every_column_is_an_option_of_segment(cohort):
     "columns, rows, sentence",
     [
         ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii"], "line 3: 2 cells stand below 3 columns"),
-        ("contours,image,output,colour", ["a.json,i.nii,o.nii,red"], "line 2: The following argument was not expected: --colour"),
+        ("contours,image,output,colour", ["a.json,i.nii,o.nii,red"], "line 2: The following argument was not expected: --colour=red"),
         ("contours,image,output", ["a.json,i.nii,o.nii", "b.json,i.nii,./o.nii"], "line 3: ./o.nii is already an output of line 2"),
         ("contours,image,output", ['"a.json,i.nii,o.nii'], "line 2: a quote is not closed"),
         ("contours,image,image", ["a,b,c"], "two columns are named 'image'"),
@@ -160,6 +162,98 @@ def test_a_table_that_makes_no_sense_is_refused_before_any_work(tmp_path, column
     assert result.returncode in (64, 65, 66)
     assert sentence in result.stderr
     assert not (tmp_path / "out").exists()
+
+
+OVERWRITES = "contours,spacing-mm,output,report"
+
+
+@pytest.mark.parametrize(
+    "rows, sentence",
+    [
+        (["a.json,4,{here}/o.nii,", "b.json,4,o.nii,"], "line 3: o.nii is already an output of line 2"),
+        (["a.json,4,o.nii,", "b.json,4,link/o.nii,"], "line 3: link/o.nii is already an output of line 2"),
+        (["a.json,4,o.nii,b.json", "b.json,4,p.nii,"], "line 2: b.json would replace an input of line 3"),
+        (["a.json,4,o.nii,link/a.json"], "line 2: link/a.json would replace an input of line 2"),
+    ],
+)
+def test_no_row_writes_over_another_one(tmp_path, rows, sentence):
+    for name in ("a.json", "b.json"):
+        write_planes(tmp_path / name, ball_planes())
+    (tmp_path / "link").symlink_to(".")
+    before = names(tmp_path)
+    write_table(tmp_path, [row.format(here=tmp_path) for row in rows], OVERWRITES)
+    result = kontur("batch", tmp_path / "cases.csv")
+    assert result.returncode == 65
+    assert sentence in result.stderr
+    assert names(tmp_path) == sorted([*before, "cases.csv"])
+
+
+@pytest.mark.parametrize("summary, what", [("a.json", "input"), ("r.json", "output"), ("link/a.json", "input")])
+def test_the_summary_replaces_nothing_of_the_cases(tmp_path, summary, what):
+    write_planes(tmp_path / "a.json", ball_planes())
+    (tmp_path / "link").symlink_to(".")
+    write_table(tmp_path, ["a.json,4,o.nii,r.json"], OVERWRITES)
+    before = (tmp_path / "a.json").read_bytes()
+    result = kontur("batch", "cases.csv", "--summary", summary, cwd=tmp_path)
+    assert result.returncode == 65
+    assert f"{summary} would replace an {what} of line 2" in result.stderr
+    assert (tmp_path / "a.json").read_bytes() == before
+    assert not (tmp_path / "o.nii").exists()
+
+
+@pytest.fixture
+def scanned(tmp_path):
+    """Two cases on one DICOM series, whose masks are kept beside its slices."""
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "axial", tmp_path / "axial"], check=True)
+    (tmp_path / "axial" / "dicom").rename(tmp_path / "dicom")
+    first = names(tmp_path / "dicom")[0]
+    write_planes(tmp_path / "ball.json", [circle(a, d, center=(-15.0, -25.0, 110.0), radius=3.5) for a in "xyz" for d in (-1, 1)])
+    write_table(tmp_path, ["a,ball.json,dicom,dicom/a.dcm", f"b,ball.json,dicom/{first},dicom/b.nii"])
+    return tmp_path
+
+
+def test_a_changed_slice_makes_its_cases_again_and_their_outputs_beside_it_do_not(scanned):
+    assert batch(scanned).returncode == 0
+    assert not re.search("^[ab]: ", batch(scanned).stdout, re.MULTILINE)
+    a_slice = sorted((scanned / "dicom").glob("*.dcm"))[-1]
+    os.utime(a_slice, (1, 1))
+    assert re.findall("^([ab]): ", batch(scanned).stdout, re.MULTILINE) == ["a", "b"]
+
+
+def test_no_row_replaces_a_slice_of_another_ones_image(scanned):
+    last = names(scanned / "dicom")[-1]
+    write_table(scanned, [f"a,ball.json,,dicom/{last},4", "b,ball.json,dicom,b.nii,"], "case,contours,image,output,spacing-mm")
+    result = batch(scanned)
+    assert result.returncode == 65
+    assert f"line 2: dicom/{last} would replace an input of line 3" in result.stderr
+
+
+def test_changed_voxels_behind_a_detached_header_make_the_case_again(cohort):
+    assert kontur("convert", cohort / "image.nii.gz", cohort / "image.nrrd").returncode == 0
+    header, voxels = (cohort / "image.nrrd").read_bytes().split(b"\n\n", 1)
+    (cohort / "image.nhdr").write_bytes(header + b"\ndata file: voxels.raw\n")
+    (cohort / "voxels.raw").write_bytes(voxels)
+    write_table(cohort, ['a,"ball, drawn.json",image.nhdr,out/a.nii.gz'])
+    assert batch(cohort).returncode == 0
+    assert not batch(cohort).stdout.startswith("a: ")
+    os.utime(cohort / "voxels.raw", (1, 1))
+    assert batch(cohort).stdout.startswith("a: ")
+
+
+def test_flags_of_segment_are_yes_or_no_and_names_may_begin_with_a_dash(tmp_path):
+    write_planes(tmp_path / "-k.json", ball_planes())
+    row = "-k.json,4,-out.nii,-report.json,{},yes"
+    columns = "contours,spacing-mm,output,report,date,quiet"
+    write_table(tmp_path, [row.format("yes")], columns)
+    result = kontur("batch", "cases.csv", cwd=tmp_path)
+    assert result.returncode == 0, result
+    assert "date" in json.loads((tmp_path / "-report.json").read_text())["provenance"]
+    assert (tmp_path / "-out.nii").exists()
+    write_table(tmp_path, [row.format("no")], columns)
+    assert kontur("batch", "cases.csv", cwd=tmp_path).returncode == 0
+    assert "date" not in json.loads((tmp_path / "-report.json").read_text())["provenance"]
+    write_table(tmp_path, [row.format("today")], columns)
+    assert "line 2: date is yes or no, not today" in kontur("batch", "cases.csv", cwd=tmp_path).stderr
 
 
 def test_a_slurm_array_makes_the_cases_one_by_one(cohort):

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from support import kontur, succeed
+from support import ball_array, ball_planes, kontur, names, succeed, write_nifti, write_planes
 
 COMMANDS = ["segment", "trace", "compare", "inspect", "convert", "phantom"]
 
@@ -45,6 +45,32 @@ def test_names_with_a_unit_show_it_in_help(command):
             assert match[1].upper() in match[2] or match[1] in match[2], line
 
 
+SEGMENT = ["segment", "a.json", "--output", "b.nii"]
+
+
+@pytest.mark.parametrize(
+    "words, limits",
+    [
+        ([*SEGMENT, "--threads", "-1"], "0 to 4096"),
+        ([*SEGMENT, "--threads", "1000000"], "0 to 4096"),
+        ([*SEGMENT, "--max-memory-mb", "-1"], "0 to 1000000000"),
+        ([*SEGMENT, "--max-memory-mb", "nan"], "0 to 1000000000"),
+        (["batch", "a.csv", "--threads", "-1"], "0 to 4096"),
+        (["trace", "a.nii", "--planes", "b.json", "--output", "c.json", "--threads", "-1"], "0 to 4096"),
+        (["compare", "a.nii", "b.nii", "--threads", "-1"], "0 to 4096"),
+        (["phantom", "a", "--threads", "-1"], "0 to 4096"),
+        (["open", "--timeout", "-1"], "0 to 2147483647"),
+        (["open", "--port", "70000"], "0 to 65535"),
+        (["open", "--port", "-1"], "0 to 65535"),
+    ],
+)
+def test_a_number_out_of_its_range_is_refused_with_the_limits(tmp_path, words, limits):
+    result = kontur(*words, cwd=tmp_path)
+    assert result.returncode == 64
+    assert f"{words[-2]}: is {words[-1]}, but must be from {limits}" in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     "words",
     [
@@ -58,6 +84,13 @@ def test_names_with_a_unit_show_it_in_help(command):
         ["convert", "a.nii"],
         ["trace", "a.nii", "--output", "b.json"],
         ["segment", "a.json", "--output", "b.nii", "--kernel", "gaussian"],
+        [*SEGMENT, "--spacing-mm", "1", "--frame", "0"],
+        [*SEGMENT, "--spacing-mm", "1", "--series", "1.2.3"],
+        [*SEGMENT, "--spacing-mm", "1", "--volume", "1"],
+        [*SEGMENT, "--spacing-mm", "1", "--prefer", "qform"],
+        [*SEGMENT, "--spacing-mm", "1", "--allow-missing-geometry"],
+        ["batch", "a.csv", "--count", "--row", "2"],
+        ["batch", "a.csv", "--count", "--summary", "b.json"],
     ],
 )
 def test_wrong_usage_is_one_line_and_exit_code_64(words):
@@ -65,3 +98,36 @@ def test_wrong_usage_is_one_line_and_exit_code_64(words):
     assert result.returncode == 64
     assert result.stdout == ""
     assert re.fullmatch(r"kontur: error: .+\n", result.stderr)
+
+
+@pytest.mark.parametrize(
+    "words, named",
+    [
+        (["segment", "ball.json", "--spacing-mm", 4, "--output", "out.nii", "--roi", "liver"], "'liver'; the file holds 'ball'"),
+        (["convert", "ball.json", "out.mrk.json", "--roi", "liver"], "'liver'; the file holds 'ball'"),
+        (["segment", "ball.json", "--spacing-mm", 4, "--output", "out.nii", "--holes", "xor"], "--holes"),
+        (["trace", "mask.nii", "--planes", "ball.json", "--output", "out.json", "--holes", "xor"], "--holes"),
+        (["convert", "ball.json", "out.mrk.json", "--holes", "xor"], "--holes"),
+        (["convert", "mask.nii", "out.nrrd", "--image", "folder"], "--image"),
+        (["convert", "mask.nii", "out.nrrd", "--roi", "liver"], "--roi"),
+        (["convert", "ball.json", "out.mrk.json", "--frame", 0], "--frame"),
+        (["convert", "ball.json", "out.mrk.json", "--volume", 1], "--volume"),
+        (["inspect", "--check", "mask.nii"], "--check"),
+    ],
+)
+def test_an_option_that_would_change_nothing_is_refused(tmp_path, words, named):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    write_nifti(tmp_path / "mask.nii", ball_array())
+    before = names(tmp_path)
+    result = kontur(*words, cwd=tmp_path)
+    assert result.returncode == 65
+    assert re.fullmatch("kontur: error: .+\n", result.stderr)
+    assert named in result.stderr
+    assert names(tmp_path) == before
+
+
+def test_options_that_name_what_is_there_are_welcome(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    write_nifti(tmp_path / "mask.nii", ball_array())
+    succeed("segment", "ball.json", "--spacing-mm", 4, "--output", "out.nii", "--roi", "ball", cwd=tmp_path)
+    succeed("inspect", "--check", "mask.nii", "ball.json", cwd=tmp_path)

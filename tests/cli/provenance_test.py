@@ -2,6 +2,7 @@
 """What kontur segment writes says how it was made, and says the same each time."""
 import hashlib
 import json
+import os
 import re
 import zlib
 
@@ -43,6 +44,14 @@ def test_the_digests_are_those_of_the_files(folder):
     assert re.fullmatch("[0-9a-f]{64}", made["contours_sha256"])
     assert "date" not in made
     assert {key: value for key, value in comment(folder / "out.nii.gz").items() if key in made} == made
+
+
+@pytest.mark.parametrize("epoch", ["99999999999999999", "253402300800", "-1", "yesterday", "", "1 "])
+def test_a_date_that_is_none_is_refused_before_the_work(folder, epoch):
+    words = ["segment", "absent.json", "--image", "image.nii.gz", "--output", "out.nii.gz", "--date"]
+    result = kontur(*words, cwd=folder, env={**os.environ, "SOURCE_DATE_EPOCH": epoch})
+    assert result.returncode == 65
+    assert result.stderr.startswith(f"kontur: error: SOURCE_DATE_EPOCH is {epoch};")
 
 
 def test_a_nifti_mask_is_read_by_others_as_before(folder):

@@ -120,6 +120,26 @@ TEST(AtomicFile, KeepsPermissionsAndFollowsLinks) {
     EXPECT_EQ(static_cast<int>(fs::status(folder / "real.txt").permissions()), 0640);
 }
 
+TEST(AtomicFile, FollowsLinksToWhereNothingIsYet) {
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "far");
+    fs::create_symlink("far/second.txt", folder / "first.txt");
+    fs::create_symlink(fs::absolute(folder / "real.txt"), folder / "far/second.txt");
+    write_file_atomically(folder / "first.txt", "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "first.txt"));
+    EXPECT_TRUE(fs::is_symlink(folder / "far/second.txt"));
+    EXPECT_EQ(content_of(folder / "real.txt"), "new");
+}
+
+TEST(AtomicFile, RefusesLinksInACircle) {
+    const test::TemporaryFolder folder;
+    fs::create_symlink("b.txt", folder / "a.txt");
+    fs::create_symlink("a.txt", folder / "b.txt");
+    const std::string message = io_error_of([&] { write_file_atomically(folder / "a.txt", "new"); });
+    EXPECT_NE(message.find("a.txt: Too many levels of symbolic links"), std::string::npos) << message;
+    EXPECT_TRUE(fs::is_symlink(folder / "a.txt"));
+}
+
 TEST(AtomicFile, AcceptsTheLongestName) {
     const test::TemporaryFolder folder;
     const fs::path path = folder / (std::string(251, 'n') + ".txt");

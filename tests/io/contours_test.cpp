@@ -84,6 +84,27 @@ TEST_F(Contours, SeveralFilesBecomeOneObject) {
     EXPECT_TRUE(read_contours(std::vector<fs::path>{}).contours.contours.empty());
 }
 
+TEST_F(Contours, AStructureOfAnotherNameIsRefused) {
+    for (const char* name : {"a.json", "a.mrk.json"}) {
+        write_contours(folder_ / name, set_);
+        EXPECT_EQ(point_count(read_contours(folder_ / name, {.roi = "kidney"}).contours), 60u);
+        for (const char* roi : {"spleen", "1", ""}) try {
+                read_contours(std::vector<fs::path>{folder_ / name}, {.roi = roi});
+                ADD_FAILURE() << "accepted " << roi;
+            } catch (const Error& error) {
+                EXPECT_EQ(error.kind(), ErrorKind::invalid_input);
+                EXPECT_NE(std::string(error.what()).find("'kidney'"), std::string::npos) << error.what();
+            }
+    }
+}
+
+TEST_F(Contours, BesideAStructureSetTheRoiIsItsOwn) {
+    KONTUR_REQUIRE_DATA("03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm");
+    write_contours(folder_ / "a.json", set_);
+    const std::vector<fs::path> both{test::data_dir() / "03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm", folder_ / "a.json"};
+    EXPECT_EQ(read_contours(both, {.roi = "GTV_Mass_CT"}).contours.contours.size(), 19u);
+}
+
 TEST_F(Contours, RtStructureSetsAreReadByRoi) {
     KONTUR_REQUIRE_DATA("03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm");
     const fs::path sarcoma = test::data_dir() / "03_sarcoma_STS_002/CT/RTSTRUCT_RS.dcm";

@@ -23,15 +23,6 @@ constexpr int kNameAttempts = 1000;
     throw Error(ErrorKind::io, "cannot write " + target.string() + ": " + reason);
 }
 
-/// Where the bytes belong: a link's destination rather than the link, which the rename would replace.
-fs::path destination_of(const fs::path& target) {
-    std::error_code error;
-    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
-    fs::path resolved = fs::weakly_canonical(target, error);
-    if (error) fail_to_write(target, error.message());
-    return resolved;
-}
-
 void refuse_special_file(const fs::path& target) {
     std::error_code error;
     const fs::file_status status = fs::status(target, error);
@@ -57,7 +48,20 @@ void sync_folder(const fs::path& target) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& target) : target_(destination_of(target)) {
+fs::path link_destination(const fs::path& target) {
+    constexpr int kMostLinks = 40;  // as many as Linux follows
+    fs::path path = target;
+    std::error_code error;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+        if (links == kMostLinks) fail_to_write(target, std::generic_category().message(ELOOP));
+        const fs::path next = fs::read_symlink(path, error);
+        if (error) fail_to_write(target, error.message());
+        path = path.parent_path() / next;
+    }
+    return path;
+}
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(link_destination(target)) {
     refuse_special_file(target_);
     for (int attempt = 0; attempt < kNameAttempts && descriptor_ < 0; ++attempt) {
         temporary_ = temporary_name(target_);

@@ -9,6 +9,10 @@
 
 namespace kontur {
 
+/// Where the bytes of a file of this name belong: what a chain of symbolic links names, whether it exists or not, since a
+/// rename would replace the link itself. Throws Error(io) for links that lead in a circle or cannot be read.
+std::filesystem::path link_destination(const std::filesystem::path& target);
+
 /// A file that appears whole or not at all: bytes go to a temporary name in the target's folder, and only `commit` puts
 /// it in the target's place. Without a commit (an exception, a full disk) the temporary is removed and an existing target
 /// stays as it was. A symbolic link is followed; a target that exists and is no regular file is refused.

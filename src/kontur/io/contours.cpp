@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/contours.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -45,6 +46,15 @@ ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options) 
     });
 }
 
+bool is_structure_set(const fs::path& path) { return is_dicom(path, head_of(path)); }
+
+/// What a file that is no structure set holds can be chosen by its name alone.
+void check_name(const fs::path& path, const ContourSet& contours, const std::string& roi) {
+    if (roi == contours.name) return;
+    const std::string own = contours.name.empty() ? "one without a name" : "'" + contours.name + "'";
+    throw Error(ErrorKind::invalid_input, path.string() + ": there is no structure '" + roi + "'; the file holds " + own);
+}
+
 bool is_markups(const fs::path& path) { return path.string().ends_with(".mrk.json"); }
 
 }  // namespace
@@ -56,16 +66,19 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
         throw Error(ErrorKind::unsupported, path.string() +
                                                 " holds no contours: kontur's .json, 3D Slicer's .mrk.json and DICOM RT "
                                                 "structure sets are read");
-    if (is_markups(path) || read_json_file(path).contains("markups"))
-        return {read_markups(path, {options.plane_tolerance_mm}), {}};
-    return {read_contour_json(path), {}};
+    const bool has_markups = is_markups(path) || read_json_file(path).contains("markups");
+    ContourSet contours = has_markups ? read_markups(path, {options.plane_tolerance_mm}) : read_contour_json(path);
+    if (options.roi) check_name(path, contours, *options.roi);
+    return {std::move(contours), {}};
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
     ReadContours all;
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    ReadContoursOptions of_others = options;
+    if (options.roi && std::any_of(paths.begin(), paths.end(), is_structure_set)) of_others.roi.reset();
     for (const fs::path& path : paths) {
-        const ReadContours one = read_contours(path, options);
+        const ReadContours one = read_contours(path, is_structure_set(path) ? options : of_others);
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
         append(all.contours.contours, one.contours.contours);
         append(all.contours.interior, one.contours.interior);

@@ -12,7 +12,9 @@
 namespace kontur {
 
 struct ReadContoursOptions {
-    std::optional<std::string> roi;  ///< RT structure sets: the ROI's name or number; needed when several have contours
+    /// RT structure sets: the ROI's name or number; needed when several have contours. Other files hold one structure, whose
+    /// name it then has to be, unless they are read together with a structure set.
+    std::optional<std::string> roi;
     double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< for curves whose plane must be fitted
 };
 
@@ -22,7 +24,8 @@ struct ReadContours {
 };
 
 /// Reads kontur's contour file, 3D Slicer's markups or a DICOM RT structure set; the content decides which. Throws
-/// Error(unsupported) for any other file and what the format's own reader throws.
+/// Error(unsupported) for any other file, Error(invalid_input) for a `roi` that it does not hold and what the format's own
+/// reader throws.
 ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});
 
 /// The contours of several files as one object, in the order of the files, named after the first that has a name. Notes

@@ -2,12 +2,14 @@
 """Values from Python to C++ and back."""
 import copy
 import gc
+import os
 import pickle
 
 import kontur
 import numpy
 import pytest
 
+SANITIZED = bool(os.environ.get("KONTUR_SANITIZED"))  # ends the process where memory does not suffice
 SQUARE = [[0, 0, 5], [10, 0, 5], [10, 10, 5], [0, 10, 5]]
 
 
@@ -170,6 +172,8 @@ def test_more_than_fits_into_memory_is_refused(case, oblique):
     for pixels in (2**31 - 1, 100_000):
         with pytest.raises(kontur.TooLargeError, match=f"{pixels} x {pixels} pixels"):
             kontur.reslice(image, plane, pixels, pixels, 1.0, 0.0)
+    if SANITIZED:
+        return
     with pytest.raises(kontur.TooLargeError, match="memory"):
         kontur.make_truth_mask(case.body, kontur.Grid((2**20, 2**20, 2**10), numpy.eye(4)))
 

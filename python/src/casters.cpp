@@ -8,6 +8,13 @@ namespace kontur::python {
 
 std::string shape_text(const py::array& array) { return py::str(py::tuple(array.attr("shape"))).cast<std::string>(); }
 
+void check_numbers(const py::array& array, bool whole) {
+    const std::string_view kinds = whole ? "biu" : "biufO";
+    if (array.size() == 0 || kinds.find(array.dtype().kind()) != std::string_view::npos) return;
+    throw Error(ErrorKind::invalid_input, "an array of type " + py::str(array.dtype()).cast<std::string>() + "; " +
+                                              (whole ? "whole" : "real") + " numbers are needed");
+}
+
 std::span<const Vec3> points_of(const ArrayOf<double>& array) {
     if (array.size() == 0) return {};
     if (array.ndim() != 2 || array.shape(1) != 3)

@@ -9,7 +9,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "kontur/base/error.h"
@@ -26,7 +28,7 @@ namespace kontur::python {
 
 namespace py = pybind11;
 
-/// C-ordered array of these numbers; other arrays and sequences are converted.
+/// C-ordered array of these numbers. As an argument it takes other arrays and sequences too, see `numbers_of`.
 template <class Value>
 using ArrayOf = py::array_t<Value, py::array::c_style | py::array::forcecast>;
 
@@ -34,6 +36,33 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<std::uint3
 
 /// "(4, 3)"
 std::string shape_text(const py::array& array);
+
+/// Throws Error(invalid_input) unless the array holds real numbers or booleans, whole ones where `whole`. Without elements
+/// anything goes.
+void check_numbers(const py::array& array, bool whole);
+
+/// Throws Error(invalid_input) for a whole number that Value does not have.
+template <class Value>
+void check_range(const py::array& array) {
+    const py::int_ least(std::numeric_limits<Value>::min()), most(std::numeric_limits<Value>::max());
+    for (const char* extreme : {"min", "max"})
+        if (const py::int_ value(array.attr(extreme)()); value < least || value > most)
+            throw Error(ErrorKind::invalid_input, py::str("an array has the value {}; {} to {} are possible")
+                                                      .format(value, least, most)
+                                                      .template cast<std::string>());
+}
+
+/// An array or a sequence as an array of these numbers; null for what NumPy makes no array of.
+template <class Value>
+ArrayOf<Value> numbers_of(py::handle source) {
+    const auto array = py::array::ensure(source);
+    if (!array) return py::reinterpret_steal<ArrayOf<Value>>(py::handle());
+    constexpr bool kWhole = std::is_integral_v<Value>;
+    check_numbers(array, kWhole);
+    if constexpr (kWhole)
+        if (array.size() > 0 && !py::isinstance<py::array_t<Value>>(array)) check_range<Value>(array);
+    return ArrayOf<Value>::ensure(array);
+}
 
 /// The rows of an (n, 3) array, or of an empty one. Throws Error(invalid_input) for another shape.
 std::span<const Vec3> points_of(const ArrayOf<double>& array);
@@ -171,14 +200,27 @@ struct type_caster<kontur::HoleEncoding> : word_caster<kontur::HoleEncoding> {};
 template <>
 struct type_caster<kontur::ConstraintKind> : word_caster<kontur::ConstraintKind> {};
 
+template <class Value>
+struct pyobject_caster<kontur::python::ArrayOf<Value>> {
+    using type = kontur::python::ArrayOf<Value>;
+
+    bool load(handle source, bool convert) {
+        if (!convert && !type::check_(source)) return false;
+        value = kontur::python::numbers_of<Value>(source);
+        return static_cast<bool>(value);
+    }
+    static handle cast(const handle& source, return_value_policy, handle) { return source.inc_ref(); }
+    PYBIND11_TYPE_CASTER(type, handle_type_name<type>::name);
+};
+
 /// Three numbers; an array of float64, shape (3,), in Python.
 template <>
 struct type_caster<kontur::Vec3> {
     PYBIND11_TYPE_CASTER(kontur::Vec3, const_name("numpy.ndarray"));
 
     bool load(handle source, bool) {
-        const auto array = kontur::python::ArrayOf<double>::ensure(source);
-        if (!array) return PyErr_Clear(), false;
+        const auto array = kontur::python::numbers_of<double>(source);
+        if (!array) return false;
         if (array.ndim() != 1 || array.size() != 3)
             throw value_error("an array has the shape " + kontur::python::shape_text(array) + "; (3,) is needed");
         value = {array.at(0), array.at(1), array.at(2)};
@@ -193,8 +235,8 @@ struct type_caster<std::vector<kontur::Vec3>> {
     PYBIND11_TYPE_CASTER(std::vector<kontur::Vec3>, const_name("numpy.ndarray"));
 
     bool load(handle source, bool) {
-        const auto array = kontur::python::ArrayOf<double>::ensure(source);
-        if (!array) return PyErr_Clear(), false;
+        const auto array = kontur::python::numbers_of<double>(source);
+        if (!array) return false;
         const auto points = kontur::python::points_of(array);
         value.assign(points.begin(), points.end());
         return true;

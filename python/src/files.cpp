@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 auto writer(void (*write)(const fs::path&, const ContourSet&, const Provenance&)) {
     return [write](const fs::path& path, const ContourSet& contours, const py::object& items) {
         const Provenance provenance = provenance_from(items);
-        const py::gil_scoped_release release;
+        const ReleasedLock released;
         write(path, contours, provenance);
     };
 }
@@ -82,7 +82,7 @@ mesh : TriangleMesh
 )",
         [](const fs::path& path, const TriangleMesh& mesh, const py::object& provenance) {
             const Provenance made = provenance_from(provenance);
-            const py::gil_scoped_release release;
+            const ReleasedLock released;
             write_mesh(path, mesh, made);
         },
         py::arg("path"), py::arg("mesh"), py::arg("provenance") = py::none());

@@ -28,7 +28,7 @@ ImplicitFunction function_from(Kernel kernel, const Vec3& frame_center_mm, doubl
 py::array_t<double> values_at(const ImplicitFunction& function, const ArrayOf<double>& points, int threads) {
     py::array_t<double> values(leading_shape(points));
     const std::span out(values.mutable_data(), static_cast<std::size_t>(values.size()));
-    const py::gil_scoped_release release;
+    const ReleasedLock released;
     function.values(span_of(points), out, threads);
     return values;
 }
@@ -38,7 +38,7 @@ py::array_t<double> gradients_at(const ImplicitFunction& function, const ArrayOf
     shape.push_back(3);
     py::array_t<double> gradients(shape);
     const std::span out(reinterpret_cast<Vec3*>(gradients.mutable_data()), static_cast<std::size_t>(gradients.size() / 3));
-    const py::gil_scoped_release release;
+    const ReleasedLock released;
     function.gradients(span_of(points), out, threads);
     return gradients;
 }

@@ -109,7 +109,7 @@ mask : Mask
         [writing](const fs::path& path, const Mask& mask, const py::object& provenance, const py::kwargs& given) {
             WriteMaskOptions options = writing.parse("write_mask", given);
             options.provenance = provenance_from(provenance);
-            const py::gil_scoped_release release;
+            const ReleasedLock released;
             write_mask(path, mask, options);
         },
         py::arg("path"), py::arg("mask"), py::kw_only(), py::arg("provenance") = py::none(), KeywordText(writing));
@@ -130,7 +130,7 @@ label_names : dict of int to str, optional
             WriteImageOptions options;
             options.provenance = provenance_from(provenance);
             for (const auto& [label, name] : label_names) options.names.push_back({label, name});
-            const py::gil_scoped_release release;
+            const ReleasedLock released;
             write_image(path, image, options);
         },
         py::arg("path"), py::arg("image"), py::kw_only(), py::arg("provenance") = py::none(),

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -14,65 +15,63 @@
 namespace kontur::python {
 namespace {
 
-/// A LiveEditor whose listener is Python's. Its thread takes the interpreter's lock for each update, so whoever waits for
-/// that thread must not hold it.
-class ListenedEditor {
+using namespace std::chrono_literals;
+
+/// What the editor's thread and Python's threads share; the last of them takes it along. Whoever waits for the editor's
+/// thread must not hold the interpreter's lock, which that thread takes for each update.
+class Session {
 public:
-    ListenedEditor(const EditorOptions& options, py::object listener) : listener_(std::move(listener)) {
-        editor_ = std::make_unique<LiveEditor>(options, [this](const EditorUpdate& update) { take(update); });
-        all().insert(this);
+    explicit Session(py::object listener) : listener_(std::move(listener)) {}
+    ~Session() {
+        const py::gil_scoped_acquire acquire;  // the editor's callback may have been the last owner
+        listener_ = {};
     }
-    ~ListenedEditor() { end(); }
-    ListenedEditor(const ListenedEditor&) = delete;
-    ListenedEditor& operator=(const ListenedEditor&) = delete;
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    static std::shared_ptr<Session> start(const EditorOptions& options, py::object listener) {
+        auto session = std::make_shared<Session>(std::move(listener));
+        session->editor_ =
+            std::make_unique<LiveEditor>(options, [session](const EditorUpdate& update) { session->take(update); });
+        return session;
+    }
 
     std::uint64_t edit(const ContourSet& contours) {
-        if (!editor_) throw Error(ErrorKind::invalid_input, "the editor is closed");
-        const py::gil_scoped_release release;
+        const ReleasedLock released;
         const std::scoped_lock lock(mutex_);  // so that no answer comes before its edit is known
+        if (!editor_) throw Error(ErrorKind::invalid_input, "the editor is closed");
         return newest_ = editor_->edit(contours);
     }
 
     /// Looks at signals every 20 ms; the editor works on when Ctrl-C ends the wait.
     void wait() {
-        refuse_listener("wait");
         constexpr std::chrono::milliseconds kPollInterval{20};
-        for (bool answered = false; !answered;) {
+        while (true) {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            const py::gil_scoped_release release;
+            const ReleasedLock released;
             std::unique_lock lock(mutex_);
-            answered = woken_.wait_for(lock, kPollInterval, [&] { return answered_ >= newest_; });
+            woken_.wait_for(lock, kPollInterval, [&] { return answered_ >= newest_ || !editor_; });
+            if (answered_ >= newest_) return;
+            if (!editor_)
+                throw Error(ErrorKind::cancelled,
+                            "the editor was closed before edit " + std::to_string(newest_) + " was refined");
         }
     }
 
-    void close() {
-        refuse_listener("close");
-        end();
+    /// Ends the waits; the editor is the caller's to destroy.
+    std::unique_ptr<LiveEditor> close() {
+        std::unique_ptr<LiveEditor> ending;
+        {
+            const std::scoped_lock lock(mutex_);
+            ending = std::move(editor_);
+        }
+        woken_.notify_all();
+        return ending;
     }
 
-    /// Before the interpreter ends, when its lock can no longer be taken.
-    static void close_all() {
-        while (!all().empty()) (*all().begin())->end();
-    }
+    bool is_own_thread() const { return std::this_thread::get_id() == thread_; }
 
 private:
-    static std::set<ListenedEditor*>& all() {
-        static std::set<ListenedEditor*> editors;
-        return editors;
-    }
-
-    void end() {
-        all().erase(this);
-        std::unique_ptr<LiveEditor> ending = std::move(editor_);
-        const py::gil_scoped_release release;
-        ending.reset();
-    }
-
-    void refuse_listener(const char* method) const {
-        if (std::this_thread::get_id() == thread_)
-            throw Error(ErrorKind::invalid_input, std::string("the listener of a LiveEditor must not call ") + method);
-    }
-
     void take(const EditorUpdate& update) {
         thread_ = std::this_thread::get_id();
         {
@@ -93,10 +92,88 @@ private:
 
     py::object listener_;
     std::atomic<std::thread::id> thread_;  ///< the editor's, once it has spoken
-    std::mutex mutex_;
+    std::mutex mutex_;                     // guards all below
     std::condition_variable woken_;
     std::uint64_t newest_ = 0, answered_ = 0;
-    std::unique_ptr<LiveEditor> editor_;
+    std::unique_ptr<LiveEditor> editor_;  ///< none once closed
+};
+
+/// A LiveEditor whose listener is Python's. Its members and those of the class are guarded by the interpreter's lock.
+class ListenedEditor {
+public:
+    ListenedEditor(const EditorOptions& options, py::object listener)
+        : session_(Session::start(options, std::move(listener))) {
+        all().insert(this);
+    }
+    ~ListenedEditor() { end(); }
+    ListenedEditor(const ListenedEditor&) = delete;
+    ListenedEditor& operator=(const ListenedEditor&) = delete;
+
+    std::uint64_t edit(const ContourSet& contours) const { return session()->edit(contours); }
+
+    void wait() const {
+        refuse_listener("wait");
+        session()->wait();
+    }
+
+    void close() {
+        refuse_listener("close");
+        end();
+    }
+
+    /// Before the interpreter ends, when its lock can no longer be taken.
+    static void close_all() {
+        while (!all().empty()) (*all().begin())->end();
+        auto ending = std::exchange(ending_elsewhere(), {});
+        const ReleasedLock released;
+        ending.clear();
+    }
+
+    /// In a forked process, which has the editors but not their threads: nothing can be waited for, no mutex trusted.
+    static void forget_all() {
+        for (ListenedEditor* editor : std::exchange(all(), {})) new auto(std::move(editor->session_));
+        new auto(std::exchange(ending_elsewhere(), {}));
+    }
+
+private:
+    static std::set<ListenedEditor*>& all() {
+        static std::set<ListenedEditor*> editors;
+        return editors;
+    }
+
+    /// Editors whose listener dropped them: a thread cannot wait for itself.
+    static std::vector<std::future<void>>& ending_elsewhere() {
+        static std::vector<std::future<void>> editors;
+        return editors;
+    }
+
+    /// A copy, as another thread may close this editor meanwhile.
+    std::shared_ptr<Session> session() const {
+        if (!session_) throw Error(ErrorKind::invalid_input, "the editor is closed");
+        return session_;
+    }
+
+    void end() {
+        all().erase(this);
+        const std::shared_ptr<Session> session = std::move(session_);
+        if (!session) return;
+        std::unique_ptr<LiveEditor> ending = session->close();
+        if (session->is_own_thread()) {
+            std::erase_if(ending_elsewhere(), [](const auto& e) { return e.wait_for(0s) == std::future_status::ready; });
+            ending_elsewhere().push_back(
+                std::async(std::launch::async, [editor = std::move(ending)]() mutable { editor.reset(); }));
+            return;
+        }
+        const ReleasedLock released;
+        ending.reset();
+    }
+
+    void refuse_listener(const char* method) const {
+        if (session_ && session_->is_own_thread())
+            throw Error(ErrorKind::invalid_input, std::string("the listener of a LiveEditor must not call ") + method);
+    }
+
+    std::shared_ptr<Session> session_;  ///< none once closed
 };
 
 std::string word(EditorUpdate::Kind kind) {
@@ -133,6 +210,7 @@ void bind_live_editor(py::module_& m, const Keywords<EditorOptions>& keywords) {
     const std::string help = filled_in(R"(An Editor on a thread of its own: previews the newest contours, then refines.
 
 An edit cancels a running refinement at once; a running preview is finished first. Close it, or use it in a `with` statement.
+In a forked process it is closed.
 
 Parameters
 ----------
@@ -155,18 +233,24 @@ Examples
     const std::string init_doc = docstring("__init__", "self, listener, *", "", KeywordText(keywords));
     editor.def(py::init([keywords](py::object listener, const py::kwargs& given) {
                    const EditorOptions options = keywords.parse("LiveEditor", given);
+                   if (PyCallable_Check(listener.ptr()) == 0)
+                       throw py::type_error("listener: a callable is needed, not " + py::repr(listener).cast<std::string>());
                    return std::make_unique<ListenedEditor>(options, std::move(listener));
                }),
                py::arg("listener"), init_doc.c_str());
     method(editor, "edit", "The contours are now this ContourSet; returns the number of the edit, from 1. Does not wait.",
            &ListenedEditor::edit, py::arg("contours"));
     method(editor, "wait",
-           "Waits until the newest edit is refined or has turned out to be a problem. Ctrl-C ends the wait, not the work.",
+           R"(Waits until the newest edit is refined or has turned out to be a problem.
+
+Ctrl-C ends the wait, not the work. Raises CancelledError when the editor is closed before.)",
            &ListenedEditor::wait);
     method(editor, "close", "Cancels what runs and ends the thread. Closing again does nothing.", &ListenedEditor::close);
     editor.def("__enter__", [](const py::object& self) { return self; });
     editor.def("__exit__", [](ListenedEditor& self, const py::args&) { self.close(); });
     py::module_::import("atexit").attr("register")(py::cpp_function(&ListenedEditor::close_all));
+    py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                           py::cpp_function(&ListenedEditor::forget_all));
 }
 
 }  // namespace kontur::python

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <new>
+#include <stdexcept>
+
 #include "bindings.h"
 
 namespace kontur::python {
@@ -32,6 +35,10 @@ PYBIND11_MODULE(_core, m) {
             if (pointer) std::rethrow_exception(pointer);
         } catch (const kontur::Error& error) {
             raise(error);
+        } catch (const std::bad_alloc&) {
+            raise({kontur::ErrorKind::too_large, "there is not enough memory for what this asks for"});
+        } catch (const std::length_error&) {
+            raise({kontur::ErrorKind::too_large, "this asks for more memory than any machine has"});
         }
     });
     m.attr("__version__") = KONTUR_VERSION;

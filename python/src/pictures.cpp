@@ -67,7 +67,7 @@ ndarray, shape (height_px, width_px, 3), uint8
         [](const std::filesystem::path& path, const ArrayOf<std::uint8_t>& pixels, const py::object& items) {
             const RgbImage image = image_from(pixels);
             const Provenance provenance = provenance_from(items);
-            const py::gil_scoped_release release;
+            const ReleasedLock released;
             write_png(path, image, provenance);
         },
         py::arg("path"), py::arg("pixels"), py::arg("provenance") = py::none());

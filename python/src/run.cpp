@@ -78,12 +78,12 @@ void run_work(const Listener& listener, const std::function<void(const Progress&
     for (bool finished = false; !finished;) {
         std::vector<Event> events;
         {
-            const py::gil_scoped_release release;
+            const ReleasedLock released;
             finished = relay.wait(events);
         }
         if (raised) continue;
         try {
-            attend(listener, events, source);
+            or_sleep_at_exit([&] { attend(listener, events, source); });
         } catch (py::error_already_set& error) {
             raised.emplace(error);
             source.request_stop();

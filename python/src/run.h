@@ -1,12 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cxxabi.h>
+#include <unistd.h>
+
 #include <optional>
 #include <utility>
 
 #include "casters.h"
 
 namespace kontur::python {
+
+/// Calls what may ask for the interpreter's lock. Once the interpreter ends, CPython 3.11 ends a daemon thread that asks for
+/// it by unwinding its stack, through what other threads still work on; such a thread sleeps here until the process is gone.
+template <class Call>
+void or_sleep_at_exit(const Call& call) {
+    try {
+        call();
+    } catch (const abi::__forced_unwind&) {
+        while (true) pause();
+    }
+}
+
+/// Gives up the interpreter's lock for a scope.
+class ReleasedLock {
+public:
+    ReleasedLock() : state_(PyEval_SaveThread()) {}
+    ~ReleasedLock() {
+        or_sleep_at_exit([this] { PyEval_RestoreThread(state_); });
+    }
+    ReleasedLock(const ReleasedLock&) = delete;
+    ReleasedLock& operator=(const ReleasedLock&) = delete;
+
+private:
+    PyThreadState* state_;
+};
 
 /// What the caller of a long function hands in: a callable (stage, fraction) and an object with is_set(); both may be None.
 struct Listener {
@@ -30,7 +58,7 @@ auto run(const Listener& listener, const Work& work) {
 /// For short calls: the result of `work`, computed without the interpreter's lock.
 template <class Work>
 auto unlocked(const Work& work) {
-    const py::gil_scoped_release release;
+    const ReleasedLock released;
     return work();
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include "bindings.h"
 #include "kontur/shape/volume.h"
@@ -17,13 +20,22 @@ void check_shape(const py::array& values, const Grid& grid) {
 
 template <class Value>
 std::vector<Value> copied(const py::array& values) {
-    const auto contiguous = ArrayOf<Value>::ensure(values);
-    if (!contiguous) throw py::error_already_set();
+    const ArrayOf<Value> contiguous(values);
     return {contiguous.data(), contiguous.data() + contiguous.size()};
+}
+
+/// Throws Error(unsupported) for an array of anything but real numbers and booleans.
+void check_type(const py::array& values, const char* what) {
+    if (std::string_view("biuf").find(values.dtype().kind()) == std::string_view::npos)
+        throw Error(ErrorKind::unsupported,
+                    std::string(what) + " of type " + py::str(values.dtype()).cast<std::string>() + " are no real numbers");
 }
 
 Mask mask_from(const py::array& values, const Grid& grid) {
     check_shape(values, grid);
+    check_type(values, "mask values");
+    if (values.dtype().kind() == 'f' && py::bool_(values.attr("__ne__")(values).attr("any")()))
+        throw Error(ErrorKind::invalid_input, "a mask has the value NaN, which is neither inside nor outside");
     return {grid, copied<std::uint8_t>(values.attr("__ne__")(0))};
 }
 
@@ -35,6 +47,32 @@ bool fits(const py::array& values) {
            !(values.attr("max")() > limit(std::numeric_limits<Value>::max()));
 }
 
+/// Whether a whole number has at most the 24 binary digits of a float.
+bool fits_float(std::uint64_t magnitude) { return magnitude == 0 || magnitude >> std::countr_zero(magnitude) < 1U << 24; }
+
+/// Throws Error(unsupported) for a whole number that float would change.
+template <class Whole>
+void check_exact(const py::array& values) {
+    const ArrayOf<Whole> wholes(values);
+    for (const Whole value : std::span(wholes.data(), static_cast<std::size_t>(wholes.size()))) {
+        const auto bits = static_cast<std::uint64_t>(value);
+        if (!fits_float(value < 0 ? 0 - bits : bits))
+            throw Error(ErrorKind::unsupported, "the sample " + std::to_string(value) +
+                                                    " fits neither into 32-bit integers nor exactly into 32-bit floats");
+    }
+}
+
+/// Throws Error(unsupported) for a finite number beyond the range of float.
+void check_magnitude(const py::array& values) {
+    const auto numpy = py::module_::import("numpy");
+    const py::float_ most(std::numeric_limits<float>::max());
+    const py::object beyond = numpy.attr("isfinite")(values) & numpy.attr("greater")(numpy.attr("abs")(values), most);
+    if (py::bool_(beyond.attr("any")()))
+        throw Error(ErrorKind::unsupported, py::str("the sample {} is beyond the range of 32-bit floats")
+                                                .format(values[beyond][py::int_(0)])
+                                                .cast<std::string>());
+}
+
 /// The array's own sample type where Image has it, else one that holds its values.
 Image::Samples samples_from(const py::array& values) {
     if (py::isinstance<py::array_t<std::uint8_t>>(values) || py::isinstance<py::array_t<bool>>(values))
@@ -42,11 +80,17 @@ Image::Samples samples_from(const py::array& values) {
     if (py::isinstance<py::array_t<std::int16_t>>(values)) return copied<std::int16_t>(values);
     if (py::isinstance<py::array_t<std::uint16_t>>(values)) return copied<std::uint16_t>(values);
     if (py::isinstance<py::array_t<std::int32_t>>(values)) return copied<std::int32_t>(values);
+    check_type(values, "samples");
     const char kind = values.dtype().kind();
-    if (kind != 'i' && kind != 'u' && kind != 'f')
-        throw Error(ErrorKind::unsupported,
-                    "samples of type " + py::str(values.dtype()).cast<std::string>() + " are no real numbers");
-    if (kind == 'f' || !fits<std::int32_t>(values)) return copied<float>(values);
+    if (kind == 'f') {
+        if (values.itemsize() > static_cast<py::ssize_t>(sizeof(float))) check_magnitude(values);
+        return copied<float>(values);
+    }
+    if (!fits<std::int32_t>(values)) {
+        if (kind == 'i') check_exact<std::int64_t>(values);
+        else check_exact<std::uint64_t>(values);
+        return copied<float>(values);
+    }
     if (fits<std::uint8_t>(values)) return copied<std::uint8_t>(values);
     if (fits<std::int16_t>(values)) return copied<std::int16_t>(values);
     if (fits<std::uint16_t>(values)) return copied<std::uint16_t>(values);
@@ -88,7 +132,7 @@ void bind_mask(py::module_& m) {
 Parameters
 ----------
 values : array_like, shape (z, y, x)
-    Inside where not 0; copied.
+    Inside where not 0; copied. NaN is refused.
 grid : Grid
 
 Examples
@@ -124,7 +168,7 @@ Parameters
 ----------
 samples : array_like, shape (z, y, x)
     Copied as uint8, int16, uint16, int32 or float32: its own type where it is one of these, else the first that holds all values;
-    64-bit floats become float32.
+    64-bit floats become float32. Integers that none of them holds and floats beyond float32 are refused.
 grid : Grid
 
 Examples

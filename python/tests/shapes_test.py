@@ -2,12 +2,14 @@
 """Values from Python to C++ and back."""
 import copy
 import gc
+import os
 import pickle
 
 import kontur
 import numpy
 import pytest
 
+SANITIZED = bool(os.environ.get("KONTUR_SANITIZED"))  # ends the process where memory does not suffice
 SQUARE = [[0, 0, 5], [10, 0, 5], [10, 10, 5], [0, 10, 5]]
 
 
@@ -112,7 +114,6 @@ def test_whatever_is_not_zero_is_inside(oblique):
         ("int64", -1024, 3000, "int16"),
         ("uint32", 0, 60000, "uint16"),
         ("int64", -70000, 70000, "int32"),
-        ("uint64", 0, 2**40, "float32"),
         (">i2", -5, 300, "int16"),
     ],
 )
@@ -122,6 +123,59 @@ def test_an_image_keeps_values_of_every_type(oblique, dtype, low, high, stored):
     assert image.samples.dtype == stored
     assert numpy.array_equal(image.samples, samples.astype(stored))
     assert numpy.array_equal(numpy.asarray(image), image.samples)
+
+
+def test_an_image_refuses_values_that_it_would_change(oblique):
+    def image(value, dtype):
+        return kontur.Image(numpy.full(oblique.shape, value, dtype), oblique)
+
+    for value, dtype in ((2**40, "uint64"), (-(2**63), "int64"), (3 * 2**62, "uint64"), (-(2**31) - 2**8, "int64")):
+        assert image(value, dtype).samples.dtype == "float32"
+        assert (image(value, dtype).samples.astype(dtype) == value).all()
+    for value, dtype in ((3000000001, "uint32"), (2**40 + 1, "int64"), (-(2**31) - 1, "int64"), (2**64 - 1, "uint64")):
+        with pytest.raises(kontur.UnsupportedError, match=f"the sample {value} fits neither"):
+            image(value, dtype)
+    with pytest.raises(kontur.UnsupportedError, match=r"the sample 1e\+300 is beyond"):
+        image(1e300, "float64")
+    assert numpy.isposinf(image(numpy.inf, "float64").samples).all()
+    assert numpy.isnan(image(numpy.nan, "float64").samples).all()
+
+
+def test_a_mask_of_anything_but_numbers_is_refused(oblique):
+    for array in (numpy.full(oblique.shape, "a"), numpy.full(oblique.shape, None), numpy.zeros(oblique.shape, complex)):
+        with pytest.raises(kontur.UnsupportedError, match="mask values of type .* are no real numbers"):
+            kontur.Mask(array, oblique)
+    with pytest.raises(kontur.InvalidInputError, match="NaN"):
+        kontur.Mask(numpy.full(oblique.shape, numpy.nan), oblique)
+
+
+def test_no_array_changes_its_numbers_on_the_way_in(tmp_path):
+    for points in (numpy.array(SQUARE) * (1 + 0j), numpy.array(SQUARE).astype(str), [["a", "b", "c"]] * 3):
+        with pytest.raises(kontur.InvalidInputError, match="real numbers are needed"):
+            kontur.Contour(points)
+    for points in (numpy.array(SQUARE, "float32"), numpy.array(SQUARE, object), numpy.asfortranarray(SQUARE)):
+        assert kontur.Contour(points).points.tolist() == SQUARE
+    for pixels, problem in ((300, "the value 300; 0 to 255 are"), (-1, "the value -1"), (0.99, "float64; whole numbers are needed")):
+        with pytest.raises(kontur.InvalidInputError, match=problem):
+            kontur.write_png(tmp_path / "picture.png", numpy.full((4, 4, 3), pixels))
+    kontur.write_png(tmp_path / "picture.png", numpy.full((4, 4, 3), 255))
+    with pytest.raises(kontur.InvalidInputError, match="the value 1099511627776"):
+        kontur.smooth_path(kontur.EdgeMap(numpy.eye(9)), numpy.full((3, 2), 2**40))
+    for triangles in ([[0, 1, 1.9]], [[0, 1, 2**63]]):
+        with pytest.raises(kontur.InvalidInputError):
+            kontur.TriangleMesh(numpy.eye(3), triangles)
+
+
+def test_more_than_fits_into_memory_is_refused(case, oblique):
+    image = kontur.Image(numpy.zeros(oblique.shape), oblique)
+    plane = kontur.Plane([0, 0, 0], [0, 0, 1])
+    for pixels in (2**31 - 1, 100_000):
+        with pytest.raises(kontur.TooLargeError, match=f"{pixels} x {pixels} pixels"):
+            kontur.reslice(image, plane, pixels, pixels, 1.0, 0.0)
+    if SANITIZED:
+        return
+    with pytest.raises(kontur.TooLargeError, match="memory"):
+        kontur.make_truth_mask(case.body, kontur.Grid((2**20, 2**20, 2**10), numpy.eye(4)))
 
 
 def test_an_image_of_complex_numbers_is_refused(oblique):

@@ -209,12 +209,41 @@ TEST(Solve, RefusesUnusableInput) {
     EXPECT_KONTUR_ERROR(solve(good, {.smoothing = std::nan("")}), ErrorKind::invalid_input, "smoothing");
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = 0}), ErrorKind::invalid_input, "tolerance");
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = std::nan("")}), ErrorKind::invalid_input, "tolerance");
+    EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = -1e-7}), ErrorKind::invalid_input, "is -1e-07 mm");
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_KONTUR_ERROR(solve(good, {.smoothing = infinity}), ErrorKind::invalid_input, "the smoothing is inf");
+    EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = infinity}), ErrorKind::invalid_input, "tolerance is inf mm");
     ConstraintSet bad = good;
     bad.centers[6].y = std::nan("");
     EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "constraint 7 is not finite");
     bad = good;
-    bad.values[2] = std::numeric_limits<double>::infinity();
+    bad.values[2] = infinity;
     EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "constraint 3 is not finite");
+}
+
+TEST(Solve, RefusesASmoothingThatOverflows) {
+    std::mt19937 random = test::random_of_this_test();
+    ConstraintSet set = random_constraints(10, random);
+    set.trust.assign(set.size(), 1.0);
+    set.trust[3] = 0.1;
+    for (const Solver solver : kSolvers)
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver, .smoothing = 1e308}), ErrorKind::invalid_input,
+                            "divided by 0.1, the trust in constraint 4, it is not finite");
+}
+
+TEST(Solve, NeverGivesAFunctionThatIsNotFinite) {
+    std::mt19937 random = test::random_of_this_test();
+    ConstraintSet set = random_constraints(10, random);
+    for (std::size_t i = 0; i < set.size(); ++i) set.values[i] = i % 2 ? 1e308 : -1e308;
+    for (const Solver solver : kSolvers)
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}), ErrorKind::singular_system,
+                            solver == Solver::iterative ? "residual" : "finite");
+}
+
+TEST(Solve, NamesAResidualHoweverSmall) {
+    const ConstraintSet set = crossing_contours(20);
+    EXPECT_KONTUR_ERROR(solve(set, {.solver = Solver::iterative, .tolerance_mm = 1e-300}), ErrorKind::singular_system,
+                        "; 1e-300 mm were asked for");
 }
 
 TEST(Solve, StopsWhenAskedTo) {

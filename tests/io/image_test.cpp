@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/image.h"
 
+#include <algorithm>
+
 #include "image_cases.h"
 #include "kontur/io/nrrd.h"
 #include "support/temporary_folder.h"
@@ -45,6 +47,13 @@ TEST_P(ImageFiles, LabelValueChoosesTheNarrowestSamples) {
         EXPECT_EQ(count_labels(image), (Labels{{value, 12}}));
         EXPECT_EQ(read_mask(path(), value).values, mask.values);
     }
+}
+
+TEST_P(ImageFiles, EveryVoxelInsideGetsTheLabel) {
+    Mask loud = mask;
+    std::replace(loud.values.begin(), loud.values.end(), std::uint8_t{1}, std::uint8_t{255});
+    write_mask(path(), loud);
+    EXPECT_EQ(count_labels(read_image(path())), count_labels({mask.grid, mask.values}));
 }
 
 TEST_P(ImageFiles, ImageComesBack) {

@@ -227,10 +227,11 @@ TEST(Segment, RefusesInputThatCannotBeSegmented) {
         refused(invalid_input, "offset", [&](ContourSet&, Grid&, SegmentOptions& o) { o.normal_offset_mm = bad; });
     for (const double bad : {0.0, -0.5, 1.5, nan})
         refused(invalid_input, "quality", [&](ContourSet&, Grid&, SegmentOptions& o) { o.quality = bad; });
-    for (const double bad : {-1.0, nan})
+    for (const double bad : {-1.0, nan, infinity})
         refused(invalid_input, "smoothing", [&](ContourSet&, Grid&, SegmentOptions& o) { o.smoothing = bad; });
-    for (const double bad : {0.0, -1.0, nan})
+    for (const double bad : {0.0, -1.0, nan, infinity})
         refused(invalid_input, "tolerance", [&](ContourSet&, Grid&, SegmentOptions& o) { o.tolerance_mm = bad; });
+    refused(invalid_input, "tolerance is -1 mm", [](ContourSet&, Grid&, SegmentOptions& o) { o.tolerance_mm = -1; });
 }
 
 TEST(Segment, StopsAtWhicheverReportItIsAskedTo) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kontur/base/error.h"
+#include "support/expect_error.h"
 
 namespace kontur {
 namespace {
@@ -93,6 +94,7 @@ TEST(GridAround, RefusesBadSpacingAndBoxes) {
     EXPECT_THROW(grid_around(Box3{}, {1, 1, 1}, 0), Error);
     EXPECT_THROW(grid_around(box, {1e-9, 1e-9, 1e-9}, 0), Error);
     EXPECT_THROW(grid_around(box, {1, 1, 1}, nan), Error);
+    EXPECT_KONTUR_ERROR(grid_around(box, {1e-9, 1, 1}, 1e300), ErrorKind::too_large, "spacing of 1e-09 mm over 2e+300 mm");
 }
 
 TEST(CornerDistance, SeesARotationThatTheOriginDoesNotShow) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "support/bodies.h"
+#include "support/expect_error.h"
 
 namespace kontur {
 namespace {
@@ -18,6 +21,20 @@ TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
     a.points.insert(a.points.end(), b.points.begin(), b.points.end());
     for (const auto& [p, q, r] : b.triangles) a.triangles.push_back({p + shift, q + shift, r + shift});
     return a;
+}
+
+TEST(CheckMesh, NamesWhatDoesNotFitTogether) {
+    EXPECT_NO_THROW(check_mesh({}));
+    EXPECT_NO_THROW(check_mesh(ball({1, 2, 3}, 10, 2)));
+    for (const double bad : {std::nan(""), -1e39, std::numeric_limits<double>::infinity()}) {
+        TriangleMesh mesh = ball({1, 2, 3}, 10, 2);
+        mesh.points[4].z = bad;
+        EXPECT_KONTUR_ERROR(check_mesh(mesh), ErrorKind::invalid_input, "point 5 of the mesh is (");
+    }
+    const std::vector<Vec3> points(3);
+    EXPECT_KONTUR_ERROR(check_mesh({points, {}, {{0, 1, 3}}}), ErrorKind::invalid_input,
+                        "triangle 1 of the mesh refers to point 4 of 3");
+    EXPECT_KONTUR_ERROR(check_mesh({points, {{0, 0, 1}}, {}}), ErrorKind::invalid_input, "1 normals for 3 points");
 }
 
 TEST(SignedVolume, BallFarFromTheOriginConvergesToTheAnalyticVolume) {

@@ -138,6 +138,13 @@ TEST(Picture, RefusesSizesThatNobodyCanReadOrStore) {
     EXPECT_KONTUR_ERROR(make_picture({}, {}, nullptr, {.width_px = 20000}), ErrorKind::too_large, "20000");
 }
 
+TEST(Picture, RefusesAMeshThatIsNotFinite) {
+    for (const double bad : {std::nan(""), 1e300}) {
+        const TriangleMesh mesh{{{bad, 0, 0}, {0, bad, 0}, {0, 0, bad}}, {}, {{0, 1, 2}}};
+        EXPECT_KONTUR_ERROR(make_picture(mesh, {}, nullptr), ErrorKind::invalid_input, "point 1 of the mesh");
+    }
+}
+
 TEST(Picture, ComesOutWithoutAnyFont) {
     // Only effective where this test has the process to itself, as under ctest: fontconfig reads its settings once.
     const test::TemporaryFolder folder;

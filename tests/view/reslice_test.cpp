@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "kontur/base/error.h"
@@ -92,6 +93,8 @@ TEST(Reslice, RefusesRastersWithoutPixelsOrSize) {
     EXPECT_KONTUR_ERROR(reslice(image, {{}, 0, 5, 1}, 0), ErrorKind::invalid_input, "0 x 5");
     EXPECT_KONTUR_ERROR(reslice(image, {{}, 5, 5, 0}, 0), ErrorKind::invalid_input, "pixel size");
     EXPECT_KONTUR_ERROR(reslice(image, {{}, 5, 5, NAN}, 0), ErrorKind::invalid_input, "pixel size");
+    constexpr int kMost = std::numeric_limits<int>::max();
+    EXPECT_KONTUR_ERROR(reslice(image, {{}, kMost, kMost, 1}, 0), ErrorKind::too_large, "at most 268435456");
 }
 
 }  // namespace

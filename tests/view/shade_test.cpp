@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "kontur/view/depth_buffer.h"
@@ -91,6 +93,21 @@ TEST(RenderDepth, NearerSurfaceHidesTheFarther) {
 TEST(RenderDepth, ClipsWhatLiesBesideThePicture) {
     const DepthBuffer buffer = render_depth(ball({1000, 0, 0}, 5, 3), {view_plane({}, kFromFront), 50, 50, 0.2}, 1);
     for (const auto& pixel : buffer.pixels) EXPECT_FALSE(pixel.is_covered());
+}
+
+TEST(RenderDepth, LeavesOutTrianglesThatAreNotFinite) {
+    const Camera camera{view_plane({}, kFromFront), 200, 200, 0.2};
+    const TriangleMesh whole = ball({}, 5, 3);
+    for (const double bad : {std::nan(""), 1e300, -1e300, std::numeric_limits<double>::infinity()}) {
+        TriangleMesh mesh = whole;
+        const auto first = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.insert(mesh.points.end(), {{bad, 0, 0}, {0, bad, 0}, {0, 0, bad}});
+        mesh.normals.resize(mesh.points.size());
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        const DepthBuffer expected = render_depth(whole, camera, 1), buffer = render_depth(mesh, camera, 1);
+        for (std::size_t i = 0; i < buffer.pixels.size(); ++i)
+            ASSERT_EQ(buffer.pixels[i].depth_mm, expected.pixels[i].depth_mm) << bad;
+    }
 }
 
 TEST(PointNormals, OfABallPointOutward) {

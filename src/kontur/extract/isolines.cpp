@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/extract/isolines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <string>
@@ -128,7 +130,7 @@ BoxCorners corners(const Box3& box) {
 
 std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& region, double step_mm) {
     if (!(step_mm > 0) || !std::isfinite(step_mm))
-        throw Error(ErrorKind::invalid_input, "the sampling step is " + std::to_string(step_mm) + " mm; it must be > 0");
+        throw Error(ErrorKind::invalid_input, fmt::format("the sampling step is {:g} mm; it must be > 0", step_mm));
     Box3 section;  // in (u, v, distance)
     for (unsigned a = 0; a < 8; ++a)
         for (unsigned bit = 1; bit < 8; bit *= 2) {
@@ -147,9 +149,9 @@ std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& r
     const auto nodes = [&](double low, double high) { return std::ceil(high / step_mm) + 2 - first(low); };
     const double columns = nodes(section.min.x, section.max.x), rows = nodes(section.min.y, section.max.y);
     if (!(columns * rows <= static_cast<double>(kMaxNodes)))
-        throw Error(ErrorKind::too_large, "a sampling step of " + std::to_string(step_mm) + " mm needs " +
-                                              std::to_string(columns * rows) + " samples on one plane; the limit is " +
-                                              std::to_string(kMaxNodes));
+        throw Error(ErrorKind::too_large,
+                    fmt::format("a sampling step of {:g} mm needs {:g} samples on one plane; the limit is {}", step_mm,
+                                columns * rows, kMaxNodes));
     lattice.u_min_mm = first(section.min.x) * step_mm;
     lattice.v_min_mm = first(section.min.y) * step_mm;
     lattice.columns = static_cast<std::int64_t>(columns);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/extract/trace.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -158,8 +160,8 @@ void check_arguments(const Mask& mask, std::span<const Plane> planes, const Trac
                                                   " voxels");
     for (const double option : {options.step_mm, options.tolerance_mm, options.min_area_mm2})
         if (!(option >= 0 && std::isfinite(option)))
-            throw Error(ErrorKind::invalid_input, "a trace option is " + std::to_string(option) +
-                                                      "; step_mm, tolerance_mm and min_area_mm2 must be >= 0");
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("a trace option is {:g}; step_mm, tolerance_mm and min_area_mm2 must be >= 0", option));
     check_planes(planes);
 }
 

@@ -231,6 +231,7 @@ private:
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
 Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+    check_solve_options(options.solve);  // before the early solves, which change them
     return Fitter(contours, options, progress).run();
 }
 

@@ -59,7 +59,9 @@ double largest_residual(const LinearSystem& system, const Coefficients& c, int t
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const Vec3 p = system.centers[i];
         const double f = sums[i] + c.polynomial[0] + c.polynomial[1] * p.x + c.polynomial[2] * p.y + c.polynomial[3] * p.z;
-        largest = std::max(largest, std::abs(f + system.diagonal(i) * c.weights[i] - system.values[i]));
+        const double error = std::abs(f + system.diagonal(i) * c.weights[i] - system.values[i]);
+        if (!std::isfinite(error)) return error;  // std::max would pass over NaN
+        largest = std::max(largest, error);
     }
     return largest;
 }

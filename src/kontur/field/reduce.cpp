@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/reduce.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <queue>
@@ -65,7 +67,7 @@ private:
 Contour reduce(const Contour& contour, const ReduceOptions& options) {
     if (!(options.quality > 0 && options.quality <= 1))
         throw Error(ErrorKind::invalid_input,
-                    "the reduction quality is " + std::to_string(options.quality) + "; it must be in (0, 1]");
+                    fmt::format("the reduction quality is {:g}; it must be in (0, 1]", options.quality));
     const std::size_t n = contour.points.size();
     // 0.55 * 100 is a little more than 55 in binary; that must not cost a point.
     const auto wanted = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n) * (1 - 1e-12)));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/solve.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -36,15 +38,11 @@ void check(const ConstraintSet& constraints, const SolveOptions& options) {
             throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
     for (std::size_t i = 0; i < constraints.trust.size(); ++i)
         if (!(constraints.trust[i] > 0 && std::isfinite(constraints.trust[i])))
-            throw Error(ErrorKind::invalid_input, "the trust in constraint " + std::to_string(i + 1) + " is " +
-                                                      std::to_string(constraints.trust[i]) +
-                                                      "; it must be finite and above 0");
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the trust in constraint {} is {:g}; it must be finite and above 0", i + 1,
+                                    constraints.trust[i]));
     check_distinct(constraints.centers);
-    if (!(options.tolerance_mm > 0))
-        throw Error(ErrorKind::invalid_input,
-                    "the solver's tolerance is " + std::to_string(options.tolerance_mm) + " mm; it must be above 0");
-    if (!(options.smoothing >= 0))
-        throw Error(ErrorKind::invalid_input, "the smoothing is " + std::to_string(options.smoothing) + "; it must be >= 0");
+    check_solve_options(options);
 }
 
 void check_memory(std::size_t centers, double bytes_per_entry, const SolveOptions& options) {
@@ -69,7 +67,13 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
 
 std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options) {
     std::vector<double> smoothing(constraints.size(), options.smoothing);
-    for (std::size_t i = 0; i < constraints.trust.size(); ++i) smoothing[i] /= constraints.trust[i];
+    for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
+        smoothing[i] /= constraints.trust[i];
+        if (!std::isfinite(smoothing[i]))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the smoothing is {:g}; divided by {:g}, the trust in constraint {}, it is not finite",
+                                    options.smoothing, constraints.trust[i], i + 1));
+    }
     return smoothing;
 }
 
@@ -111,6 +115,15 @@ std::string_view name(Solver solver) noexcept {
 
 std::string_view name(Kernel kernel) noexcept { return kernel == Kernel::triharmonic ? "triharmonic" : "biharmonic"; }
 
+void check_solve_options(const SolveOptions& options) {
+    if (!(options.tolerance_mm > 0 && std::isfinite(options.tolerance_mm)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the solver's tolerance is {:g} mm; it must be finite and above 0", options.tolerance_mm));
+    if (!(options.smoothing >= 0 && std::isfinite(options.smoothing)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the smoothing is {:g}; it must be finite and at least 0", options.smoothing));
+}
+
 Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress,
                PreviousSolve* previous) {
     SolveOptions options = requested;
@@ -128,8 +141,9 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
         if (previous->centers == constraints.centers) system.pattern = previous->pattern;
     }
     Coefficients c = run(system, options, progress);
-    for (const double w : c.weights)
-        if (!std::isfinite(w)) throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
+    const auto finite = [](double w) { return std::isfinite(w); };
+    if (!finite(c.residual) || !std::ranges::all_of(c.weights, finite))
+        throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
 
     if (previous) *previous = remember(constraints, c, scale);
     Solution solution;

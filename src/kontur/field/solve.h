@@ -33,6 +33,9 @@ struct SolveOptions {
     int threads = 0;                          ///< 0: the machine's
 };
 
+/// Throws Error(invalid_input) for a tolerance that is not above 0, a smoothing below 0, and either that is not finite.
+void check_solve_options(const SolveOptions& options);
+
 struct SolveReport {
     Solver solver = Solver::automatic;  ///< the one that ran
     std::size_t centres = 0;            ///< number of weights
@@ -62,7 +65,8 @@ struct PreviousSolve {
 
 /// The variational interpolant through the constraints: Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
 /// Throws Error(singular_system) when the centres coincide or all lie in one plane, Error(too_large) when the dense matrix
-/// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints or values that are not finite.
+/// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints, values that are not finite, or what
+/// `check_solve_options` refuses.
 /// Results are the same bytes for any number of threads. The iterative solver starts from the weights that centres had in
 /// the `previous` solve, which is replaced by this one; so it takes fewer iterations to the same tolerance.
 Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {},

@@ -93,7 +93,8 @@ void factorise(TiledMatrix& a, int threads, const Progress& progress) {
         progress.report("solve", static_cast<double>(k) / static_cast<double>(a.tiles()));
         const int nk = a.rows(k);
         const lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', nk, a.tile(k, k), kLead);
-        if (info != 0)
+        if (info < 0) throw Error(ErrorKind::singular_system, "the reduced system has entries that are not finite");
+        if (info > 0)
             throw Error(ErrorKind::singular_system, "the reduced system is not positive definite at row " +
                                                         std::to_string(a.begin(k) + static_cast<std::size_t>(info)) +
                                                         "; constraints coincide or contradict each other");

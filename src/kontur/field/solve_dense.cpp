@@ -26,7 +26,8 @@ Coefficients solve_dense(const LinearSystem& system) {
     const auto order = static_cast<lapack_int>(n);
     const lapack_int info =
         LAPACKE_dsysv(LAPACK_COL_MAJOR, 'L', order, 1, matrix.data(), order, pivots.data(), right.data(), order);
-    if (info != 0)
+    if (info < 0) throw Error(ErrorKind::singular_system, "the linear system has entries that are not finite");
+    if (info > 0)
         throw Error(ErrorKind::singular_system, "the linear system is singular (dsysv stopped at pivot " +
                                                     std::to_string(info) + " of " + std::to_string(n) + ")");
 

@@ -10,6 +10,8 @@
 #include "kontur/field/preconditioner.h"
 #include "kontur/field/projected_operator.h"
 
+#include <fmt/format.h>
+
 namespace kontur {
 namespace {
 
@@ -223,10 +225,11 @@ Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& opt
     solver.run();
     Coefficients c = solver.result(system);
     if (!(c.residual <= 1e3 * options.tolerance_mm))
-        throw Error(ErrorKind::singular_system,
-                    "the iterative solver stopped at a residual of " + std::to_string(c.residual) + " mm after " +
-                        std::to_string(c.iterations) + " iterations; the limit is " + std::to_string(options.tolerance_mm) +
-                        " mm. Constraints coincide or contradict each other; the cholesky solver may help");
+        throw Error(
+            ErrorKind::singular_system,
+            fmt::format("the iterative solver stopped at a residual of {:.3g} mm after {} iterations; {:.3g} mm were "
+                        "asked for. Constraints coincide or contradict each other; the cholesky solver may help",
+                        c.residual, c.iterations, options.tolerance_mm));
     return c;
 }
 

@@ -226,7 +226,8 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
         view.provenance = options.provenance;
         write(path, view, segment);
     };
-    if (value == 1) write_view(mask);
+    const bool has_zeros_and_ones = std::ranges::all_of(mask.values, [](std::uint8_t v) { return v <= 1; });
+    if (value == 1 && has_zeros_and_ones) write_view(mask);
     else if (value <= 255) write_view(Image{mask.grid, with_value_inside<std::uint8_t>(mask, value)});
     else write_view(Image{mask.grid, with_value_inside<std::uint16_t>(mask, value)});
 }

@@ -35,24 +35,6 @@ const Format& format_of(const std::filesystem::path& path) {
     return *format;
 }
 
-void check_mesh(const TriangleMesh& mesh) {
-    if (!mesh.normals.empty() && mesh.normals.size() != mesh.points.size())
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the mesh has {} normals for {} points", mesh.normals.size(), mesh.points.size()));
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        const Vec3& p = mesh.points[i];
-        constexpr double kLargest = std::numeric_limits<float>::max();
-        if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargest)
-            throw Error(ErrorKind::invalid_input, fmt::format("point {} of the mesh is ({}, {}, {}); at most {} is possible",
-                                                              i + 1, p.x, p.y, p.z, kLargest));
-    }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (const std::uint32_t corner : mesh.triangles[i])
-            if (corner >= mesh.points.size())
-                throw Error(ErrorKind::invalid_input, fmt::format("triangle {} of the mesh refers to point {} of {}", i + 1,
-                                                                  std::uint64_t{corner} + 1, mesh.points.size()));
-}
-
 template <class Number>
 Number parsed(std::string_view word, const char* what) {
     Number value{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/phantom/phantom.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "kontur/base/error.h"
@@ -81,7 +83,7 @@ Grid oblique_abdomen_grid() { return oblique(grid_around({{-198, -138, -140}, {1
 Image make_phantom_image(const Grid& grid, const PhantomOptions& options, const Progress& progress) {
     check_grid(grid);
     if (!(options.noise_hu >= 0 && std::isfinite(options.noise_hu)))
-        throw Error(ErrorKind::invalid_input, "noise_hu is " + std::to_string(options.noise_hu) + "; it must be >= 0");
+        throw Error(ErrorKind::invalid_input, fmt::format("noise_hu is {:g}; it must be >= 0", options.noise_hu));
     const Painter painter(grid, options);
     std::vector<std::int16_t> samples(static_cast<std::size_t>(grid.voxel_count()));
     for (std::int64_t k = 0; k < grid.size.k; ++k) {

@@ -29,8 +29,8 @@ Vec3 last_index(const Grid& grid) {
 void check_spacing(const Vec3& spacing_mm) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(spacing_mm[axis] > 0) || !std::isfinite(spacing_mm[axis]))
-            throw Error(ErrorKind::invalid_input, "spacing along axis " + std::to_string(axis + 1) + " is " +
-                                                      std::to_string(spacing_mm[axis]) + " mm; it must be above 0");
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("spacing along axis {} is {:g} mm; it must be above 0", axis + 1, spacing_mm[axis]));
 }
 
 }  // namespace
@@ -82,8 +82,9 @@ Grid grid_around(const Box3& box, const Vec3& spacing_mm, double margin_mm) {
         const double count = std::max(1.0, std::ceil(covered.size()[axis] / spacing_mm[axis] - kNoise));
         voxels *= count;
         if (voxels > kMaxVoxels)
-            throw Error(ErrorKind::too_large, "a grid with a spacing of " + std::to_string(spacing_mm[axis]) + " mm over " +
-                                                  std::to_string(covered.size()[axis]) + " mm has more than 2^53 voxels");
+            throw Error(ErrorKind::too_large,
+                        fmt::format("a grid with a spacing of {:g} mm over {:g} mm has more than 2^53 voxels",
+                                    spacing_mm[axis], covered.size()[axis]));
         grid.size[axis] = static_cast<std::int64_t>(count);
         grid.index_to_mm.linear[axis][axis] = spacing_mm[axis];
         grid.index_to_mm.translation[axis] = covered.center()[axis] - 0.5 * (count - 1) * spacing_mm[axis];

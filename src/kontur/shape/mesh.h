@@ -16,6 +16,10 @@ struct TriangleMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// Throws Error(invalid_input) for a point that is not finite or beyond what `float` holds, a triangle with a point that the
+/// mesh does not have, or normals for other than all points.
+void check_mesh(const TriangleMesh& mesh);
+
 /// Enclosed volume in mm^3 (divergence theorem); negative when the triangles are turned inward.
 double signed_volume_mm3(const TriangleMesh& mesh);
 

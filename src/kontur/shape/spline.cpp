@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/shape/spline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +29,7 @@ Vec3 evaluate(const std::array<Vec3, 4>& p, const std::array<double, 4>& knots, 
 std::vector<Vec3> spline_stretch(const Vec3& before, const Vec3& from, const Vec3& to, const Vec3& after, double step_mm) {
     if (!(step_mm > 0))
         throw Error(ErrorKind::invalid_input,
-                    "the step of a spline is " + std::to_string(step_mm) + " mm; it must be greater than 0");
+                    fmt::format("the step of a spline is {:g} mm; it must be greater than 0", step_mm));
     if (from == to) return {};
     const std::array<Vec3, 4> p{before == from ? 2.0 * from - to : before, from, to, after == to ? 2.0 * to - from : after};
     std::array<double, 4> knots{};

@@ -2,6 +2,7 @@
 #include "kontur/view/depth_buffer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/parallel.h"
 
@@ -34,6 +35,11 @@ std::array<int, 2> pixel_range(double low, double high, int size) {
     return {static_cast<int>(first), static_cast<int>(last)};
 }
 
+/// Twice the triangle's area on the screen, with the sign of its turn.
+double signed_area(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
 /// Fills one triangle at a time, clipped to a band of rows.
 class BandFiller {
 public:
@@ -41,8 +47,7 @@ public:
         : buffer_(buffer), first_row_(first_row), last_row_(last_row) {}
 
     void fill(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) const {
-        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        if (area == 0) return;
+        const double area = signed_area(a, b, c);
         const auto [x0, x1] = pixel_range(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), buffer_.width);
         const auto [y0, y1] = pixel_range(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), buffer_.height);
         // A hair more than the triangle, so that rounding leaves no gap between neighbours.
@@ -74,11 +79,14 @@ private:
 };
 
 /// Indices of the triangles that touch each band of rows, in the mesh's order: what makes ties of depth deterministic.
+/// Those without an area on the screen, or with one that is not finite, are left out.
 std::vector<std::vector<std::uint32_t>> triangles_by_band(const TriangleMesh& mesh, const std::vector<ScreenPoint>& points,
                                                           int height) {
     std::vector<std::vector<std::uint32_t>> bands(static_cast<std::size_t>((height + kBandRows - 1) / kBandRows));
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
+        const double area = signed_area(points[a], points[b], points[c]);
+        if (area == 0 || !std::isfinite(area)) continue;
         const auto [first, last] = pixel_range(std::min({points[a].y, points[b].y, points[c].y}),
                                                std::max({points[a].y, points[b].y, points[c].y}), height);
         for (int band = first / kBandRows; band * kBandRows <= last; ++band) bands[band].push_back(t);

@@ -26,7 +26,8 @@ struct DepthBuffer {
     }
 };
 
-/// Fills the triangles by a depth test with interpolated normals, which are turned to face the viewer.
+/// Fills the triangles by a depth test with interpolated normals, which are turned to face the viewer. A triangle
+/// with a point that is not finite is left out.
 DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, int threads);
 
 /// A unit normal per point, the mean over its triangles by area; (0, 0, 0) for points in no triangle.

@@ -133,6 +133,7 @@ void check_size(const PictureOptions& options) {
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
                       const PictureOptions& options) {
     check_size(options);
+    check_mesh(mesh);
     const Layout layout = lay_out(options.width_px, options.height_px);
     Canvas canvas(options.width_px, options.height_px);
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/view/reslice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -54,11 +56,15 @@ void sample_row(const std::vector<Sample>& samples, const Index3& size, Vec3 ind
 
 void check_raster(const Reslice& raster) {
     if (raster.width < 1 || raster.height < 1)
-        throw Error(ErrorKind::invalid_input, "a slice of " + std::to_string(raster.width) + " x " +
-                                                  std::to_string(raster.height) + " pixels; at least 1 x 1 is needed");
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("a slice of {} x {} pixels; at least 1 x 1 is needed", raster.width, raster.height));
+    constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+    if (std::int64_t{raster.width} * raster.height > kMostPixels)
+        throw Error(ErrorKind::too_large, fmt::format("a slice of {} x {} pixels; at most {} in all are possible",
+                                                      raster.width, raster.height, kMostPixels));
     if (!(raster.pixel_mm > 0 && std::isfinite(raster.pixel_mm)))
         throw Error(ErrorKind::invalid_input,
-                    "a slice with a pixel size of " + std::to_string(raster.pixel_mm) + " mm; more than 0 is needed");
+                    fmt::format("a slice with a pixel size of {:g} mm; more than 0 is needed", raster.pixel_mm));
 }
 
 }  // namespace

@@ -20,10 +20,13 @@ export interface MeshHeader {
 
 /** Requests for bulk data below `/api/`. One that is aborted costs the server nothing more. */
 export class Http {
+  /** Names this load of the page: a later slice overtakes an earlier one of the same view of the same page only. */
+  private readonly page = [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+
   constructor(private readonly token: string) {}
 
   async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
-    return new BinaryReply(await (await this.post("slice", JSON.stringify(request))).arrayBuffer());
+    return new BinaryReply(await (await this.post("slice", JSON.stringify({ page: this.page, ...request }))).arrayBuffer());
   }
 
   async mesh(structure: number): Promise<BinaryReply<MeshHeader>> {

@@ -2,11 +2,16 @@
 import { BinaryReply } from "./binary";
 import type { SliceHeader, SliceRequest } from "./protocol";
 
-/** An answer that the server gave, or that it gave none; `message` is a sentence for the user. */
+/**
+ * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
+ * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came.
+ */
 export class ServerError extends Error {
   constructor(
     readonly kind: string,
     message: string,
+    /** Whether the call would have changed the project. */
+    readonly edits = false,
   ) {
     super(message);
   }

@@ -360,9 +360,11 @@ export class SliceView {
     const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
     const { sketch } = editor;
     if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
-      const placed = editor.placedLine.length > 1 ? editor.placedLine : sketch.points.map((point) => point.at);
+      const placed = editor.placedLine.length > 1 ? editor.placedLine : sketch.line();
       painter.sketch(placed, editor.rubberLine, sketch.points.map((point) => point.at), color, editor.pointerCloses);
     }
+    for (const { sketch: closed, line } of editor.closedLines())
+      if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
     if (near(editor.handLine[0]) && near(editor.handLine.at(-1))) painter.hand(editor.handLine, color);
   }
 

@@ -59,7 +59,7 @@ export class App {
   private hintSeen = false;
   private saveTimer = 0;
 
-  constructor(token: string) {
+  constructor(private readonly token: string) {
     this.http = new Http(token);
     this.socket = new Socket(token, {
       event: (event) => this.receive(event),
@@ -228,8 +228,15 @@ export class App {
 
   private tellNotSaved(why: string): void {
     this.closeUnsavedNotice();
-    this.closeUnsavedNotice = this.notices.show("error", `${why.replace(/\.?$/, ".")} The contour that you closed is not saved. It stays on its slice: Enter tries again, Esc gives it up.`);
+    const stays = "The contour that you closed is not saved. It stays on its slice: Enter tries again, Esc gives it up.";
+    this.closeUnsavedNotice = this.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescue()].join(" "));
     this.tellSaved();
+  }
+
+  /** Only a kontur at this very address can take what this page alone still has. */
+  private rescue(): string {
+    if (this.connection === "open") return "";
+    return `If kontur has ended, start it for this page: kontur open ${this.session?.project} --port ${location.port} --token ${this.token}`;
   }
 
   /** While there is no connection only lost work is worth a word: that there is none has been said. */

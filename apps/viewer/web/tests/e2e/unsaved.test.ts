@@ -88,6 +88,7 @@ describe("a contour that was closed", () => {
     await notice("at the address that it prints then").waitFor();
     await page.keyboard.press("Enter");
     await notice("is not saved").waitFor();
+    assert.ok((await notice("is not saved").textContent())!.includes(`--port ${server.port} --token ${server.token}`), "as it is started again below");
     assert.match((await page.locator("[data-test=saved]").textContent())!, /not all is saved/);
     assert.ok(await hasSketch());
     await restart();
@@ -125,6 +126,28 @@ describe("a contour that was closed", () => {
 });
 
 describe("without a connection", () => {
+  test("an edit that kontur had not confirmed is said to be perhaps lost, until one is saved", async () => {
+    const { page } = viewer;
+    let isCut = false;
+    await page.routeWebSocket("**/api/socket", (socket) => {
+      const beyond = socket.connectToServer();
+      socket.onMessage((message) => {
+        if (isCut || !String(message).includes("structure.set")) return beyond.send(message);
+        isCut = true;
+        return void socket.close();
+      });
+    });
+    await page.reload();
+    await viewer.ready();
+    const hide = page.locator(".structure-row .icon-button").first();
+    await hide.click();
+    await notice("it may not be saved").waitFor();
+    await saved("unsaved");
+    assert.equal(await notice("is lost. What was saved").count(), 0, "it is connected again");
+    await hide.click();
+    await saved("saved");
+  });
+
   test("an edit and an import say that nothing was done, and the list shows what is saved", async () => {
     const { page } = viewer;
     await server.end("SIGKILL");

@@ -9,7 +9,7 @@ import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session
 import { Socket, type ConnectionState } from "./net/socket";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
-import { Sketch, type SavedSketch } from "./tools/sketch";
+import type { SavedSketch } from "./tools/sketch";
 import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
@@ -25,10 +25,12 @@ interface SavedPage {
   structure: number;
   hintSeen: boolean;
   sketch?: SavedSketch;
+  unsaved?: SavedSketch[]; // contours that were closed, and that the server had not taken yet
 }
 
 const SAVE_PAGE_MS = 400;
-const LONGEST_SAVED_SKETCH = 40_000; // characters: the server keeps 64 KiB for a page
+const LONGEST_SAVED_SKETCHES = 56_000; // characters: the server keeps 64 KiB for a page
+const REFUSALS = new Set(["invalid_input", "not_found"]); // by which no work is lost: it could not be done
 
 /** Puts the parts of the page together, and hands the server's events to them. */
 export class App {
@@ -50,15 +52,19 @@ export class App {
   private session: Session | null = null;
   private connection: ConnectionState = "connecting";
   private unsaved = 0;
+  private editWasLost = false; // the last one
+  private saidLost = false; // since the connection was open
+  private readonly closeWhenConnected: (() => void)[] = [];
+  private closeUnsavedNotice = () => {};
   private hintSeen = false;
   private saveTimer = 0;
 
-  constructor(token: string) {
+  constructor(private readonly token: string) {
     this.http = new Http(token);
     this.socket = new Socket(token, {
       event: (event) => this.receive(event),
       connection: (state) => this.connected(state),
-      unsaved: (count) => this.tellSaved(count),
+      unsaved: (count, acknowledged) => this.countUnsaved(count, acknowledged),
     });
     const failed = (error: unknown) => this.failed(error);
     this.editor = new Editor(this.navigation, this.project, {
@@ -66,6 +72,7 @@ export class App {
       screenOf: (view) => this.views.get(view)?.screen() ?? null,
       failed,
       tell: (text) => this.notices.show("info", text),
+      notSaved: (why) => this.tellNotSaved(why),
     });
     const shared = { navigation: this.navigation, project: this.project, editor: this.editor, http: this.http, failed };
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
@@ -98,6 +105,7 @@ export class App {
     document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element);
     this.connectParts();
     this.acceptDrops();
+    this.guardClosing();
   }
 
   start(): void {
@@ -122,6 +130,7 @@ export class App {
     editor.on(["tool", "sketch", "hover"], each((view) => view.paint()));
     editor.on(["tool", "sketch"], () => this.tellHint());
     editor.on(["points"], () => this.savePageSoon());
+    editor.on(["points"], () => this.tellSaved());
     project.on(["selection"], () => this.tellHint());
     for (const [name, view] of this.views) {
       this.inputs.push(
@@ -154,7 +163,7 @@ export class App {
       case "status":
         return this.status.setWork(event.text, event.fraction);
       case "notice":
-        return this.notices.show(event.level, event.text);
+        return void this.notices.show(event.level, event.text);
     }
   }
 
@@ -168,14 +177,15 @@ export class App {
     const page = session.page as SavedPage | null;
     document.title = `${session.title} · kontur`;
     this.status.start(session.project);
-    this.tellSaved(this.unsaved);
+    this.tellSaved();
     this.toolbar.start(session.title, session.presets);
     // After a reconnect the user stays where he is.
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
     this.views.forEach((view) => view.forgetOutlines());
+    this.surface.forgetRevisions();
     this.project.start(session);
     if (isFirst && page?.structure) this.project.activate(page.structure);
-    if (isFirst && page?.sketch) this.editor.resume(Sketch.from(page.sketch));
+    if (isFirst) this.editor.restore(page?.sketch, page?.unsaved ?? []);
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
     this.hintSeen ||= page?.hintSeen ?? false;
@@ -185,31 +195,68 @@ export class App {
   }
 
   private connected(state: ConnectionState): void {
-    if (state === "lost" && this.connection === "open")
-      this.notices.show("error", "The connection to kontur is lost. What was saved is kept in the project; the page reconnects as soon as kontur answers.");
-    if (state === "open") this.notices.element.replaceChildren();
+    if (state === "lost" && !this.saidLost) this.tellLost();
+    if (state === "open") this.closeWhenConnected.splice(0).forEach((close) => close());
+    this.saidLost = state === "lost" || (this.saidLost && state !== "open");
     this.connection = state;
     document.body.dataset["connection"] = state;
-    this.tellSaved(this.unsaved);
+    this.tellSaved();
   }
 
-  private tellSaved(unsaved: number): void {
-    this.unsaved = unsaved;
-    this.status.setSaved(this.connection, unsaved);
+  /** Whoever starts kontur again gets another port and another key, so that this page cannot find it. */
+  private tellLost(): void {
+    const project = this.session?.project;
+    const text = project
+      ? `The connection to kontur is lost. What was saved is in ${project}. While kontur runs this page connects again by itself; if kontur has ended, open ${project} with it again, at the address that it prints then.`
+      : "No kontur answers at this address. If it was started again, use the address that it printed last.";
+    this.closeWhenConnected.push(this.notices.show("error", text));
+    if (this.unsaved > 0 && !this.editor.isAdding)
+      this.notices.show("error", "The connection was lost before kontur had confirmed your last edit: it may not be saved. Look for it when the page is connected again.");
   }
 
+  private countUnsaved(count: number, acknowledged: boolean): void {
+    this.unsaved = count;
+    if (acknowledged) this.editWasLost = false;
+    this.tellSaved();
+  }
+
+  private tellSaved(): void {
+    const { hasUnsaved, isAdding } = this.editor;
+    if (!hasUnsaved && !isAdding) this.closeUnsavedNotice();
+    this.status.setSaved(this.connection, isAdding ? Math.max(this.unsaved, 1) : this.unsaved, hasUnsaved || this.editWasLost);
+  }
+
+  private tellNotSaved(why: string): void {
+    this.closeUnsavedNotice();
+    const stays = "The contour that you closed is not saved. It stays on its slice: Enter tries again, Esc gives it up.";
+    this.closeUnsavedNotice = this.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescue()].join(" "));
+    this.tellSaved();
+  }
+
+  /** Only a kontur at this very address can take what this page alone still has. */
+  private rescue(): string {
+    if (this.connection === "open") return "";
+    return `If kontur has ended, start it for this page: kontur open ${this.session?.project} --port ${location.port} --token ${this.token}`;
+  }
+
+  /** While there is no connection only lost work is worth a word: that there is none has been said. */
   private failed(error: unknown): void {
-    const text = error instanceof Error ? error.message : String(error);
-    const expected = error instanceof ServerError && this.connection !== "open";
-    if (!expected) this.notices.show("error", text);
+    const isEdit = error instanceof ServerError && error.edits;
+    if (isEdit && !REFUSALS.has(error.kind)) this.editWasLost = true;
+    const isKnown = error instanceof ServerError && this.connection !== "open" && (!isEdit || error.kind === "lost");
+    if (!isKnown) {
+      const close = this.notices.show("error", error instanceof Error ? error.message : String(error));
+      if (!isEdit) this.closeWhenConnected.push(close); // then what was asked for is asked for again
+    }
+    this.tellSaved();
   }
 
   undo(): void {
-    if (!this.editor.undo()) this.editor.edit("undo", {});
+    this.editor.afterAdding(() => this.editor.undo() || this.editor.edit("undo", {}));
   }
 
   redo(): void {
-    if (!this.editor.redo()) this.editor.edit("redo", {});
+    this.editor.afterAdding(() => this.editor.redo() || this.editor.edit("redo", {}));
   }
 
   /** A new structure is for what is drawn next. */
@@ -314,7 +361,7 @@ export class App {
   private importServices() {
     return {
       http: this.http,
-      failed: (error: unknown) => this.failed(error),
+      failed: (error: unknown) => void this.notices.show("error", error instanceof Error ? error.message : String(error)),
       working: (text: string, cancel: () => void) => this.notices.working(text, cancel),
       imported: (file: string, structures: number[]) => {
         this.notices.show("info", `${file}: ${structures.length === 1 ? "1 structure" : `${structures.length} structures`} imported.`);
@@ -332,15 +379,32 @@ export class App {
     });
   }
 
+  /** Asks before work is left that no next visit would bring back. */
+  private guardClosing(): void {
+    window.addEventListener("beforeunload", (event) => {
+      const { hasUnsaved, isAdding, sketch } = this.editor;
+      if (this.unsaved > 0 || isAdding || hasUnsaved || (sketch && this.connection !== "open")) event.preventDefault();
+    });
+    window.addEventListener("pagehide", () => this.saveTimer && this.savePage());
+  }
+
   private savePageSoon(): void {
+    window.clearTimeout(this.saveTimer);
+    this.saveTimer = window.setTimeout(() => this.savePage(), SAVE_PAGE_MS);
+  }
+
+  private savePage(): void {
     if (!this.session) return;
     window.clearTimeout(this.saveTimer);
-    this.saveTimer = window.setTimeout(() => {
-      const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen };
-      const sketch = this.editor.sketch?.saved();
-      if (sketch && JSON.stringify(sketch).length < LONGEST_SAVED_SKETCH) state.sketch = sketch;
-      this.socket.call("page.save", { state }).catch(() => undefined); // the next change saves again
-    }, SAVE_PAGE_MS);
+    this.saveTimer = 0;
+    const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen };
+    let room = LONGEST_SAVED_SKETCHES;
+    const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
+    const sketch = this.editor.sketch?.saved();
+    if (sketch && fits(sketch)) state.sketch = sketch;
+    const unsaved = this.editor.savedUnsaved().filter(fits);
+    if (unsaved.length > 0) state.unsaved = unsaved;
+    this.socket.call("page.save", { state }).catch(() => undefined); // the next change saves again
   }
 }
 

@@ -70,6 +70,12 @@ export class Project extends Emitter<Topic> {
     this.emit("draft");
   }
 
+  /** An edit was not carried out: what shows it already has to show again what is. */
+  refused(): void {
+    this.draftContour = null;
+    this.emit("draft", "stages");
+  }
+
   contour(id: number): Contour | undefined {
     return this.draftContour?.id === id ? this.draftContour : this.contours.get(id);
   }

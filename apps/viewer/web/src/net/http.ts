@@ -2,11 +2,16 @@
 import { BinaryReply } from "./binary";
 import type { SliceHeader, SliceRequest } from "./protocol";
 
-/** An answer that the server gave, or that it gave none; `message` is a sentence for the user. */
+/**
+ * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
+ * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came.
+ */
 export class ServerError extends Error {
   constructor(
     readonly kind: string,
     message: string,
+    /** Whether the call would have changed the project. */
+    readonly edits = false,
   ) {
     super(message);
   }
@@ -20,10 +25,13 @@ export interface MeshHeader {
 
 /** Requests for bulk data below `/api/`. One that is aborted costs the server nothing more. */
 export class Http {
+  /** Names this load of the page: a later slice overtakes an earlier one of the same view of the same page only. */
+  private readonly page = [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+
   constructor(private readonly token: string) {}
 
   async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
-    return new BinaryReply(await (await this.post("slice", JSON.stringify(request))).arrayBuffer());
+    return new BinaryReply(await (await this.post("slice", JSON.stringify({ page: this.page, ...request }))).arrayBuffer());
   }
 
   async mesh(structure: number): Promise<BinaryReply<MeshHeader>> {

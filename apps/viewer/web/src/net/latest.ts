@@ -22,6 +22,11 @@ export class Latest<Request> {
     this.running ??= this.run();
   }
 
+  /** Whether another request follows the one that runs. */
+  get hasNext(): boolean {
+    return this.waiting !== null;
+  }
+
   /** Forgets the one that waits; the one that runs goes on. */
   drop(): void {
     this.waiting = null;

@@ -11,9 +11,10 @@ export type ConnectionState = "connecting" | "open" | "lost";
 
 export interface SocketHandlers {
   event(event: ServerEvent): void;
+  /** "open" when the session event has come; "lost" is told while edits under way still count as unsaved. */
   connection(state: ConnectionState): void;
-  /** How many edits the server has not yet acknowledged. */
-  unsaved(count: number): void;
+  /** How many edits the server has not yet acknowledged, and whether it has just acknowledged one. */
+  unsaved(count: number, acknowledged: boolean): void;
 }
 
 const RETRY_MS = 1000;
@@ -24,6 +25,7 @@ export class Socket {
   private socket: WebSocket | null = null;
   private readonly pending = new Map<number, Pending & { edits: boolean }>();
   private nextSeq = 1;
+  private greeted = false;
 
   constructor(
     private readonly token: string,
@@ -33,46 +35,55 @@ export class Socket {
   open(): void {
     this.handlers.connection("connecting");
     const socket = new WebSocket(`ws://${location.host}/api/socket`, ["kontur", this.token]);
-    socket.onopen = () => this.handlers.connection("open");
     socket.onmessage = (message: MessageEvent<string>) => this.receive(JSON.parse(message.data) as Record<string, unknown>);
     socket.onclose = () => this.lose();
     this.socket = socket;
   }
 
   call<Result>(name: string, args: Record<string, unknown> = {}): Promise<Result> {
-    if (this.socket?.readyState !== WebSocket.OPEN)
-      return Promise.reject(new ServerError("io", "Not connected to kontur; nothing was changed."));
-    const seq = this.nextSeq++;
     const edits = !READING_CALLS.has(name) && args["draft"] !== true;
+    // Before it is known what the project holds, an edit could repeat one that had arrived when the connection was lost.
+    if (!this.greeted || this.socket?.readyState !== WebSocket.OPEN)
+      return Promise.reject(new ServerError("offline", "Not connected to kontur: nothing was changed.", edits));
+    const seq = this.nextSeq++;
     const reply = new Promise<Result>((resolve, reject) =>
       this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }),
     );
     this.socket.send(JSON.stringify({ seq, call: name, ...args }));
-    if (edits) this.tellUnsaved();
+    if (edits) this.tellUnsaved(false);
     return reply;
   }
 
   private receive(message: Record<string, unknown>): void {
-    if (typeof message["event"] === "string") return this.handlers.event(message as unknown as ServerEvent);
+    if (typeof message["event"] === "string") {
+      if (message["event"] === "session") this.greet();
+      return this.handlers.event(message as unknown as ServerEvent);
+    }
     const pending = this.pending.get(message["seq"] as number);
     if (!pending) return;
     this.pending.delete(message["seq"] as number);
     const error = message["error"] as { kind: string; message: string } | undefined;
-    if (error) pending.reject(new ServerError(error.kind, error.message));
+    if (error) pending.reject(new ServerError(error.kind, error.message, pending.edits));
     else pending.resolve(message["result"]);
-    if (pending.edits) this.tellUnsaved();
+    if (pending.edits) this.tellUnsaved(!error);
+  }
+
+  private greet(): void {
+    this.greeted = true;
+    this.handlers.connection("open");
   }
 
   private lose(): void {
+    this.greeted = false;
+    this.handlers.connection("lost");
     const lost = [...this.pending.values()];
     this.pending.clear();
-    for (const { reject } of lost) reject(new ServerError("io", "The connection to kontur was lost."));
-    this.tellUnsaved();
-    this.handlers.connection("lost");
+    for (const { reject, edits } of lost) reject(new ServerError("lost", "The connection to kontur was lost.", edits));
+    this.tellUnsaved(false);
     setTimeout(() => this.open(), RETRY_MS);
   }
 
-  private tellUnsaved(): void {
-    this.handlers.unsaved([...this.pending.values()].filter((pending) => pending.edits).length);
+  private tellUnsaved(acknowledged: boolean): void {
+    this.handlers.unsaved([...this.pending.values()].filter((pending) => pending.edits).length, acknowledged);
   }
 }

@@ -113,6 +113,11 @@ export class SurfaceView {
     this.showHint();
   }
 
+  /** Of a server that has started anew, and counts revisions from 1. */
+  forgetRevisions(): void {
+    this.shownRevisions.clear();
+  }
+
   restyle(): void {
     for (const { id, color, visible } of this.services.project.structures.values()) this.scene?.style(id, color, visible, this.opacity);
   }

@@ -5,10 +5,11 @@ import { add, dot, scale, sub, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
+import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
 import type { Contour, PathResult, StretchKind, ViewName } from "../net/protocol";
 import { hitContour, hitPlaneLines, inView, planeLine, type ContourHit, type LineHit, type PlaneLine } from "./hit";
-import { Sketch } from "./sketch";
+import { Sketch, type SavedSketch } from "./sketch";
 import { VIEW_NAMES } from "../net/protocol";
 
 export type ToolName = "edit" | "freehand" | "spline" | "wire" | "redraw" | "move";
@@ -36,6 +37,8 @@ export interface EditorServices {
   screenOf(view: ViewName): Screen | null;
   failed(error: unknown): void;
   tell(text: string): void;
+  /** A closed contour that the server did not take, which stays. */
+  notSaved(why: string): void;
 }
 
 export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
@@ -56,6 +59,11 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   /** The sketch that was left last, and by what: undo or redo brings it back, until something else is done. */
   private leftSketch: { sketch: Sketch; by: "leaving" | "undo" } | null = null;
 
+  /** Closed sketches that the server has not acknowledged, and those that it did not take and that are not shown yet. */
+  private readonly adding = new Map<Sketch, Vec3[]>(); // with their lines
+  private readonly waiting: Sketch[] = [];
+  private added: Promise<void> = Promise.resolve();
+
   private readonly placed = new Latest<Sketch>((sketch) => this.askPlaced(sketch));
   private readonly rubber = new Latest<{ sketch: Sketch; pointer: Vec3; mm: number }>((request) => this.askRubber(request));
   private readonly drafts = new Latest<{ name: string; args: Record<string, unknown> }>((edit) => this.askDraft(edit));
@@ -67,6 +75,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     private readonly services: EditorServices,
   ) {
     super();
+    project.on(["contours"], () => this.forgetSaved());
   }
 
   // Tools
@@ -76,7 +85,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     this.tool = tool;
     const kind = KIND_OF_TOOL[tool];
     if (kind) this.sketch?.setKind(kind);
-    else this.leaveSketch();
+    else if (!this.sketch?.isUnsaved) this.leaveSketch();
     this.setHover(null);
     this.emit("tool", "sketch", "points");
   }
@@ -160,6 +169,10 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   // Drawing
 
   private pressToDraw(view: ViewName, screen: Screen, pointer: Point2): Gesture | null {
+    if (this.sketch?.isClosed) {
+      this.services.tell("The contour that you drew is not saved. Enter tries again, Esc gives it up.");
+      return null;
+    }
     if (this.sketch && !this.sketch.liesIn(planeOf(screen), this.navigation.step(view) / 2)) {
       this.services.tell("The contour you began lies in another plane. Enter closes it, Esc leaves it.");
       return null;
@@ -197,7 +210,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     const closes = this.isNearStart(screen, at);
     if (!this.sketch && this.tool === "freehand") {
       const structure = this.project.activeStructure?.id ?? 0;
-      return void this.add(Sketch.closedFree(planeOf(screen), structure, hand));
+      return this.add(Sketch.closedFree(planeOf(screen), structure, hand));
     }
     const sketch = this.begun(screen);
     sketch.drawFree(hand);
@@ -237,7 +250,7 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   }
 
   private stretchRubber(view: ViewName, screen: Screen, pointer: Point2): void {
-    if (this.sketch?.last && this.sketch.liesIn(planeOf(screen), this.navigation.step(view) / 2)) {
+    if (this.sketch?.last && !this.sketch.isClosed && this.sketch.liesIn(planeOf(screen), this.navigation.step(view) / 2)) {
       this.pointerCloses = this.isNearStart(screen, pointer) && this.sketch.canClose;
       const target = this.pointerCloses ? this.sketch.first! : toWorld(screen, pointer);
       this.rubber.send({ sketch: this.sketch, pointer: target, mm: screen.mm_per_pixel });
@@ -247,14 +260,15 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
 
   private async askPlaced(sketch: Sketch): Promise<void> {
     if (sketch.points.length < 2) {
-      this.placedLine = sketch.points.map((point) => point.at);
+      this.placedLine = sketch.line();
       if (sketch.last?.kind !== "wire") return;
     }
-    const count = sketch.points.length;
-    const result = await this.path(sketch, sketch.points);
-    if (this.sketch !== sketch || sketch.points.length !== count) return;
-    sketch.adopt(result.control);
-    this.placedLine = result.points;
+    const { points, isClosed } = sketch;
+    const count = points.length;
+    const result = await this.path(sketch, points, isClosed).catch(() => null);
+    if (this.sketch !== sketch || sketch.points.length !== count || sketch.isClosed !== isClosed) return;
+    if (result) sketch.adopt(result.control);
+    this.placedLine = result ? [...result.points, ...(isClosed ? result.points.slice(0, 1) : [])] : sketch.line();
     this.emit("sketch");
   }
 
@@ -268,9 +282,9 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     this.emit("sketch");
   }
 
-  private path(sketch: Sketch, control: unknown[]): Promise<PathResult> {
+  private path(sketch: Sketch, control: unknown[], closed = false): Promise<PathResult> {
     const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
-    return this.services.call<PathResult>("path", { plane, control, closed: false });
+    return this.services.call<PathResult>("path", { plane, control, closed });
   }
 
   /** Makes a contour of the sketch. */
@@ -278,14 +292,16 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     const sketch = this.sketch;
     if (!sketch) return;
     if (!sketch.canClose) return this.services.tell("A contour needs at least three points.");
+    const line = sketch.isClosed || this.placedLine.length < 2 ? sketch.closedLine() : [...this.placedLine, sketch.first!];
     this.clearSketch();
-    void this.add(sketch);
+    this.add(sketch, line);
   }
 
   /** Puts the sketch aside, from where undo brings it back. */
   leaveSketch(): void {
     if (this.sketch) this.leftSketch = { sketch: this.sketch, by: "leaving" };
     this.clearSketch();
+    this.showWaiting();
   }
 
   private clearSketch(): void {
@@ -307,15 +323,21 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     this.clearSketch();
     this.leftSketch = { sketch, by: "undo" };
     this.emit("points");
+    this.showWaiting();
   }
 
   /** Goes on with a sketch from before. */
   resume(sketch: Sketch): void {
     this.leftSketch = null;
-    this.sketch = sketch;
     this.tool = TOOL_OF_KIND[sketch.kind];
-    this.project.select(null);
+    this.take(sketch);
     this.emit("tool");
+  }
+
+  private take(sketch: Sketch): void {
+    this.sketch = sketch;
+    this.placedLine = sketch.line();
+    this.project.select(null);
     this.sketchChanged();
   }
 
@@ -348,18 +370,96 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
     return true;
   }
 
-  private async add(sketch: Sketch): Promise<void> {
+  // Closed sketches, until the server has them
+
+  /** Whether a closed contour is not saved, and waits for the user to try again. */
+  get hasUnsaved(): boolean {
+    return this.sketch?.isUnsaved === true || this.waiting.length > 0;
+  }
+
+  get isAdding(): boolean {
+    return this.adding.size > 0;
+  }
+
+  /** Carries out what belongs behind the closed contours that are on their way. */
+  afterAdding(act: () => void): void {
+    if (this.isAdding) void this.added.then(act);
+    else act();
+  }
+
+  /** The lines of closed contours that are not there yet, for as long as that takes. */
+  closedLines(): { sketch: Sketch; line: Vec3[] }[] {
+    return [...this.adding, ...this.waiting.map((sketch): [Sketch, Vec3[]] => [sketch, sketch.closedLine()])].map(([sketch, line]) => ({ sketch, line }));
+  }
+
+  /** What a next visit has to bring back beside the sketch. */
+  savedUnsaved(): SavedSketch[] {
+    return [...this.adding.keys(), ...this.waiting].map((sketch) => ({ ...sketch.saved(), isUnsaved: true }));
+  }
+
+  /** Goes on where the last visit ended, but for what the project has got since it was told. */
+  restore(sketch: SavedSketch | undefined, unsaved: SavedSketch[]): void {
+    this.waiting.push(...unsaved.map((saved) => Sketch.from(saved)).filter((one) => !this.isSaved(one)));
+    const current = sketch && Sketch.from(sketch);
+    if (current && !this.isSaved(current)) this.resume(current);
+    this.showWaiting();
+    if (this.hasUnsaved) this.services.notSaved("Before this page was opened the connection to kontur was lost, or it could not save.");
+  }
+
+  private add(sketch: Sketch, line = sketch.closedLine()): void {
     this.leftSketch = null;
+    this.adding.set(sketch, line);
+    this.added = this.added.then(() => this.send(sketch));
+    this.emit("sketch", "points");
+  }
+
+  private async send(sketch: Sketch): Promise<void> {
     try {
-      const structure = this.project.structures.has(sketch.structure) ? sketch.structure : await this.addStructure();
+      if (!this.project.structures.has(sketch.structure)) sketch.structure = await this.addStructure();
       // Those placed a moment ago may not lie on the edge yet; those that do stay there.
       if (sketch.points.some((point) => point.kind === "wire")) sketch.adopt((await this.path(sketch, sketch.points)).control);
       const plane = { ...sketch.plane, mm_per_pixel: this.sketchScale };
-      const { contour } = await this.services.call<{ contour: Contour }>("contour.add", { structure, plane, control: sketch.points });
+      const { contour } = await this.services.call<{ contour: Contour }>("contour.add", { structure: sketch.structure, plane, control: sketch.points });
+      this.adding.delete(sketch);
       if (!this.sketch) this.project.select({ contour: contour.id, point: null });
     } catch (error) {
-      this.services.failed(error);
+      this.adding.delete(sketch);
+      this.keep(sketch, error);
     }
+    this.showWaiting();
+    this.emit("sketch", "points");
+  }
+
+  /** Holds on to what the user has closed. A stroke that can never be a contour is only put aside. */
+  private keep(sketch: Sketch, error: unknown): void {
+    if (error instanceof ServerError && error.kind === "invalid_input" && sketch.isClosed && sketch.points.length === 1) {
+      this.leftSketch = { sketch, by: "leaving" };
+      return this.services.failed(error);
+    }
+    sketch.isUnsaved = true;
+    this.waiting.unshift(sketch);
+    this.forgetSaved();
+    if (this.waiting.includes(sketch)) this.services.notSaved(error instanceof Error ? error.message : String(error));
+  }
+
+  private showWaiting(): void {
+    if (!this.sketch && this.waiting.length > 0) this.take(this.waiting.shift()!);
+  }
+
+  private isSaved(sketch: Sketch): boolean {
+    return [...this.project.contours.values()].some((contour) => sketch.became(contour));
+  }
+
+  /** The reply may be lost of a contour that was saved: then it must not be offered once more. */
+  private forgetSaved(): void {
+    const waiting = this.waiting.filter((sketch) => !this.isSaved(sketch));
+    const isShownSaved = this.sketch?.isUnsaved === true && this.isSaved(this.sketch);
+    if (!isShownSaved && waiting.length === this.waiting.length) return;
+    this.waiting.splice(0, this.waiting.length, ...waiting);
+    if (isShownSaved) this.clearSketch();
+    this.showWaiting();
+    this.emit("points");
+    this.services.tell("The contour had been saved before the connection was lost.");
   }
 
   private async addStructure(): Promise<number> {
@@ -461,10 +561,11 @@ export class Editor extends Emitter<"tool" | "sketch" | "points" | "hover"> {
   }
 
   edit(name: string, args: Record<string, unknown>): void {
+    if (this.isAdding) return this.afterAdding(() => this.edit(name, args));
     this.leftSketch = null;
     this.emit("points");
     this.services.call(name, args).catch((error: unknown) => {
-      this.project.draft = null;
+      this.project.refused();
       this.services.failed(error);
     });
   }

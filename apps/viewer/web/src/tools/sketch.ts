@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { coincide, type Plane } from "../geometry/plane";
-import type { Vec3 } from "../geometry/vec";
-import type { ControlPoint, SketchPoint, StretchKind } from "../net/protocol";
+import { sub, length, type Vec3 } from "../geometry/vec";
+import type { Contour, ControlPoint, SketchPoint, StretchKind } from "../net/protocol";
 
 /** A sketch as it is kept with the project until the next visit. */
 export interface SavedSketch {
@@ -9,16 +9,25 @@ export interface SavedSketch {
   structure: number;
   kind: StretchKind;
   points: SketchPoint[];
+  isUnsaved?: boolean;
 }
+
+const SAVED_DIGITS = 9;
+const SAME_PLACE_MM = 1e-5; // what is saved is rounded
+
+const rounded = (p: Vec3): Vec3 => p.map((value) => Number(value.toPrecision(SAVED_DIGITS))) as unknown as Vec3;
+const isSamePlace = (p: Vec3, q: Vec3): boolean => length(sub(p, q)) < SAME_PLACE_MM;
 
 /** A contour while it is drawn: control points, each with how the line from it goes on. */
 export class Sketch {
   points: SketchPoint[] = [];
+  /** Closed by the user, but not taken by the server. */
+  isUnsaved = false;
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
   constructor(
     readonly plane: Plane,
-    readonly structure: number,
+    public structure: number,
     public kind: StretchKind,
   ) {}
 
@@ -26,9 +35,14 @@ export class Sketch {
     return this.points.length === 0;
   }
 
+  /** Whether the hand has drawn the line back to the first point. */
+  get isClosed(): boolean {
+    return this.last?.path !== undefined;
+  }
+
   /** A closed line needs three points, or one stretch drawn by hand. */
   get canClose(): boolean {
-    return this.points.length >= 3 || this.points.some((point) => (point.path?.length ?? 0) >= 8);
+    return this.isClosed || this.points.length >= 3 || this.points.some((point) => (point.path?.length ?? 0) >= 8);
   }
 
   get first(): Vec3 | undefined {
@@ -83,7 +97,7 @@ export class Sketch {
 
   removeLast(): void {
     this.undone.push(this.points.map((point) => ({ ...point })));
-    this.points.pop();
+    if (!this.isClosed) this.points.pop();
     const last = this.last;
     if (!last) return;
     delete last.path;
@@ -91,14 +105,36 @@ export class Sketch {
   }
 
   saved(): SavedSketch {
-    const { plane, structure, kind, points } = this;
-    return { plane, structure, kind, points };
+    const { plane, structure, kind, isUnsaved } = this;
+    const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
+    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }) };
   }
 
-  static from({ plane, structure, kind, points }: SavedSketch): Sketch {
+  static from({ plane, structure, kind, points, isUnsaved = false }: SavedSketch): Sketch {
     const sketch = new Sketch(plane, structure, kind);
     sketch.points = points;
+    sketch.isUnsaved = isUnsaved;
     return sketch;
+  }
+
+  /** The line as far as it is known without the server: straight where splines and wires would run. */
+  line(): Vec3[] {
+    const line = this.points.flatMap(({ at, path = [] }) => [at, ...path]);
+    return this.isClosed ? [...line, this.first!] : line;
+  }
+
+  closedLine(): Vec3[] {
+    return this.isClosed || this.isEmpty ? this.line() : [...this.line(), this.first!];
+  }
+
+  /** Whether the server made this contour of the sketch: the same control points, and between them points of the same hand. */
+  became({ control, points }: Contour): boolean {
+    if (control.length !== this.points.length) return false;
+    return this.points.every(({ at, kind, path }, i) => {
+      const { at: place, kind: kindThere, index } = control[i]!;
+      if (kind !== kindThere || !isSamePlace(at, place)) return false;
+      return !path || points.slice(index + 1, control[i + 1]?.index).every((p) => path.some((q) => isSamePlace(p, q)));
+    });
   }
 
   /** Takes over where the server has moved points to the edge. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Http } from "../net/http";
 import type { Project } from "../model/project";
+import type { Editor } from "../tools/editor";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 
@@ -47,9 +48,17 @@ const EXPORTS: [string, [string, string, string][]][] = [
 export interface ExportServices {
   http: Http;
   project: Project;
+  editor: Editor;
 }
 
-export function openExport({ http, project }: ExportServices): void {
+/** What a user may believe to be in the file, and is not. */
+function missing({ sketch, hasUnsaved }: Editor): HTMLElement[] {
+  if (!sketch && !hasUnsaved) return [];
+  const what = hasUnsaved ? "A contour that you closed is not saved" : "The contour that you are drawing is not closed";
+  return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];
+}
+
+export function openExport({ http, project, editor }: ExportServices): void {
   const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
   for (const { id, name } of project.structures.values())
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
@@ -86,7 +95,7 @@ export function openExport({ http, project }: ExportServices): void {
     el("h3", {}, "Project with its history"),
     el("div", { class: "choices" }, entry("project.kontur", "kontur project", ".kontur", () => null)),
   );
-  const dialog = openDialog("Export", "export-dialog", el("label", { class: "field" }, "Structure", structure), ...groups, whole, status);
+  const dialog = openDialog("Export", "export-dialog", ...missing(editor), el("label", { class: "field" }, "Structure", structure), ...groups, whole, status);
   dialog.addEventListener("close", () => running?.abort());
 }
 

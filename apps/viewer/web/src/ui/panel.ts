@@ -74,7 +74,10 @@ export class Panel {
     const isActive = project.activeStructure?.id === structure.id;
     const isOpen = !this.collapsed.has(structure.id);
     const color = el("input", { type: "color", value: structure.color, title: "Colour", class: "color" });
-    color.onchange = () => call("structure.set", { id: structure.id, color: color.value });
+    color.onchange = () => {
+      color.blur(); // the list is not made anew around a field that has the keyboard
+      call("structure.set", { id: structure.id, color: color.value });
+    };
     const name = el("input", { type: "text", value: structure.name, class: "name", title: "Name", spellcheck: false, maxLength: 64 });
     name.onchange = () => name.value.trim() && call("structure.set", { id: structure.id, name: name.value.trim() });
     name.onkeydown = (event) => event.key === "Enter" && name.blur();

@@ -43,27 +43,36 @@ export class StatusBar {
     else this.workTimer = window.setTimeout(show, 150);
   }
 
-  setSaved(connection: ConnectionState, unsaved: number): void {
-    const state = connection !== "open" ? "lost" : unsaved > 0 ? "saving" : "saved";
-    const texts = { lost: "Not connected", saving: "Saving…", saved: `Saved in ${this.project}` };
+  /** `isMissing`: something that the user did is not in the project, nor on its way there. */
+  setSaved(connection: ConnectionState, unsaved: number, isMissing: boolean): void {
+    const state = connection !== "open" ? "lost" : unsaved > 0 ? "saving" : isMissing ? "unsaved" : "saved";
+    const texts = { lost: isMissing ? "Not connected, not all is saved" : "Not connected", saving: "Saving…", unsaved: "Not all is saved", saved: `Saved in ${this.project}` };
     this.saved.textContent = texts[state];
     this.saved.dataset["state"] = state;
   }
 }
 
 const NOTICE_MS = 6000;
+const MOST_NOTICES = 4;
 
 /** Sentences for the user, at the top of the views; errors stay until they are closed. */
 export class Notices {
   readonly element = el("div", { class: "notices", role: "status" });
 
-  show(level: Notice["level"], text: string): void {
+  /** Returns what takes the notice away. */
+  show(level: Notice["level"], text: string): () => void {
     for (const old of this.element.children) if (old.textContent === text) old.remove();
     const notice = el("div", { class: `notice ${level}`, title: "Click to close" }, text);
     notice.onclick = () => notice.remove();
     this.element.append(notice);
-    while (this.element.children.length > 4) this.element.firstElementChild!.remove();
+    while (this.element.children.length > MOST_NOTICES) this.leastImportant().remove();
     if (level !== "error") setTimeout(() => notice.remove(), NOTICE_MS);
+    return () => notice.remove();
+  }
+
+  /** Of those that go by themselves the oldest, else the oldest of all. */
+  private leastImportant(): Element {
+    return this.element.querySelector(".notice.info, .notice.warning") ?? this.element.firstElementChild!;
   }
 
   /** Something that takes its time, with a button to end it. Returns what takes the notice away. */

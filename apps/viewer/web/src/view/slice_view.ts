@@ -19,6 +19,7 @@ import { PLANE_COLORS, VIEW_TITLES } from "./palette";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
 const CROSSINGS_WAIT_MS = 250;
+const ASK_AGAIN_MS = 50; // so that two who overtake each other leave the server time to answer one
 const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
 
 interface ShownSlice {
@@ -221,11 +222,18 @@ export class SliceView {
       if (pixels) this.keepPixels(reply.u8("pixels"), width, height, plane);
       this.paintNow();
     } catch (error) {
+      if (error instanceof ServerError && error.kind === "cancelled") return this.askAgain(pixels);
       if (pixels) this.asked = "";
-      if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
+      this.services.failed(error);
     }
     this.tellState();
     this.element.dataset["slices"] = String(Number(this.element.dataset["slices"] ?? 0) + 1);
+  }
+
+  /** A request that another one overtook is not answered, and what it asked for is still wanted. */
+  private async askAgain(pixels: boolean): Promise<void> {
+    if (!this.requests.hasNext) await new Promise((resolve) => setTimeout(resolve, ASK_AGAIN_MS));
+    this.requests.send({ pixels });
   }
 
   /** What tests and measurements wait for. */
@@ -352,9 +360,11 @@ export class SliceView {
     const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
     const { sketch } = editor;
     if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
-      const placed = editor.placedLine.length > 1 ? editor.placedLine : sketch.points.map((point) => point.at);
+      const placed = editor.placedLine.length > 1 ? editor.placedLine : sketch.line();
       painter.sketch(placed, editor.rubberLine, sketch.points.map((point) => point.at), color, editor.pointerCloses);
     }
+    for (const { sketch: closed, line } of editor.closedLines())
+      if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
     if (near(editor.handLine[0]) && near(editor.handLine.at(-1))) painter.hand(editor.handLine, color);
   }
 

@@ -335,6 +335,28 @@ describe("views", () => {
     assert.equal(await page.locator("[data-test=tool-wire]").getAttribute("aria-pressed"), "true");
   });
 
+  test("a slice that another request overtook is asked for again, under the name of this load of the page", async () => {
+    const { page } = viewer;
+    const pages = new Set<unknown>();
+    let refusals = 3;
+    await page.route("**/api/slice", async (route) => {
+      const request = route.request().postDataJSON() as { view: string; page: unknown; pixels: boolean };
+      pages.add(request.page);
+      if (request.view !== "axial" || !request.pixels || refusals === 0) return route.continue();
+      --refusals;
+      return route.fulfill({ status: 409, json: { error: { kind: "cancelled", message: "a later slice of this view was asked for" } } });
+    });
+    const before = Number(await viewer.pane("axial").getAttribute("data-slices"));
+    await page.mouse.move(...(await viewer.at("axial", 0, 0)));
+    await page.mouse.wheel(0, 120);
+    await page.waitForFunction((count) => Number(document.querySelector<HTMLElement>("[data-view=axial]")!.dataset["slices"]) > count, before);
+    assert.equal(refusals, 0);
+    const [name] = pages;
+    assert.equal(pages.size, 1);
+    assert.match(String(name), /^[0-9a-f]{16,64}$/);
+    assert.equal(await page.locator(".notice").count(), 0);
+  });
+
   test("zoom and shift one slice, or all that are linked", async () => {
     const { page } = viewer;
     const scales = () => Promise.all(["axial", "coronal", "oblique"].map(async (view) => Number(await viewer.pane(view).getAttribute("data-pixels-per-mm"))));

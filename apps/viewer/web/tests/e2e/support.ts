@@ -103,6 +103,7 @@ export class Server {
   }
 
   end(signal: "SIGINT" | "SIGKILL" = "SIGINT"): Promise<void> {
+    if (this.process.exitCode !== null || this.process.signalCode !== null) return Promise.resolve();
     const ended = new Promise<void>((resolve) => this.process.once("exit", () => resolve()));
     this.process.kill(signal);
     return ended;

@@ -2,7 +2,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { BinaryReply } from "../../src/net/binary";
+import type { ServerError } from "../../src/net/http";
 import { Latest } from "../../src/net/latest";
+import { Socket } from "../../src/net/socket";
+import { session } from "./support";
 
 interface Job {
   request: number;
@@ -50,6 +53,53 @@ test("a dropped request does not run, a failed one does not stop the next", asyn
   latest.send(3);
   await latest.idle();
   assert.deepEqual(seen, [1, 3]);
+});
+
+/** The browser's end of a connection whose other end the test plays. */
+class FakeWebSocket {
+  static readonly OPEN = 1;
+  static last: FakeWebSocket;
+  readyState = FakeWebSocket.OPEN;
+  readonly sent: { seq: number; call: string }[] = [];
+  onmessage: (message: { data: string }) => void = () => undefined;
+  onclose: () => void = () => undefined;
+
+  constructor() {
+    FakeWebSocket.last = this;
+  }
+
+  send(text: string): void {
+    this.sent.push(JSON.parse(text) as { seq: number; call: string });
+  }
+
+  tell(message: object): void {
+    this.onmessage({ data: JSON.stringify(message) });
+  }
+}
+
+test("of a connection's calls none is sent before the session is known, and lost edits are told as such", async (context) => {
+  const { setTimeout } = globalThis;
+  context.after(() => Object.assign(globalThis, { setTimeout }));
+  Object.assign(globalThis, { WebSocket: FakeWebSocket, location: { host: "127.0.0.1:1" }, setTimeout: () => 0 });
+  const told: string[] = [];
+  const socket = new Socket("token", {
+    event: ({ event }) => told.push(event),
+    connection: (state) => told.push(state),
+    unsaved: (count, acknowledged) => told.push(`${count}${acknowledged ? " acknowledged" : ""}`),
+  });
+  const failure = (call: Promise<unknown>): Promise<string> => call.then(() => "done", ({ kind, edits }: ServerError) => `${kind}${edits ? ", an edit" : ""}`);
+  socket.open();
+  assert.equal(await failure(socket.call("undo")), "offline, an edit");
+  assert.equal(await failure(socket.call("value")), "offline");
+  assert.equal(FakeWebSocket.last.sent.length, 0);
+  FakeWebSocket.last.tell(session());
+  const first = failure(socket.call("undo"));
+  FakeWebSocket.last.tell({ seq: FakeWebSocket.last.sent.at(-1)!.seq, result: {} });
+  assert.equal(await first, "done");
+  const under_way = [socket.call("undo"), socket.call("contour.pull", { draft: true })].map(failure);
+  FakeWebSocket.last.onclose();
+  assert.deepEqual(await Promise.all(under_way), ["lost, an edit", "lost"]);
+  assert.deepEqual(told, ["connecting", "open", "session", "1", "0 acknowledged", "1", "lost", "0"]);
 });
 
 function reply(header: object, size: number): { buffer: ArrayBuffer; start: number } {

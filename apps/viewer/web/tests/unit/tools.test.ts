@@ -4,7 +4,8 @@ import { test } from "node:test";
 import type { Point2, Screen } from "../../src/geometry/screen";
 import type { Vec3 } from "../../src/geometry/vec";
 import { Project } from "../../src/model/project";
-import type { SketchPoint } from "../../src/net/protocol";
+import { ServerError } from "../../src/net/http";
+import type { Contour, SketchPoint } from "../../src/net/protocol";
 import { Editor, type Gesture, type ToolName } from "../../src/tools/editor";
 import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
 import { Sketch } from "../../src/tools/sketch";
@@ -95,21 +96,25 @@ interface Call {
   args: Record<string, unknown>;
 }
 
-/** An editor whose server answers every call with what it was told. */
+/** An editor whose server answers every call with what it was told, but for those that it is told to refuse. */
 function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 => p) {
   const calls: Call[] = [];
+  const complaints: string[] = [];
+  const server: { refusal: ServerError | null } = { refusal: null };
   const project = new Project();
   project.start(session({ contours }));
   const navigation = started();
   const editor = new Editor(navigation, project, {
     call: (name, args = {}) => {
-      calls.push({ name, args });
+      calls.push({ name, args: structuredClone(args) }); // the sketch goes on
+      if (server.refusal) return Promise.reject(server.refusal);
       const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));
       return Promise.resolve({ control, points: control.map((point) => point.at), contour: square(9) } as never);
     },
     screenOf: () => screen,
-    failed: (error) => assert.fail(String(error)),
-    tell: () => undefined,
+    failed: (error) => (server.refusal ? complaints.push(String(error)) : assert.fail(String(error))),
+    tell: (text) => complaints.push(text),
+    notSaved: (why) => complaints.push(why),
   });
   editor.choose(tool);
   const press = (p: Point2, modifiers = {}): Gesture | null => editor.press("axial", screen, p, { ctrl: false, shift: false, ...modifiers });
@@ -120,7 +125,7 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
   };
   const settled = () => new Promise((resolve) => setImmediate(resolve));
   const edits = () => calls.filter(({ name, args }) => name !== "path" && args["draft"] !== true);
-  return { editor, project, navigation, calls, press, drag, settled, edits };
+  return { editor, project, navigation, calls, press, drag, settled, edits, server, complaints };
 }
 
 const round = (count: number, radius: number): Point2[] =>
@@ -309,6 +314,142 @@ test("a sketch that was left comes back by undo, with its tool, until something 
   editor.edit("structure.add", {});
   await settled();
   assert.equal(editor.undo(), false);
+});
+
+const DISK_FULL = new ServerError("io", "cannot write the project: the disk is full", true);
+const LOST = new ServerError("lost", "The connection to kontur was lost.", true);
+
+/** What the server makes of a sketch: lines by hand thinned, control points as they were sent. */
+function madeOf(id: number, call: Call): Contour {
+  const points: Vec3[] = [];
+  const control = (call.args["control"] as SketchPoint[]).map(({ at, kind, path = [] }) => {
+    const index = points.length;
+    points.push(at, ...path.filter((_, i) => i % 3 === 0));
+    return { at, kind, index };
+  });
+  return square(id, { points, control });
+}
+
+test("a closed contour that the server does not take stays, whatever tool comes next, until it does", async () => {
+  const { editor, drag, edits, settled, server, complaints } = editing("spline", []);
+  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  const drawn = editor.sketch!.points.map((point) => point.at);
+  server.refusal = DISK_FULL;
+  editor.close();
+  await settled();
+  assert.deepEqual(complaints, [DISK_FULL.message]);
+  editor.choose("edit");
+  assert.ok(editor.hasUnsaved);
+  assert.deepEqual(editor.sketch!.points.map((point) => point.at), drawn);
+  server.refusal = null;
+  editor.close();
+  await settled();
+  assert.equal(editor.sketch, null);
+  assert.ok(!editor.hasUnsaved);
+  const [first, second] = edits();
+  assert.equal(edits().length, 2);
+  assert.deepEqual(first!.args, second!.args);
+});
+
+test("a line by hand that the server does not take stays closed, as it was drawn", async () => {
+  for (const begun of [false, true]) {
+    const { editor, drag, edits, settled, server } = editing(begun ? "wire" : "freehand", []);
+    if (begun) for (const p of [[100, 100], [300, 100]] as Point2[]) drag(p);
+    server.refusal = DISK_FULL;
+    if (begun) drag([300, 100], [300, 200], [300, 300], [250, 250], [200, 200], [100, 100]);
+    else drag(...round(40, 90));
+    await settled();
+    assert.ok(editor.sketch!.isClosed);
+    assert.ok(editor.placedLine.length > 4, "it is seen");
+    assert.deepEqual(editor.placedLine[0], editor.placedLine.at(-1));
+    const drawn = structuredClone(editor.sketch!.points);
+    const tries = edits().length;
+    drag([50, 50], [60, 60], [70, 70]);
+    server.refusal = null;
+    editor.close();
+    await settled();
+    assert.deepEqual(edits().slice(tries).map(({ name, args }) => [name, args["control"]]), [["contour.add", drawn]]);
+  }
+});
+
+test("a contour that was saved before its reply was lost is not offered once more", async () => {
+  for (const tool of ["freehand", "spline"] as const) {
+    const { editor, project, drag, edits, settled, server } = editing(tool, []);
+    server.refusal = LOST;
+    if (tool === "freehand") drag(...round(40, 90));
+    else for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+    editor.close();
+    await settled();
+    assert.ok(editor.hasUnsaved);
+    project.start(session({ contours: [square(5)] }));
+    assert.ok(editor.hasUnsaved, "another contour is there");
+    project.start(session({ contours: [square(5), madeOf(6, edits()[0]!)] }));
+    assert.equal(editor.sketch, null);
+    assert.ok(!editor.hasUnsaved);
+  }
+});
+
+test("while the next contour is drawn one that was not saved waits, and then comes back", async () => {
+  const { editor, drag, settled, server } = editing("spline", []);
+  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  const first = editor.sketch!;
+  const line0 = first.first;
+  server.refusal = DISK_FULL;
+  editor.close();
+  drag([120, 120]);
+  const second = editor.sketch!;
+  await settled();
+  assert.equal(editor.sketch, second);
+  assert.ok(editor.hasUnsaved);
+  assert.deepEqual(editor.savedUnsaved().map((saved) => saved.points), [first.saved().points]);
+  assert.deepEqual(editor.closedLines().map(({ line }) => [line.length, line[0]]), [[4, line0]], "and is seen");
+  drag([320, 120]);
+  drag([320, 320]);
+  server.refusal = null;
+  editor.close();
+  await settled();
+  assert.equal(editor.sketch, first);
+  editor.leaveSketch();
+  assert.ok(!editor.hasUnsaved, "the user gave it up");
+});
+
+test("a next visit brings back what was not saved, and not what was", async () => {
+  const { editor: before, drag, edits, settled, server } = editing("spline", []);
+  for (const p of [[100.123456789, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  server.refusal = LOST;
+  before.close();
+  const unsaved = before.savedUnsaved();
+  await settled();
+  const { editor, complaints } = editing("edit", []);
+  editor.restore(undefined, unsaved);
+  assert.equal(editor.sketch!.points.length, 3);
+  assert.ok(editor.hasUnsaved);
+  assert.equal(complaints.length, 1);
+  const other = editing("edit", [madeOf(6, edits()[0]!)]).editor;
+  other.restore({ ...unsaved[0]!, isUnsaved: false }, unsaved);
+  assert.equal(other.sketch, null);
+  assert.ok(!other.hasUnsaved);
+});
+
+test("a stroke that is no contour is put aside with a word", async () => {
+  const { editor, drag, settled, server, complaints } = editing("freehand", []);
+  server.refusal = new ServerError("invalid_input", "a contour needs at least three points that do not lie on one line", true);
+  drag([100, 100], [110, 110], [120, 120]);
+  await settled();
+  assert.equal(editor.sketch, null);
+  assert.equal(complaints.length, 1);
+  assert.equal(editor.undoLabel, "Leave the contour");
+});
+
+test("an edit waits for the contour that was closed before it", async () => {
+  const { editor, drag, edits, settled } = editing("wire", []);
+  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  editor.close();
+  assert.equal(editor.closedLines().length, 1, "it is seen meanwhile");
+  editor.edit("undo", {});
+  await settled();
+  assert.equal(editor.closedLines().length, 0);
+  assert.deepEqual(edits().map((call) => call.name), ["contour.add", "undo"]);
 });
 
 test("a sketch survives being saved", () => {

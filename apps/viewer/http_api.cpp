@@ -122,12 +122,12 @@ std::vector<std::pair<std::string, std::string>> security_headers(const std::str
         {"Cache-Control", "no-store"}};
 }
 
-std::uint64_t HttpApi::body_limit(std::string_view target) {
-    return target.starts_with("/api/import/") ? kLargestImport : kLargestBody;
+std::uint64_t HttpApi::body_limit(std::string_view path) {
+    return path.starts_with("/api/import/") ? kLargestImport : kLargestBody;
 }
 
 std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest request) {
-    if (request.method != "POST" || request.target != "/api/slice")
+    if (request.method != "POST" || request.target.path != "/api/slice")
         return [this, request = std::move(request)](const std::stop_token& stop) { return handle(request, stop); };
     const std::string view = view_of_slice(request.body);
     std::uint64_t ticket = 0;
@@ -153,14 +153,13 @@ HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const
 
 HttpReply HttpApi::handle(const HttpRequest& request, const std::stop_token& stop) {
     return guarded([&]() -> HttpReply {
-        const std::optional<Target> target = parse_target(request.target);
-        if (!target) return error_reply(400, "invalid_input", "the address is malformed");
-        if (target->path.starts_with("/api/")) return api(request, *target, stop);
-        return request.method == "GET" ? page_file(target->path) : not_found();
+        if (request.target.path.starts_with("/api/")) return api(request, stop);
+        return request.method == "GET" ? page_file(request.target.path) : not_found();
     });
 }
 
-HttpReply HttpApi::api(const HttpRequest& request, const Target& target, const std::stop_token& stop) {
+HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) {
+    const Target& target = request.target;
     const bool get = request.method == "GET";
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
     if (get && below("/api/mesh/")) {
@@ -169,7 +168,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const Target& target, const s
         return binary(session_.mesh(*id));
     }
     if (get && below("/api/export/")) return exported(target, stop);
-    if (!get && below("/api/import/")) return import(request, target, stop);
+    if (!get && below("/api/import/")) return import(request, stop);
     return not_found();
 }
 
@@ -186,7 +185,8 @@ HttpReply HttpApi::exported(const Target& target, const std::stop_token& stop) {
             {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", download.file_name)}}};
 }
 
-HttpReply HttpApi::import(const HttpRequest& request, const Target& target, const std::stop_token& stop) {
+HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& stop) {
+    const Target& target = request.target;
     const std::string file = target.parameter("name").value_or("");
     Upload upload;
     if (target.path == "/api/import/contours") {

@@ -19,7 +19,7 @@ namespace kontur::viewer {
 
 struct HttpRequest {
     std::string method;
-    std::string target;
+    Target target;
     std::string body;
 };
 
@@ -35,8 +35,8 @@ class HttpApi {
 public:
     explicit HttpApi(Session& session) : session_(session) {}
 
-    /// Largest body in bytes of a request to this target.
-    static std::uint64_t body_limit(std::string_view target);
+    /// Largest body in bytes of a request to this path.
+    static std::uint64_t body_limit(std::string_view path);
 
     /// To be called when a request has come, before it waits for its turn: of the slices asked for one view, only the
     /// latest is made. Returns what handles it; whoever calls that requests the stop when nobody waits for the reply.
@@ -44,10 +44,10 @@ public:
 
 private:
     HttpReply handle(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply api(const HttpRequest& request, const Target& target, const std::stop_token& stop);
+    HttpReply api(const HttpRequest& request, const std::stop_token& stop);
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view);
     HttpReply exported(const Target& target, const std::stop_token& stop);
-    HttpReply import(const HttpRequest& request, const Target& target, const std::stop_token& stop);
+    HttpReply import(const HttpRequest& request, const std::stop_token& stop);
 
     Session& session_;
     std::mutex mutex_;

@@ -240,7 +240,7 @@ private:
 
     static RequestHead head_of(const Request& request) {
         return {text(request.method_string()),
-                text(request.target()),
+                parse_target(text(request.target())),
                 values(request, http::field::host),
                 values(request, http::field::origin),
                 values(request, http::field::authorization),
@@ -265,17 +265,19 @@ private:
         if (const auto refused = refusal(head, core_.access))
             return finish_with(error_reply(refused->status, refused->kind, refused->message));
         host_ = head.host.front();
-        const bool is_socket = head.target == kSocket;
+        if (!head.target) return finish_with(error_reply(400, "invalid_input", "the address is malformed"));
+        target_ = *head.target;
+        const bool is_socket = target_.path == kSocket;
         if (head.is_upgrade != is_socket)
             return finish_with(error_reply(404, "not_found", "there is nothing at this address"));
         if (is_socket) return upgrade();
 
-        const std::uint64_t limit = HttpApi::body_limit(head.target), length = parser_->content_length().value_or(0);
+        const std::uint64_t limit = HttpApi::body_limit(target_.path), length = parser_->content_length().value_or(0);
         if (length > limit)
             return finish_with(error_reply(413, "too_large",
                                            fmt::format("the request's body has {} bytes; the limit is {}", length, limit)));
         parser_->body_limit(limit);
-        if (head.target.starts_with(kImports)) {
+        if (target_.path.starts_with(kImports)) {
             if (core_.imports >= kMostImports)
                 return finish_with(error_reply(413, "too_large", "other files are being imported; try again after them"));
             import_.emplace(core_.imports);
@@ -297,7 +299,7 @@ private:
     void work() {
         Request request = parser_->release();
         keep_alive_ = request.keep_alive();
-        auto make = core_.api.prepare({text(request.method_string()), text(request.target()), std::move(request.body())});
+        auto make = core_.api.prepare({text(request.method_string()), target_, std::move(request.body())});
         stop_ = std::stop_source();
         watch();
         asio::post(core_.work, [self = shared_from_this(), make = std::move(make), stop = stop_]() mutable {
@@ -377,6 +379,7 @@ private:
     std::optional<Slot> import_;
     std::stop_source stop_{std::nostopstate};  ///< of what is worked on
     std::string host_ = "127.0.0.1";
+    Target target_;  ///< of the request
     bool keep_alive_ = false;
     std::size_t drained_ = 0;
 };

@@ -132,8 +132,15 @@ private:
         core_.sockets.insert(this);
         asio::post(core_.calls, [self = shared_from_this()]() mutable {
             ServerCore& core = self->core_;
-            auto greeting = std::make_shared<const std::string>(core.session.greeting());
-            asio::post(core.io, [self = std::move(self), greeting] {
+            std::shared_ptr<const std::string> greeting;
+            std::string problem;
+            try {
+                greeting = std::make_shared<const std::string>(core.session.greeting());
+            } catch (const std::exception& error) {
+                problem = error.what();
+            }
+            asio::post(core.io, [self = std::move(self), greeting, problem] {
+                if (!greeting) return self->turn_away(problem);
                 self->is_greeted_ = true;
                 self->send(greeting);
                 for (const auto& message : self->held_back_) self->send(message);
@@ -141,6 +148,11 @@ private:
                 self->read();
             });
         });
+    }
+
+    void turn_away(const std::string& problem) {
+        send(std::make_shared<const std::string>(notice_event("error", problem)));
+        close(websocket::close_code::internal_error);
     }
 
     void read() {

@@ -124,6 +124,10 @@ std::string next_color(const State& state) {
 
 }  // namespace
 
+std::string notice_event(std::string_view level, const std::string& text) {
+    return to_text({{"event", "notice"}, {"level", std::string(level)}, {"text", text}});
+}
+
 Session::Session(OpenedImage opened, const std::filesystem::path& project)
     : image_(std::move(opened.image)),
       title_(std::move(opened.title)),
@@ -167,7 +171,8 @@ void Session::tell_status(const std::string& text, std::optional<double> fractio
 }
 
 void Session::notice(std::string_view level, const std::string& text) {
-    tell({{"event", "notice"}, {"level", std::string(level)}, {"text", text}});
+    const std::scoped_lock lock(listener_mutex_);
+    if (listener_) listener_(notice_event(level, text));
 }
 
 std::string Session::greeting() {

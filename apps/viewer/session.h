@@ -41,6 +41,9 @@ struct Download {
     std::string bytes;
 };
 
+/// The event that tells pages something the user should know.
+std::string notice_event(std::string_view level, const std::string& text);
+
 /// Everything behind the page: the image, the project, the surfaces. Speaks the messages of docs/viewer-protocol.md and
 /// knows nothing of the network. Safe for concurrent use; edits are carried out one after the other.
 class Session {

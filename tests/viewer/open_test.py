@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur open: a session as a page lives it."""
 import concurrent.futures
+import contextlib
 import gzip
 import json
 import math
@@ -11,6 +12,7 @@ import re
 import resource
 import signal
 import socket
+import sqlite3
 import subprocess
 import sys
 import time
@@ -19,7 +21,7 @@ import nibabel
 import numpy
 import pytest
 
-from support import KONTUR, Server, at_offset, ring, running, shifted, spline_controls, write_image
+from support import KONTUR, Page, Server, at_offset, ring, running, shifted, spline_controls, write_image
 
 RADIUS = 12.0
 
@@ -418,6 +420,11 @@ def readers(server):
     return [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
 
 
+def damage(project, statement, *values):
+    with contextlib.closing(sqlite3.connect(project)) as database, database:
+        database.execute(statement, values)
+
+
 def wait_for(condition, seconds=60):
     end = time.monotonic() + seconds
     while time.monotonic() < end:
@@ -482,6 +489,18 @@ def test_an_rtstruct_brings_every_region_that_has_contours(server, tmp_path):
     names = {page.structures[i]["name"] for i in ids}
     assert {"plain", "nested", "keyhole"} <= names and "empty" not in names
     assert page.do("undo")["label"] == "Import contours" and not set(ids) & page.structures.keys()
+
+
+def test_a_project_that_cannot_be_told_turns_its_page_away_by_a_sentence(server, tmp_path):
+    server.stop()
+    damage(server.project, "DROP TABLE history")
+    with running(tmp_path, server.project) as again:
+        for _ in range(2):
+            page = Page(again, greeted=False)
+            told = page.receive()
+            assert told["event"] == "notice" and told["level"] == "error" and "history" in told["text"]
+            with pytest.raises(ConnectionError, match="1011"):
+                page.receive()
 
 
 def test_two_processes_on_one_project(server, tmp_path, image):

@@ -83,7 +83,7 @@ class Server:
 class Page:
     """One WebSocket. Keeps every event; `state` is what a page would show."""
 
-    def __init__(self, server):
+    def __init__(self, server, greeted=True):
         self.socket = socket.create_connection(("127.0.0.1", server.port), timeout=120)
         self.buffer, self.events, self.calls = b"", [], 0
         key = base64.b64encode(os.urandom(16)).decode()
@@ -97,6 +97,8 @@ class Page:
         accept = hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()
         assert f"Sec-WebSocket-Accept: {base64.b64encode(accept).decode()}" in head
         assert "Sec-WebSocket-Protocol: kontur\r\n" in head
+        if not greeted:
+            return
         self.session = self.receive()
         assert self.session["event"] == "session"
         self.structures = {s["id"]: s for s in self.session["structures"]}

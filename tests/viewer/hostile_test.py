@@ -177,6 +177,19 @@ def test_messages_that_are_no_calls_are_answered(server):
         assert page.receive()["error"]["kind"] == "invalid_input"
 
 
+def test_what_is_nested_deeply_is_refused(server):
+    """Copying and writing JSON is recursive: it would overflow the stack."""
+    page = server.page()
+    for depth in (65, 30_000, 200_000):
+        page.send_frame(b'{"seq": 1, "call": "page.save", "state": ' + b"[" * depth + b"]" * depth + b"}")
+        error = page.receive()["error"]
+        assert error == {"kind": "invalid_input", "message": "the message is nested deeper than 64 levels"}
+    page.do("page.save", state={"[{": ["]" * 100, "[" * 100]})
+    deep = json.dumps({**SLICE, "plane": {**SLICE["plane"], "x": "@"}}).replace('"@"', "[" * 30_000 + "]" * 30_000)
+    status, _, body = server.request("POST", "/api/slice", deep.encode())
+    assert status == 400 and "nested deeper" in json.loads(body)["error"]["message"]
+
+
 def test_text_that_is_no_utf8_closes_the_socket(server):
     page = server.page()
     page.send_frame(b'{"call": "\xff\xfe"}')

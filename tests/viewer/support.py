@@ -85,7 +85,7 @@ class Page:
 
     def __init__(self, server, greeted=True):
         self.socket = socket.create_connection(("127.0.0.1", server.port), timeout=120)
-        self.buffer, self.events, self.calls = b"", [], 0
+        self.buffer, self.events, self.calls = bytearray(), [], 0
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall(
             f"GET /api/socket HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\nUpgrade: websocket\r\n"
@@ -110,11 +110,12 @@ class Page:
 
     def _read(self, count):
         while len(self.buffer) < count:
-            more = self.socket.recv(1 << 16)
+            more = self.socket.recv(1 << 20)
             if not more:
                 raise ConnectionError("the server closed the connection")
             self.buffer += more
-        data, self.buffer = self.buffer[:count], self.buffer[count:]
+        data = bytes(self.buffer[:count])
+        del self.buffer[:count]
         return data
 
     def _until(self, end):

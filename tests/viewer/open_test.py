@@ -715,7 +715,7 @@ def test_the_browser_lives_on_and_nobody_else_learns_the_token(tmp_path, image):
     """By a stand-in for xdg-open, which keeps what it is told."""
     stand_in = tmp_path / "bin" / "xdg-open"
     stand_in.parent.mkdir()
-    stand_in.write_text('#!/bin/sh\necho "$$ $*" > "$TMPDIR/told"\ncp "$1" "$TMPDIR/page"\nls -ld "$(dirname "$1")" > "$TMPDIR/mode"\nsleep 1\ntouch "$TMPDIR/ended"\n')
+    stand_in.write_text('#!/bin/sh\necho "$$ $*" > "$TMPDIR/told"\ncp "$1" "$TMPDIR/page"\nls -ld "$(dirname "$1")" > "$TMPDIR/mode.new"\nmv "$TMPDIR/mode.new" "$TMPDIR/mode"\nsleep 1\ntouch "$TMPDIR/ended"\n')
     stand_in.chmod(0o755)
     environment = {**os.environ, "PATH": f"{stand_in.parent}:{os.environ['PATH']}", "DISPLAY": ":9", "TMPDIR": str(tmp_path)}
     words = [KONTUR, "open", image, "--project", tmp_path / "work.kontur", "--token", "se'cret", "--timeout", "300"]

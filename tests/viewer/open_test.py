@@ -305,7 +305,12 @@ def test_a_draft_ends_with_its_page(server):
     assert abs(drafted["volume_ml"] - before["volume_ml"]) > 0.01 * before["volume_ml"]
     server.page().close()  # one that has drafted nothing
     page.close()
-    assert other.wait_for_surface(structure)["volume_ml"] == pytest.approx(before["volume_ml"], rel=1e-9)
+
+    def volume_ml():
+        (surface,) = server.page().session["surfaces"]
+        return surface.get("volume_ml", 0)
+
+    wait_for(lambda: volume_ml() == pytest.approx(before["volume_ml"], rel=1e-9), seconds=20)
 
 
 def test_pages_see_each_others_edits(server):

@@ -37,6 +37,12 @@ SurfaceListener deaf() {
 std::ptrdiff_t threads() { return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}); }
 
 TEST(Surfaces, EndWhileOneIsBeingFinishedAndStartNoOther) {
+    {
+        Surfaces first(deaf());  // starts the threads that all share
+        first.follow(ball(1));
+        first.wait();
+    }
+    const std::ptrdiff_t before = threads();
     std::mutex mutex;
     std::condition_variable changed;
     bool is_finishing = false;
@@ -63,6 +69,9 @@ TEST(Surfaces, EndWhileOneIsBeingFinishedAndStartNoOther) {
     }
     EXPECT_EQ(std::count(told.begin(), told.end(), 2), 2) << "the preview and the refined one";
     EXPECT_EQ(std::count(told.begin(), told.end(), 3), 0);
+    // A thread that has ended is listed for a moment longer.
+    for (int i = 0; i < 100 && threads() > before; ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_LE(threads(), before);
 }
 
 TEST(Surfaces, AThreadLivesNoLongerThanTheContoursItFollows) {

@@ -20,13 +20,13 @@ int to_exit_code(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(statu
 
 }  // namespace
 
-SpawnAttributes::SpawnAttributes() {
+SpawnAttributes::SpawnAttributes(short flags) {
     sigset_t ignored;
     sigemptyset(&ignored);
     for (const int signal : kIgnoredSignals) sigaddset(&ignored, signal);
     posix_spawnattr_init(&attributes_);
     posix_spawnattr_setsigdefault(&attributes_, &ignored);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setflags(&attributes_, static_cast<short>(flags | POSIX_SPAWN_SETSIGDEF));
 }
 
 SpawnAttributes::~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }

@@ -11,10 +11,11 @@
 
 namespace kontur::app {
 
-/// How to start a program with the signals as they were before this one began to ignore some.
+/// How to start a program with the signals as they were before this one began to ignore some, and with further
+/// POSIX_SPAWN flags.
 class SpawnAttributes {
 public:
-    SpawnAttributes();
+    explicit SpawnAttributes(short flags = 0);
     ~SpawnAttributes();
     SpawnAttributes(const SpawnAttributes&) = delete;
     SpawnAttributes& operator=(const SpawnAttributes&) = delete;

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fcntl.h>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 #include <stop_token>
+#include <thread>
 
 #include "child_process.h"
 #include "commands.h"
 #include "kontur/base/error.h"
+#include "kontur/io/atomic_file.h"
 #include "viewer/image_identity.h"
 #include "viewer/page.h"
 #include "viewer/server.h"
 #include "viewer/session.h"
+#include "viewer/temporary_files.h"
 
 namespace kontur::app {
 namespace {
@@ -115,14 +121,8 @@ fs::path project_path(const OpenCommand& command, const Words& words, const view
     return data_folder() / fmt::format("{}-{}{}", name, fingerprint.substr(fingerprint.size() - 8), kProjectExtension);
 }
 
-/// A new project starts with the contours of the file, or with a structure to draw.
-void fill(viewer::Session& session, const OpenCommand& command, const Words& words, Console& console) {
-    if (!session.is_new()) {
-        if (!words.contours.empty())
-            console.warn(fmt::format("{} holds the work on these contours from before; they were not read again",
-                                     session.project_path().string()));
-        return;
-    }
+/// What a new project starts with: the contours of the file, or a structure to draw.
+ContourSet first_contours(const OpenCommand& command, const Words& words, Console& console) {
     ContourSet set;
     if (!words.contours.empty()) {
         ReadContours read = read_contours(words.contours, command.read);
@@ -131,27 +131,60 @@ void fill(viewer::Session& session, const OpenCommand& command, const Words& wor
         set = std::move(read.contours);
         if (set.name.empty()) set.name = bare_name(words.contours);
     }
-    session.begin_with(set);
+    return set;
 }
 
-/// Best effort, and only where there is a screen: without one xdg-open starts a browser in the terminal.
-void open_browser(const std::string& address) {
-    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-    std::string program = "xdg-open", argument = address;
+/// A page that leads to the address, in a folder that nobody else can look into: all users of the machine can read the
+/// words that a program is started with, and these would tell the token.
+void write_way_in(const fs::path& file, const std::string& address) {
+    std::string escaped;
+    for (const char c : address)
+        escaped +=
+            std::string_view("<>&'\"").find(c) == std::string_view::npos ? std::string{c} : fmt::format("&#{};", int{c});
+    write_file_atomically(file, fmt::format(R"(<!doctype html>
+<meta charset="utf-8">
+<title>kontur</title>
+<meta http-equiv="refresh" content="0; url={0}">
+<a href="{0}">Open kontur</a>
+)",
+                                            escaped));
+}
+
+void start_browser(const fs::path& page) {
+    std::string program = "xdg-open", argument = page.string();
     char* words[] = {program.data(), argument.data(), nullptr};
     posix_spawn_file_actions_t silent;
     posix_spawn_file_actions_init(&silent);
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
         posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
-    posix_spawnp(&child, program.c_str(), &silent, SpawnAttributes().get(), words, environ);
+    // The Ctrl+C that ends kontur must not reach the browser.
+    const SpawnAttributes apart(POSIX_SPAWN_SETSID);
+    const int failure = posix_spawnp(&child, program.c_str(), &silent, apart.get(), words, environ);
     posix_spawn_file_actions_destroy(&silent);
+    if (failure == 0) std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+}
+
+/// Best effort, and only where there is a screen: without one xdg-open starts a browser in the terminal. Returns what the
+/// browser reads, and may read again, as long as kontur runs.
+std::unique_ptr<viewer::TemporaryFolder> open_browser(const std::string& address, Console& console) {
+    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return nullptr;
+    try {
+        auto folder = std::make_unique<viewer::TemporaryFolder>();
+        write_way_in(folder->path() / "open.html", address);
+        start_browser(folder->path() / "open.html");
+        return folder;
+    } catch (const std::exception& error) {
+        console.warn(fmt::format("the browser was not opened: {}", error.what()));
+        return nullptr;
+    }
 }
 
 }  // namespace
 
 void run(const OpenCommand& command, Console& console) {
     const Progress progress = console.progress();
+    viewer::remove_left_folders();
     const Words words = sorted(command.files);
     check_one_project(command, words);
     ImageInput input = command.image;
@@ -162,8 +195,16 @@ void run(const OpenCommand& command, Console& console) {
     viewer::OpenedImage image = open_image(input, progress);
     console.note(image.notes);
     const fs::path project = project_path(command, words, image);
+    // Read before there is a project for them: a file that cannot be read leaves none.
+    std::optional<ContourSet> first;
+    if (!fs::exists(project)) first = first_contours(command, words, console);
     viewer::Session session(std::move(image), project);
-    fill(session, command, words, console);
+    if (session.is_new()) {
+        session.begin_with(first ? *first : first_contours(command, words, console));
+    } else if (!words.contours.empty()) {
+        console.warn(fmt::format("{} holds the work on these contours from before; they were not read again",
+                                 session.project_path().string()));
+    }
 
     if (!viewer::has_page())
         console.warn(
@@ -172,7 +213,7 @@ void run(const OpenCommand& command, Console& console) {
     console.print(
         fmt::format("{}\nproject {}; every edit is saved at once, Ctrl+C ends\n", server.address(), project.string()));
     flush_stdout();  // who does not learn the address cannot use it
-    if (!command.no_browser) open_browser(server.address());
+    const auto way_in = command.no_browser ? nullptr : open_browser(server.address(), console);
     const std::stop_callback stop(progress.stop, [&] { server.stop(); });
     server.run();
 }

@@ -31,7 +31,8 @@ bool has_token(const RequestHead& head, const std::string& token) {
     return head.protocols.size() == 1 && same_secret(head.protocols[0], "kontur, " + token);
 }
 
-bool is_api(std::string_view target) { return target.starts_with("/api/"); }
+/// Fails closed: a target that cannot be read may be anything.
+bool is_api(const std::optional<Target>& target) { return !target || target->path.starts_with("/api/"); }
 
 std::optional<int> hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';

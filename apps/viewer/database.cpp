@@ -70,6 +70,15 @@ std::int64_t Database::number(const char* sql) {
     return query.next() ? query.number(0) : 0;
 }
 
+void Database::check_place() const {
+    int has_moved = 0;
+    sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+    if (has_moved != 0)
+        throw Error(ErrorKind::io, fmt::format("{} was moved, replaced or deleted while kontur has it open, and can take no "
+                                               "edits; export the project, then open it again",
+                                               path_.string()));
+}
+
 void Database::copy_to(const std::filesystem::path& target) {
     Query(*this, "VACUUM INTO ?1").bind(target.string()).finish();
 }
@@ -105,7 +114,10 @@ std::string Query::text(int column) const {
     return text ? std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))) : std::string();
 }
 
-Transaction::Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+Transaction::Transaction(Database& database) : database_(database) {
+    database_.check_place();
+    database_.run("BEGIN IMMEDIATE");
+}
 
 Transaction::~Transaction() {
     // SQLite rolls back by itself after some errors (a full disk); a second rollback is refused and means nothing.

@@ -35,6 +35,7 @@ private:
     friend class Query;
     friend class Transaction;
     [[noreturn]] void fail(int code) const;
+    void check_place() const;
 
     struct Close {
         void operator()(sqlite3* handle) const;
@@ -71,6 +72,7 @@ private:
 /// Rolls back unless committed.
 class Transaction {
 public:
+    /// Throws Error(io) when the file is not where it was: what is written would be lost.
     explicit Transaction(Database& database);
     ~Transaction();
     Transaction(const Transaction&) = delete;

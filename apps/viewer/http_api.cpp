@@ -72,12 +72,6 @@ HttpReply page_file(const std::string& path) {
     return {200, std::string(file->content_type), std::string(file->gzip), {{"Content-Encoding", "gzip"}}};
 }
 
-std::string view_of_slice(const std::string& body) {
-    const json request = json::parse(body, nullptr, false);
-    if (!request.is_object() || !request.contains("view") || !request["view"].is_string()) return {};
-    return request["view"].get<std::string>().substr(0, 64);
-}
-
 /// The known extension that a file name ends with. Nothing else of the name is used.
 std::string known_extension(const std::string& name, std::initializer_list<const char*> known) {
     std::string list;
@@ -122,14 +116,23 @@ std::vector<std::pair<std::string, std::string>> security_headers(const std::str
         {"Cache-Control", "no-store"}};
 }
 
-std::uint64_t HttpApi::body_limit(std::string_view target) {
-    return target.starts_with("/api/import/") ? kLargestImport : kLargestBody;
+std::uint64_t HttpApi::body_limit(std::string_view path) {
+    return path.starts_with("/api/import/") ? kLargestImport : kLargestBody;
+}
+
+HttpApi::View HttpApi::view_of(const std::string& slice) {
+    const json request = json::parse(slice, nullptr, false);
+    const auto text = [&](const char* key) {
+        const bool is_text = request.is_object() && request.contains(key) && request[key].is_string();
+        return is_text ? request[key].get<std::string>().substr(0, 64) : std::string();
+    };
+    return {text("page"), text("view")};
 }
 
 std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest request) {
-    if (request.method != "POST" || request.target != "/api/slice")
+    if (request.method != "POST" || request.target.path != "/api/slice")
         return [this, request = std::move(request)](const std::stop_token& stop) { return handle(request, stop); };
-    const std::string view = view_of_slice(request.body);
+    const View view = view_of(request.body);
     std::uint64_t ticket = 0;
     {
         const std::scoped_lock lock(mutex_);
@@ -140,7 +143,7 @@ std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest re
         [this, request = std::move(request), view, ticket](const std::stop_token&) { return slice(request, ticket, view); };
 }
 
-HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view) {
+HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const View& view) {
     return guarded([&] {
         {
             const std::scoped_lock lock(mutex_);
@@ -153,14 +156,13 @@ HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const
 
 HttpReply HttpApi::handle(const HttpRequest& request, const std::stop_token& stop) {
     return guarded([&]() -> HttpReply {
-        const std::optional<Target> target = parse_target(request.target);
-        if (!target) return error_reply(400, "invalid_input", "the address is malformed");
-        if (target->path.starts_with("/api/")) return api(request, *target, stop);
-        return request.method == "GET" ? page_file(target->path) : not_found();
+        if (request.target.path.starts_with("/api/")) return api(request, stop);
+        return request.method == "GET" ? page_file(request.target.path) : not_found();
     });
 }
 
-HttpReply HttpApi::api(const HttpRequest& request, const Target& target, const std::stop_token& stop) {
+HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) {
+    const Target& target = request.target;
     const bool get = request.method == "GET";
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
     if (get && below("/api/mesh/")) {
@@ -169,7 +171,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const Target& target, const s
         return binary(session_.mesh(*id));
     }
     if (get && below("/api/export/")) return exported(target, stop);
-    if (!get && below("/api/import/")) return import(request, target, stop);
+    if (!get && below("/api/import/")) return import(request, stop);
     return not_found();
 }
 
@@ -186,7 +188,8 @@ HttpReply HttpApi::exported(const Target& target, const std::stop_token& stop) {
             {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", download.file_name)}}};
 }
 
-HttpReply HttpApi::import(const HttpRequest& request, const Target& target, const std::stop_token& stop) {
+HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& stop) {
+    const Target& target = request.target;
     const std::string file = target.parameter("name").value_or("");
     Upload upload;
     if (target.path == "/api/import/contours") {

@@ -19,7 +19,7 @@ namespace kontur::viewer {
 
 struct HttpRequest {
     std::string method;
-    std::string target;
+    Target target;
     std::string body;
 };
 
@@ -35,23 +35,28 @@ class HttpApi {
 public:
     explicit HttpApi(Session& session) : session_(session) {}
 
-    /// Largest body in bytes of a request to this target.
-    static std::uint64_t body_limit(std::string_view target);
+    /// Largest body in bytes of a request to this path.
+    static std::uint64_t body_limit(std::string_view path);
 
-    /// To be called when a request has come, before it waits for its turn: of the slices asked for one view, only the
-    /// latest is made. Returns what handles it; whoever calls that requests the stop when nobody waits for the reply.
+    /// To be called when a request has come, before it waits for its turn: of the slices asked for one view of a
+    /// page, only the latest is made. Returns what handles it; whoever calls that requests the stop when nobody waits for
+    /// the reply.
     std::function<HttpReply(const std::stop_token&)> prepare(HttpRequest request);
 
 private:
     HttpReply handle(const HttpRequest& request, const std::stop_token& stop);
-    HttpReply api(const HttpRequest& request, const Target& target, const std::stop_token& stop);
-    HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const std::string& view);
+    HttpReply api(const HttpRequest& request, const std::stop_token& stop);
+    /// A page's own name and its view's: two pages have views of the same names.
+    using View = std::pair<std::string, std::string>;
+    static View view_of(const std::string& slice);
+
+    HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
     HttpReply exported(const Target& target, const std::stop_token& stop);
-    HttpReply import(const HttpRequest& request, const Target& target, const std::stop_token& stop);
+    HttpReply import(const HttpRequest& request, const std::stop_token& stop);
 
     Session& session_;
     std::mutex mutex_;
-    std::map<std::string, std::uint64_t> newest_slice_;  ///< by view
+    std::map<View, std::uint64_t> newest_slice_;
     std::uint64_t next_ticket_ = 0;
 };
 

@@ -247,7 +247,7 @@ private:
     throw Error(ErrorKind::corrupt_file, sentence);
 }
 
-Imported result_in(const fs::path& folder, int status) {
+Imported result_in(const fs::path& folder, int status, const Progress& progress) {
     std::error_code ignored;
     if (!fs::exists(folder / kResult, ignored)) {
         if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
@@ -260,8 +260,10 @@ Imported result_in(const fs::path& folder, int status) {
     const json result = json::parse(read_bytes(folder / kResult));
     if (result.contains("error")) fail(result["error"]);
     Imported imported;
-    for (std::size_t i = 0; i < result.at("sets").get<std::size_t>(); ++i)
+    for (std::size_t i = 0; i < result.at("sets").get<std::size_t>(); ++i) {
+        progress.check();
         imported.sets.push_back(read_contours(folder / fmt::format("{}.json", i)).contours);
+    }
     imported.notes = result.at("notes").get<std::vector<std::string>>();
     return imported;
 }
@@ -272,7 +274,7 @@ Imported import_apart(const std::string& bytes, const Upload& upload, const Prog
     const TemporaryFolder folder;
     write_file_atomically(folder.path() / ("upload" + upload.extension), bytes);
     const int status = Worker(upload, folder.path()).wait(progress);
-    return result_in(folder.path(), status);
+    return result_in(folder.path(), status, progress);
 }
 
 int import_worker(int argc, char** argv) {

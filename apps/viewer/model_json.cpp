@@ -15,18 +15,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kFarthest_mm = 1e6;
-
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
 
-Vec3 vec3_from(const json& value, const char* key) {
+Vec3 vec3_from(const json& value, const char* key, double farthest_mm) {
     if (!value.is_array() || value.size() != 3) refuse(fmt::format("'{}' is not [x, y, z]", key));
     Vec3 v;
     for (int axis = 0; axis < 3; ++axis) {
         if (!value[static_cast<std::size_t>(axis)].is_number()) refuse(fmt::format("'{}' is not [x, y, z]", key));
         v[axis] = value[static_cast<std::size_t>(axis)].get<double>();
-        if (!(std::abs(v[axis]) <= kFarthest_mm))
-            refuse(fmt::format("'{}' has the coordinate {}; the limit is {:g} mm", key, v[axis], kFarthest_mm));
+        if (!(std::abs(v[axis]) <= farthest_mm))
+            refuse(fmt::format("'{}' has the coordinate {}; the limit is {:g} mm", key, v[axis], farthest_mm));
     }
     return v;
 }
@@ -52,6 +50,20 @@ void make_orthonormal(Plane& plane) {
 }  // namespace
 
 std::string to_text(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json parsed(std::string_view text) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\') ++i;
+        else if (c == '"') in_string = !in_string;
+        else if (!in_string && (c == '[' || c == '{') && ++depth > kDeepest)
+            refuse(fmt::format("the message is nested deeper than {} levels", kDeepest));
+        else if (!in_string && (c == ']' || c == '}')) --depth;
+    }
+    return json::parse(text);
+}
 
 json to_json(const Vec3& v) { return json::array({v.x, v.y, v.z}); }
 
@@ -85,7 +97,7 @@ json to_json(const DrawnContour& c) {
             {"visible", c.visible}};
 }
 
-Members::Members(const json& object) : object_(object) {
+Members::Members(const json& object, const Limits& limits) : object_(object), limits_(limits) {
     if (!object.is_object()) refuse("the message is no JSON object");
 }
 
@@ -131,21 +143,21 @@ std::string Members::text(const char* key, std::size_t most) const {
     return text;
 }
 
-Vec3 Members::point(const char* key) const { return vec3_from(at(key), key); }
+Vec3 Members::point(const char* key) const { return vec3_from(at(key), key, limits_.farthest_mm); }
 
 std::vector<Vec3> Members::points(const char* key) const {
     const json& array = at(key);
     if (!array.is_array()) refuse(fmt::format("'{}' is not an array of points", key));
-    if (array.size() > kMostPoints)
-        refuse(fmt::format("'{}' has {} points; the limit is {}", key, array.size(), kMostPoints));
+    if (array.size() > limits_.points)
+        refuse(fmt::format("'{}' has {} points; the limit is {}", key, array.size(), limits_.points));
     std::vector<Vec3> points;
     points.reserve(array.size());
-    for (const json& item : array) points.push_back(vec3_from(item, key));
+    for (const json& item : array) points.push_back(vec3_from(item, key, limits_.farthest_mm));
     return points;
 }
 
 Plane Members::plane(const char* key) const {
-    const Members members(at(key));
+    const Members members(at(key), limits_);
     Plane plane{members.point("origin"), unit_vector(members, "normal"), unit_vector(members, "u"),
                 unit_vector(members, "v")};
     make_orthonormal(plane);
@@ -172,8 +184,8 @@ Structure structure_from_json(const json& value) {
     return {m.id("id"), m.text("name", 200), m.color("color"), m.flag("visible")};
 }
 
-DrawnContour contour_from_json(const json& value) {
-    const Members m(value);
+DrawnContour contour_from_json(const json& value, const Limits& limits) {
+    const Members m(value, limits);
     DrawnContour c;
     c.id = m.id("id");
     c.structure = m.id("structure");
@@ -183,7 +195,7 @@ DrawnContour contour_from_json(const json& value) {
     c.visible = m.flag("visible");
     if (!m.at("control").is_array() || m.at("control").empty()) refuse("a contour has no control points");
     for (const json& item : m.at("control")) {
-        const Members point(item);
+        const Members point(item, limits);
         const auto last = static_cast<std::int64_t>(c.points.size()) - 1;
         const std::int64_t least = c.control.empty() ? 0 : static_cast<std::int64_t>(c.control.back().index) + 1;
         c.control.push_back({point.point("at"), point.stretch("kind"),

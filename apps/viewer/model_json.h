@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "viewer/model.h"
 
@@ -14,8 +15,21 @@ namespace kontur::viewer {
 constexpr Id kLargestId = Id{1} << 53;        ///< JavaScript's whole numbers end here
 constexpr std::size_t kMostPoints = 100'000;  ///< of one contour
 
+/// How much a value may hold.
+struct Limits {
+    std::size_t points = kMostPoints;
+    double farthest_mm = 1e6;  ///< largest coordinate
+};
+/// Of project files, more than is taken from anybody: what has once been stored must open.
+constexpr Limits kStoredLimits{10 * kMostPoints, 1e7};
+
 /// In one line; bytes that are no UTF-8 (names from files) become replacement characters.
 std::string to_text(const nlohmann::json& value);
+
+/// What others have written as JSON. Throws nlohmann's exception, and Error(invalid_input) for what is nested deeper than
+/// `kDeepest`: JSON is copied and written by recursion, which would overflow the stack.
+constexpr int kDeepest = 64;
+nlohmann::json parsed(std::string_view text);
 
 nlohmann::json to_json(const Vec3& v);
 nlohmann::json to_json(const std::vector<Vec3>& points);
@@ -25,12 +39,12 @@ nlohmann::json to_json(const ControlPoint& point);
 nlohmann::json to_json(const DrawnContour& contour);
 
 Structure structure_from_json(const nlohmann::json& value);
-DrawnContour contour_from_json(const nlohmann::json& value);
+DrawnContour contour_from_json(const nlohmann::json& value, const Limits& limits = {});
 
 /// Typed access to the members of one object.
 class Members {
 public:
-    explicit Members(const nlohmann::json& object);
+    explicit Members(const nlohmann::json& object, const Limits& limits = {});
 
     bool has(const char* key) const;
     const nlohmann::json& at(const char* key) const;
@@ -52,6 +66,7 @@ public:
 
 private:
     const nlohmann::json& object_;
+    Limits limits_;
 };
 
 }  // namespace kontur::viewer

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
@@ -23,7 +25,7 @@ constexpr const char* kSchema =
     "CREATE TABLE history (number INTEGER PRIMARY KEY, label TEXT NOT NULL, time TEXT NOT NULL, changes TEXT NOT NULL);";
 
 Structure row_from(const json& value, const Structure*) { return structure_from_json(value); }
-DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value); }
+DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value, kStoredLimits); }
 
 template <class Row>
 json to_json(const std::vector<Change<Row>>& changes) {
@@ -79,22 +81,49 @@ void write_rows(Database& database, const std::vector<Change<Row>>& changes, con
     }
 }
 
-void check_format(Database& database) {
-    if (database.number("PRAGMA application_id") != kApplicationId)
-        throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", database.path().string()));
-    if (const std::int64_t version = database.number("PRAGMA user_version"); version != kVersion)
+void check_format(const std::filesystem::path& path, std::int64_t application_id, std::int64_t version) {
+    if (application_id != kApplicationId)
+        throw Error(ErrorKind::corrupt_file, fmt::format("{} is no kontur project", path.string()));
+    if (version != kVersion)
         throw Error(ErrorKind::unsupported,
-                    fmt::format("{} was written by a newer kontur: its version is {}, {} is supported",
-                                database.path().string(), version, kVersion));
+                    fmt::format("{} was written by a newer kontur: its version is {}, {} is supported", path.string(),
+                                version, kVersion));
+}
+
+/// `path`, once its first bytes say that it is ours, or new: SQLite alters the files of others already by opening them our
+/// way. (https://www.sqlite.org/fileformat2.html, "The Database Header")
+const std::filesystem::path& checked(const std::filesystem::path& path) {
+    constexpr std::string_view kMagic("SQLite format 3\0", 16);
+    constexpr std::size_t kHeaderBytes = 100, kVersionAt = 60, kApplicationIdAt = 68;
+    // With a journal beside it the header may be half-written, and SQLite has to repair it first.
+    if (std::error_code error; std::filesystem::exists(path.string() + "-journal", error)) return path;
+    std::array<char, kHeaderBytes> header{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(header.data(), kHeaderBytes);
+    if (file.gcount() == 0) return path;
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(header[i]);
+        return static_cast<std::int64_t>(value);
+    };
+    const bool is_database = std::string_view(header.data(), kMagic.size()) == kMagic;
+    check_format(path, is_database ? number(kApplicationIdAt) : 0, number(kVersionAt));
+    return path;
+}
+
+const std::string& name_of(Id structure, const Commit& commit, const State& state) {
+    for (const auto& change : commit.structures)
+        if (change.id == structure && change.after) return change.after->name;
+    return structure_of(state, structure).name;
 }
 
 bool is_empty(Database& database) { return database.number("SELECT count(*) FROM sqlite_schema") == 0; }
 
 }  // namespace
 
-Project::Project(const std::filesystem::path& path, const ImageReference& image) : database_(path) {
+Project::Project(const std::filesystem::path& path, const ImageReference& image) : database_(checked(path)) {
     if (is_empty(database_)) create(image);
-    else check_format(database_);
+    else check_format(path, database_.number("PRAGMA application_id"), database_.number("PRAGMA user_version"));
     load();
 }
 
@@ -105,27 +134,27 @@ void Project::create(const ImageReference& image) {
     save_setting("position", "0");
     save_setting("next_id", "1");
     save_setting("page", "null");
-    save_image(image);
+    write_image(image);
     transaction.commit();
-    is_new_ = true;
 }
 
 void Project::load() {
     reading(database_, [&] {
         image_ = {setting("image_path"), setting("image_fingerprint")};
-        const json numbers{{"position", json::parse(setting("position"))}, {"next_id", json::parse(setting("next_id"))}};
+        const json numbers{{"position", parsed(setting("position"))}, {"next_id", parsed(setting("next_id"))}};
         position_ = Members(numbers).integer("position", 0, kLargestId - 1);
         next_id_ = Members(numbers).id("next_id");
         for (Query rows(database_, "SELECT data FROM structure"); rows.next();) {
-            const Structure structure = structure_from_json(json::parse(rows.text(0)));
+            const Structure structure = structure_from_json(parsed(rows.text(0)));
             state_.structures[structure.id] = structure;
         }
         for (Query rows(database_, "SELECT data FROM contour"); rows.next();) {
-            auto contour = std::make_shared<const DrawnContour>(contour_from_json(json::parse(rows.text(0))));
+            auto contour = std::make_shared<const DrawnContour>(contour_from_json(parsed(rows.text(0)), kStoredLimits));
             structure_of(state_, contour->structure);
             state_.contours[contour->id] = std::move(contour);
         }
     });
+    is_new_ = state_.structures.empty() && database_.number("SELECT count(*) FROM history") == 0;
 }
 
 std::string Project::setting(std::string_view key) {
@@ -137,16 +166,43 @@ void Project::save_setting(std::string_view key, std::string_view value) {
     Query(database_, "INSERT OR REPLACE INTO setting VALUES (?1, ?2)").bind(key).bind(value).finish();
 }
 
-void Project::save_image(const ImageReference& image) {
+void Project::write_image(const ImageReference& image) {
     save_setting("image_path", image.path);
     save_setting("image_fingerprint", image.fingerprint);
+}
+
+void Project::save_image(const ImageReference& image) {
+    Transaction transaction(database_);
+    write_image(image);
+    transaction.commit();
     image_ = image;
 }
 
 std::string Project::page_state() { return setting("page"); }
-void Project::save_page_state(std::string_view text) { save_setting("page", text); }
+
+void Project::save_page_state(std::string_view text) {
+    Transaction transaction(database_);
+    save_setting("page", text);
+    transaction.commit();
+}
+
+/// By the functions that will read it: whatever is acknowledged can be opened again.
+void Project::check_storable(const Commit& commit) const {
+    for (const auto& change : commit.structures)
+        if (change.after) structure_from_json(viewer::to_json(*change.after));
+    for (const auto& change : commit.contours) {
+        if (!change.after) continue;
+        try {
+            contour_from_json(viewer::to_json(*change.after));
+        } catch (const Error& error) {
+            throw Error(error.kind(), fmt::format("a contour of {} cannot be kept: {}",
+                                                  name_of(change.after->structure, commit, state_), error.what()));
+        }
+    }
+}
 
 void Project::begin_with(const Commit& commit) {
+    check_storable(commit);
     Transaction transaction(database_);
     store(commit, position_);
     transaction.commit();
@@ -154,6 +210,7 @@ void Project::begin_with(const Commit& commit) {
 }
 
 void Project::commit(const Commit& commit) {
+    check_storable(commit);
     const json changes{{"structures", to_json(commit.structures)}, {"contours", to_json(commit.contours)}};
     Transaction transaction(database_);
     Query(database_, "DELETE FROM history WHERE number > ?1").bind(position_).finish();
@@ -205,7 +262,7 @@ std::optional<Commit> Project::step(std::int64_t number) {
     Query query(database_, "SELECT label, changes FROM history WHERE number = ?1");
     if (!query.bind(number).next()) return std::nullopt;
     return reading(database_, [&] {
-        const json changes = json::parse(query.text(1));
+        const json changes = parsed(query.text(1));
         return Commit{query.text(0), changes_from<Structure>(changes.at("structures")),
                       changes_from<DrawnContour>(changes.at("contours"))};
     });

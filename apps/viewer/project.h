@@ -46,15 +46,16 @@ public:
     const std::filesystem::path& path() const { return database_.path(); }
     const State& state() const { return state_; }
     const ImageReference& image() const { return image_; }
-    /// Whether the constructor made the file.
+    /// Whether nothing had ever been in it when it was opened: made now, or at a start that failed before it was filled.
     bool is_new() const { return is_new_; }
 
     /// An id for the next structure or contour.
     Id new_id() { return next_id_++; }
 
-    /// What a new project begins with, before its first step: nobody can undo it.
+    /// What a new project begins with, before its first step: nobody can undo it. Throws as `commit`.
     void begin_with(const Commit& commit);
-    /// Stores the step, drops what was undone before, and makes `after` present. Nothing changes when it throws.
+    /// Stores the step, drops what was undone before, and makes `after` present. Nothing changes when it throws:
+    /// Error(invalid_input) for a contour that could not be read again, Error(io) when the file is not there any more.
     void commit(const Commit& commit);
     /// Goes back or forward one step and returns what that changed, `before` and `after` in the direction of the move;
     /// nothing at the end of the history.
@@ -77,6 +78,8 @@ public:
 
 private:
     void create(const ImageReference& image);
+    void write_image(const ImageReference& image);
+    void check_storable(const Commit& commit) const;
     void load();
     std::string setting(std::string_view key);
     void save_setting(std::string_view key, std::string_view value);

@@ -40,8 +40,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLargestHeader = 8 << 10;
 constexpr std::size_t kLargestMessage = 4 << 20;
-constexpr std::size_t kMostUnsentBytes = 64 << 20;  ///< a page that takes less of what it is told is cut off
-constexpr std::size_t kBytesPerSecond = 1 << 20;    ///< least speed of long bodies
+/// Behind the message that is being sent, which may be of any size: a page that takes less of what it is told is cut off.
+constexpr std::size_t kMostWaitingBytes = 64 << 20;
+constexpr std::size_t kBytesPerSecond = 1 << 20;  ///< least speed of long bodies
 constexpr std::size_t kMostDrained = 1 << 20;
 constexpr int kWorkers = 4;
 constexpr int kMostImports = 2;  ///< at a time: each may be large
@@ -67,6 +68,7 @@ struct ServerCore {
     ServerOptions options;
     Access access;
     std::set<PageSocket*> sockets;
+    PageId last_page = 0;
     int connections = 0, imports = 0;
     Clock::time_point last_use;
     std::stop_source ending;  ///< of all that is worked on
@@ -105,7 +107,7 @@ private:
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
 public:
     PageSocket(ServerCore& core, Slot slot, tcp::socket socket)
-        : core_(core), slot_(std::move(slot)), stream_(std::move(socket)), buffer_(kLargestMessage) {}
+        : core_(core), slot_(std::move(slot)), stream_(std::move(socket)), buffer_(kLargestMessage), id_(++core.last_page) {}
     ~PageSocket() { core_.sockets.erase(this); }
 
     void accept(const http::request<http::string_body>& request) {
@@ -132,8 +134,15 @@ private:
         core_.sockets.insert(this);
         asio::post(core_.calls, [self = shared_from_this()]() mutable {
             ServerCore& core = self->core_;
-            auto greeting = std::make_shared<const std::string>(core.session.greeting());
-            asio::post(core.io, [self = std::move(self), greeting] {
+            std::shared_ptr<const std::string> greeting;
+            std::string problem;
+            try {
+                greeting = std::make_shared<const std::string>(core.session.greeting());
+            } catch (const std::exception& error) {
+                problem = error.what();
+            }
+            asio::post(core.io, [self = std::move(self), greeting, problem] {
+                if (!greeting) return self->turn_away(problem);
                 self->is_greeted_ = true;
                 self->send(greeting);
                 for (const auto& message : self->held_back_) self->send(message);
@@ -143,21 +152,27 @@ private:
         });
     }
 
+    void turn_away(const std::string& problem) {
+        send(std::make_shared<const std::string>(notice_event("error", problem)));
+        close(websocket::close_code::internal_error);
+    }
+
     void read() {
         if (is_closing_) return;
         stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
             self->core_.last_use = Clock::now();
             if (!error) self->take();
-            else self->core_.sockets.erase(self.get());
+            else self->leave();
         });
     }
 
     /// The next message is read only when this one is answered, so a flood waits in the sender's socket.
     void take() {
+        if (is_closing_) return;
         if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
         asio::post(core_.calls, [self = shared_from_this(), message = beast::buffers_to_string(buffer_.data())]() mutable {
             ServerCore& core = self->core_;
-            auto reply = std::make_shared<const std::string>(core.session.call(message));
+            auto reply = std::make_shared<const std::string>(core.session.call(message, self->id_));
             asio::post(core.io, [self = std::move(self), reply] {
                 self->send(reply);
                 self->read();
@@ -168,8 +183,8 @@ private:
 
     void send(const std::shared_ptr<const std::string>& message) {
         if (is_closing_) return;
-        unsent_bytes_ += message->size();
-        if (unsent_bytes_ > kMostUnsentBytes) return cut_off();
+        if (!unsent_.empty()) waiting_bytes_ += message->size();
+        if (waiting_bytes_ > kMostWaitingBytes) return cut_off();
         unsent_.push_back(message);
         if (unsent_.size() == 1) write();
     }
@@ -179,33 +194,41 @@ private:
         stream_.async_write(asio::buffer(*unsent_.front()),
                             [self = shared_from_this()](beast::error_code error, std::size_t) {
                                 if (error) return self->cut_off();
-                                self->unsent_bytes_ -= self->unsent_.front()->size();
                                 self->unsent_.pop_front();
-                                if (!self->unsent_.empty()) self->write();
+                                if (self->unsent_.empty()) return;
+                                self->waiting_bytes_ -= self->unsent_.front()->size();
+                                self->write();
                             });
     }
 
     void close(websocket::close_code reason) {
         is_closing_ = true;
-        core_.sockets.erase(this);
+        leave();
         stream_.async_close(reason, [self = shared_from_this()](beast::error_code) {});
     }
 
     void cut_off() {
         is_closing_ = true;
-        core_.sockets.erase(this);
+        leave();
         beast::error_code ignored;
         stream_.next_layer().socket().close(ignored);
+    }
+
+    /// After what it has asked for so far.
+    void leave() {
+        if (core_.sockets.erase(this) == 0) return;
+        asio::post(core_.calls, [&core = core_, id = id_] { core.session.left(id); });
     }
 
     ServerCore& core_;
     Slot slot_;
     websocket::stream<beast::tcp_stream> stream_;
     beast::flat_buffer buffer_;
+    const PageId id_;
     bool is_greeted_ = false, is_closing_ = false;
     std::vector<std::shared_ptr<const std::string>> held_back_;
     std::deque<std::shared_ptr<const std::string>> unsent_;
-    std::size_t unsent_bytes_ = 0;
+    std::size_t waiting_bytes_ = 0;
 };
 
 /// One HTTP connection: a request at a time; becomes a PageSocket by an upgrade.
@@ -240,7 +263,7 @@ private:
 
     static RequestHead head_of(const Request& request) {
         return {text(request.method_string()),
-                text(request.target()),
+                parse_target(text(request.target())),
                 values(request, http::field::host),
                 values(request, http::field::origin),
                 values(request, http::field::authorization),
@@ -265,17 +288,19 @@ private:
         if (const auto refused = refusal(head, core_.access))
             return finish_with(error_reply(refused->status, refused->kind, refused->message));
         host_ = head.host.front();
-        const bool is_socket = head.target == kSocket;
+        if (!head.target) return finish_with(error_reply(400, "invalid_input", "the address is malformed"));
+        target_ = *head.target;
+        const bool is_socket = target_.path == kSocket;
         if (head.is_upgrade != is_socket)
             return finish_with(error_reply(404, "not_found", "there is nothing at this address"));
         if (is_socket) return upgrade();
 
-        const std::uint64_t limit = HttpApi::body_limit(head.target), length = parser_->content_length().value_or(0);
+        const std::uint64_t limit = HttpApi::body_limit(target_.path), length = parser_->content_length().value_or(0);
         if (length > limit)
             return finish_with(error_reply(413, "too_large",
                                            fmt::format("the request's body has {} bytes; the limit is {}", length, limit)));
         parser_->body_limit(limit);
-        if (head.target.starts_with(kImports)) {
+        if (target_.path.starts_with(kImports)) {
             if (core_.imports >= kMostImports)
                 return finish_with(error_reply(413, "too_large", "other files are being imported; try again after them"));
             import_.emplace(core_.imports);
@@ -297,7 +322,7 @@ private:
     void work() {
         Request request = parser_->release();
         keep_alive_ = request.keep_alive();
-        auto make = core_.api.prepare({text(request.method_string()), text(request.target()), std::move(request.body())});
+        auto make = core_.api.prepare({text(request.method_string()), target_, std::move(request.body())});
         stop_ = std::stop_source();
         watch();
         asio::post(core_.work, [self = shared_from_this(), make = std::move(make), stop = stop_]() mutable {
@@ -377,6 +402,7 @@ private:
     std::optional<Slot> import_;
     std::stop_source stop_{std::nostopstate};  ///< of what is worked on
     std::string host_ = "127.0.0.1";
+    Target target_;  ///< of the request
     bool keep_alive_ = false;
     std::size_t drained_ = 0;
 };

@@ -19,6 +19,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMostControlPoints = 10'000;
 constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 constexpr std::size_t kLargestPageState = 64 << 10;
 
 /// Told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
@@ -106,6 +107,15 @@ bool same_surface(const DrawnContour& a, const DrawnContour& b) {
     return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure;
 }
 
+/// A file's name for a structure: whole characters of UTF-8.
+std::string name_from(const std::string& text) {
+    std::string name = parsed(to_text(text)).get<std::string>();
+    if (name.size() <= kLongestName) return name;
+    std::size_t end = kLongestName;
+    while (end > 0 && (name[end] & 0xc0) == 0x80) --end;
+    return name.substr(0, end);
+}
+
 std::string free_name(const State& state) {
     for (std::size_t number = state.structures.size() + 1;; ++number) {
         std::string name = fmt::format("Structure {}", number);
@@ -123,6 +133,10 @@ std::string next_color(const State& state) {
 }
 
 }  // namespace
+
+std::string notice_event(std::string_view level, const std::string& text) {
+    return to_text({{"event", "notice"}, {"level", std::string(level)}, {"text", text}});
+}
 
 Session::Session(OpenedImage opened, const std::filesystem::path& project)
     : image_(std::move(opened.image)),
@@ -167,7 +181,8 @@ void Session::tell_status(const std::string& text, std::optional<double> fractio
 }
 
 void Session::notice(std::string_view level, const std::string& text) {
-    tell({{"event", "notice"}, {"level", std::string(level)}, {"text", text}});
+    const std::scoped_lock lock(listener_mutex_);
+    if (listener_) listener_(notice_event(level, text));
 }
 
 std::string Session::greeting() {
@@ -199,7 +214,20 @@ std::string Session::greeting() {
                     {"contours", contours},
                     {"surfaces", surfaces},
                     {"history", history()},
-                    {"page", json::parse(project_.page_state(), nullptr, false)}});
+                    {"page", page_state()}});
+}
+
+/// A project may come from anywhere: what `page.save` would have refused is not given back.
+json Session::page_state() {
+    const std::string stored = project_.page_state();
+    if (stored.size() > kLargestPageState) return nullptr;
+    try {
+        return parsed(stored);
+    } catch (const json::exception&) {
+        return nullptr;
+    } catch (const Error&) {
+        return nullptr;
+    }
 }
 
 json Session::surface_event(const Surface& surface) const {
@@ -230,20 +258,23 @@ json Session::history() {
     return {{"undo", label(project_.undo_label())}, {"redo", label(project_.redo_label())}};
 }
 
-std::string Session::call(std::string_view message) {
+std::string Session::call(std::string_view message, PageId page) {
     json seq = nullptr;
     const auto failed = [&](std::string_view kind, std::string_view sentence) {
         return to_text({{"seq", seq}, {"error", error_json(kind, sentence)}});
     };
     try {
-        const json request = json::parse(message);
+        const json request = parsed(message);
         const Members m(request);
         if (m.has("seq") && m.at("seq").is_number_integer()) seq = m.at("seq");
         const auto found = calls().find(m.text("call", 64));
         if (found == calls().end())
             return failed(name(ErrorKind::invalid_input), fmt::format("there is no call '{}'", m.text("call", 64)));
         std::unique_lock lock(mutex_, std::defer_lock);
-        if (found->second.needs_project) lock.lock();
+        if (found->second.needs_project) {
+            lock.lock();
+            caller_ = page;
+        }
         return to_text({{"seq", seq}, {"result", (this->*found->second.method)(m)}});
     } catch (const json::exception&) {
         return failed(name(ErrorKind::invalid_input), "the message is no JSON that kontur understands");
@@ -253,6 +284,16 @@ std::string Session::call(std::string_view message) {
         return failed(name(ErrorKind::too_large), "there is not enough memory for this");
     } catch (const std::exception& error) {
         return failed("internal", error.what());
+    }
+}
+
+void Session::left(PageId page) {
+    const std::scoped_lock lock(mutex_);
+    if (!draft_ || draft_owner_ != page) return;
+    try {
+        clear_draft();
+    } catch (const std::exception& error) {
+        notice("error", error.what());
     }
 }
 
@@ -298,6 +339,7 @@ json Session::put(const std::string& label, DrawnContour contour, const Members&
     if (m.flag_or("draft", false)) {
         const Id before = draft_ ? draft_->structure : 0;
         draft_ = contour;
+        draft_owner_ = caller_;
         if (before != 0 && before != contour.structure) follow(before);
         follow(contour.structure);
     } else {
@@ -453,18 +495,24 @@ json Session::ping(const Members&) { return json::object(); }
 Commit Session::new_structures(const std::string& label, const std::vector<ContourSet>& sets) {
     Commit added{label, {}, {}};
     State state = project_.state();
+    std::size_t points = 0;
+    for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
-        Structure structure{project_.new_id(), set.name.substr(0, kLongestName), next_color(state), true};
+        Structure structure{project_.new_id(), name_from(set.name), next_color(state), true};
         if (structure.name.empty()) structure.name = free_name(state);
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});
         for (const Contour& contour : set.contours) {
+            points += contour.points.size();
             DrawnContour drawn = as_drawn(contour);
             drawn.id = project_.new_id();
             drawn.structure = structure.id;
             added.contours.push_back({drawn.id, {}, std::move(drawn)});
         }
     }
+    if (points > kMostPointsOfProject)
+        throw Error(ErrorKind::too_large,
+                    fmt::format("the project would hold {} points; the limit is {}", points, kMostPointsOfProject));
     return added;
 }
 

@@ -34,12 +34,18 @@ struct OpenedImage {
     std::vector<std::string> notes;  ///< what had to be decided on reading
 };
 
+/// Of an open page; 0: of nobody.
+using PageId = std::uint64_t;
+
 /// A name and the bytes of a file to download.
 struct Download {
     std::string file_name;
     std::string content_type;
     std::string bytes;
 };
+
+/// The event that tells pages something the user should know.
+std::string notice_event(std::string_view level, const std::string& text);
 
 /// Everything behind the page: the image, the project, the surfaces. Speaks the messages of docs/viewer-protocol.md and
 /// knows nothing of the network. Safe for concurrent use; edits are carried out one after the other.
@@ -54,7 +60,9 @@ public:
     /// The `session` event for a page that has just come.
     std::string greeting();
     /// Carries out one message of a page and returns the reply. Never throws.
-    std::string call(std::string_view message);
+    std::string call(std::string_view message, PageId page = 0);
+    /// The page is closed: what it drafted is dropped. Never throws.
+    void left(PageId page);
 
     // Replies to HTTP requests; errors are exceptions.
     std::string slice(std::string_view request);
@@ -68,7 +76,7 @@ public:
     /// A new project's first structure, before its history.
     void begin_with(const ContourSet& set);
 
-    /// Whether the project was made by this session.
+    /// Whether the project was empty when it was opened, its history too.
     bool is_new() const { return project_.is_new(); }
     const std::filesystem::path& project_path() const { return project_.path(); }
 
@@ -82,7 +90,7 @@ private:
     class StatusLine;
     /// What a page sees in one of its views.
     struct WatchedPlane {
-        std::string view;
+        std::string page, view;
         Reslice raster;
         nlohmann::json plane;  ///< as the page named it
     };
@@ -127,6 +135,7 @@ private:
     void follow(Id structure) { surfaces_.follow(surface_task(structure)); }
     void clear_draft();
     nlohmann::json history();
+    nlohmann::json page_state();
     nlohmann::json surface_event(const Surface& surface) const;
     void tell(const nlohmann::json& event);
     void watch(WatchedPlane plane);
@@ -145,11 +154,13 @@ private:
     std::function<void(const std::string&)> listener_;
 
     std::mutex watched_mutex_;
-    std::vector<WatchedPlane> watched_;  ///< the latest of each view, the newest last
+    std::vector<WatchedPlane> watched_;  ///< the latest of each page's views, the newest last
 
     mutable std::mutex mutex_;  ///< of what follows
     Project project_;
     std::optional<DrawnContour> draft_;  ///< stands for the contour with its id, or is a new one (id 0)
+    PageId caller_ = 0;                  ///< whose call is carried out
+    PageId draft_owner_ = 0;
 
     Surfaces surfaces_;  ///< last: its thread tells events
 };

@@ -143,7 +143,9 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
 
 std::vector<Id> Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
     const StatusLine line(*this, "Importing");
-    const Imported imported = import_apart(bytes, upload, {{}, stop});
+    const Progress progress{{}, stop};
+    const Imported imported = import_apart(bytes, upload, progress);
+    progress.check();
     for (const std::string& note : imported.notes) notice("info", note);
     return add_structures(upload.content == Upload::Content::mask ? "Import a mask" : "Import contours", imported.sets);
 }

@@ -26,7 +26,7 @@ constexpr double kParallelCosine = 0.99985;  // 1 degree
 
 // json's default constructor makes null, which cannot throw; clang-tidy sees the throwing cases of the one it calls.
 struct SliceRequest {  // NOLINT(bugprone-exception-escape)
-    std::string view;
+    std::string page, view;
     json plane;
     Reslice raster;
     Window window;
@@ -34,9 +34,10 @@ struct SliceRequest {  // NOLINT(bugprone-exception-escape)
 };
 
 SliceRequest parse(std::string_view text) {
-    const json document = json::parse(text);
+    const json document = parsed(text);
     const Members m(document), plane(m.at("plane"));
     SliceRequest request;
+    if (m.has("page")) request.page = m.text("page", kLongestViewName);
     if (m.has("view")) request.view = m.text("view", kLongestViewName);
     request.plane = m.at("plane");
     request.raster.plane = m.plane("plane");
@@ -133,7 +134,7 @@ std::vector<float> floats(const std::vector<Vec3>& points) {
 
 void Session::watch(WatchedPlane plane) {
     const std::scoped_lock lock(watched_mutex_);
-    std::erase_if(watched_, [&](const WatchedPlane& old) { return old.view == plane.view; });
+    std::erase_if(watched_, [&](const WatchedPlane& old) { return old.page == plane.page && old.view == plane.view; });
     if (watched_.size() == kMostWatched) watched_.erase(watched_.begin());
     watched_.push_back(std::move(plane));
 }
@@ -161,7 +162,7 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
 
 std::string Session::slice(std::string_view text) {
     const SliceRequest request = parse(text);
-    if (request.outlines) watch({request.view, request.raster, request.plane});
+    if (request.outlines) watch({request.page, request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{
         {"width", request.raster.width},

@@ -43,9 +43,15 @@ std::vector<std::vector<Vec3>> cut(const TriangleMesh& mesh, const Plane& plane)
     return lines;
 }
 
-Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
+Surface no_surface(Id structure, std::vector<std::string> warnings = {}) {
     Surface surface;
-    surface.structure = task.structure;
+    surface.structure = structure;
+    surface.warnings = std::move(warnings);
+    return surface;
+}
+
+Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
+    Surface surface = no_surface(task.structure);
     if (update.kind == EditorUpdate::Kind::problem && !task.set.contours.empty()) surface.warnings.push_back(update.problem);
     if (update.surface.mesh.triangles.empty()) {
         if (!update.surface.refined || task.set.contours.empty()) return surface;
@@ -80,6 +86,14 @@ std::string_view name(SurfaceStage stage) noexcept {
     return "none";
 }
 
+Surfaces::~Surfaces() {
+    Editors editors;  // ended without the lock, and before the map that their threads look through
+    const std::scoped_lock lock(mutex_);
+    later_.clear();
+    editors.swap(retired_);
+    for (auto& [structure, follower] : followers_) editors.push_back(std::move(follower.editor));
+}
+
 void Surfaces::outdate(const std::set<Id>& structures) {
     const std::scoped_lock lock(mutex_);
     for (const Id structure : structures) outdate_locked(structure);
@@ -96,7 +110,9 @@ void Surfaces::outdate_locked(Id structure) {
 }
 
 void Surfaces::follow(SurfaceTask task) {
+    Editors retired;  // ended when the lock is free again, for which their threads may wait
     const std::scoped_lock lock(mutex_);
+    retired.swap(retired_);
     std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
     start(std::move(task));
 }
@@ -109,12 +125,14 @@ void Surfaces::follow_later(SurfaceTask task) {
 }
 
 void Surfaces::start_next() {
-    const bool is_busy =
-        std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
-    if (is_busy || later_.empty()) return;
-    SurfaceTask task = std::move(later_.front());
-    later_.pop_front();
-    start(std::move(task));
+    const auto is_busy = [&] {
+        return std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
+    };
+    while (!later_.empty() && !is_busy()) {
+        SurfaceTask task = std::move(later_.front());
+        later_.pop_front();
+        start(std::move(task));
+    }
 }
 
 void Surfaces::start(SurfaceTask task) {
@@ -122,10 +140,19 @@ void Surfaces::start(SurfaceTask task) {
     outdate_locked(structure);
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
-    if (!follower.editor)
-        follower.editor = std::make_unique<LiveEditor>(
-            EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); },
-            [this, structure](std::uint64_t, const SurfaceBand& band) { hear_ahead(structure, band); });
+    if (!follower.editor) {
+        if (task.set.contours.empty()) return publish_locked(no_surface(structure));
+        try {
+            follower.editor = std::make_shared<LiveEditor>(
+                EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); },
+                [this, structure](std::uint64_t, const SurfaceBand& band) { hear_ahead(structure, band); });
+        } catch (const std::exception& error) {
+            return publish_locked(no_surface(
+                structure,
+                {fmt::format("There is no surface until the next edit: no thread to compute it could be started ({}).",
+                             error.what())}));
+        }
+    }
     // The lock makes the editor's answer wait until its task is known.
     const std::uint64_t number = follower.editor->edit(task.set);
     follower.is_working = true;
@@ -134,13 +161,14 @@ void Surfaces::start(SurfaceTask task) {
 
 void Surfaces::wait() {
     for (bool is_done = false; !is_done;) {
-        std::vector<LiveEditor*> editors;
+        Editors editors;
         {
             const std::scoped_lock lock(mutex_);
             is_done = later_.empty();
-            for (const auto& [structure, follower] : followers_) editors.push_back(follower.editor.get());
+            for (const auto& [structure, follower] : followers_)
+                if (follower.editor) editors.push_back(follower.editor);
         }
-        for (LiveEditor* editor : editors) editor->wait();
+        for (const auto& editor : editors) editor->wait();
     }
 }
 
@@ -173,6 +201,10 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
     if (!is_newest || update.kind == EditorUpdate::Kind::preview) return;
     follower.stage = {};
     follower.is_working = false;
+    if (task.set.contours.empty() && follower.editor) {
+        retired_.push_back(std::move(follower.editor));
+        follower.tasks.clear();  // the next editor counts from 1 again
+    }
     listener_.status("", std::nullopt);
     start_next();
 }

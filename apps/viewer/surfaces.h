@@ -65,10 +65,12 @@ struct SurfaceListener {
     std::function<void(const std::string& text, std::optional<double> fraction)> status;
 };
 
-/// A LiveEditor for each structure: surfaces follow the contours, previews at once, the refined ones when the hand rests.
+/// A LiveEditor for each structure that has contours: surfaces follow the contours, previews at once, the refined ones when
+/// the hand rests.
 class Surfaces {
 public:
     explicit Surfaces(SurfaceListener listener) : listener_(std::move(listener)) {}
+    ~Surfaces();
     Surfaces(const Surfaces&) = delete;
     Surfaces& operator=(const Surfaces&) = delete;
 
@@ -89,12 +91,13 @@ private:
     struct Follower {
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
         bool is_working = false;
-        bool is_outdated = false;  ///< there will be another task
-        std::int64_t ahead = 0;    ///< revision of the preview whose outlines have been told
-        std::string_view stage;    ///< what the status line was told last ...
-        int tenths = 0;            ///< ... and how far it was
-        std::unique_ptr<LiveEditor> editor;
+        bool is_outdated = false;            ///< there will be another task
+        std::int64_t ahead = 0;              ///< revision of the preview whose outlines have been told
+        std::string_view stage;              ///< what the status line was told last ...
+        int tenths = 0;                      ///< ... and how far it was
+        std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
     };
+    using Editors = std::vector<std::shared_ptr<LiveEditor>>;
 
     void start(SurfaceTask task);
     void start_next();
@@ -110,6 +113,7 @@ private:
     std::map<Id, std::shared_ptr<const Surface>> latest_;
     std::int64_t revision_ = 0;
     std::deque<SurfaceTask> later_;
+    Editors retired_;                   ///< not needed any more; an editor's own thread cannot end it
     std::map<Id, Follower> followers_;  ///< last: their threads use all above
 };
 

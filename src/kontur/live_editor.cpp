@@ -70,15 +70,23 @@ struct LiveEditor::Worker {
             if (stop.stop_requested()) return;
             update.surface = editor.refine(edit.contours, progress_of(edit, stop));
             update.kind = EditorUpdate::Kind::refined;
+            listener(update);
         } catch (const std::exception& error) {
             const auto* known = dynamic_cast<const Error*>(&error);
             if (known && known->kind() == ErrorKind::cancelled) return;
-            update = {};
-            update.edit = edit.number;
-            update.kind = EditorUpdate::Kind::problem;
-            update.problem = error.what();
+            tell_problem(edit.number, error.what());
         }
-        listener(update);
+    }
+
+    void tell_problem(std::uint64_t number, const char* problem) {
+        try {
+            EditorUpdate update;
+            update.edit = number;
+            update.kind = EditorUpdate::Kind::problem;
+            update.problem = problem;
+            listener(update);
+        } catch (const std::exception&) {  // without memory nothing can be told, and from a thread it would end the program
+        }
     }
 
     /// A token that the next edit stops; stopped already if that edit has come.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,21 @@ TEST(LiveEditor, PreviewsAndThenRefinesAnEdit) {
     EXPECT_TRUE(updates[1].surface.refined);
     EXPECT_TRUE(std::ranges::equal(updates[1].surface.function.weights(),
                                    Editor().refine(test::ball_contours()).function.weights()));
+}
+
+TEST(LiveEditor, WhatItsListenerThrowsIsAProblemAndEndsNothing) {
+    std::vector<std::string> problems;
+    LiveEditor editor({}, [&](const EditorUpdate& update) {
+        if (update.kind == Kind::refined) throw std::runtime_error("deaf");
+        if (update.kind != Kind::problem) return;
+        problems.push_back(update.problem);
+        throw std::runtime_error("deaf to this, too");
+    });
+    for (int edit = 0; edit < 2; ++edit) {
+        editor.edit(test::ball_contours());
+        editor.wait();
+    }
+    EXPECT_EQ(problems, (std::vector<std::string>{"deaf", "deaf"}));
 }
 
 TEST(LiveEditor, TellsOfAPreviewAheadOfItsMesh) {

@@ -10,10 +10,12 @@ namespace {
 
 const Access kAccess{8420, "secret"};
 
-RequestHead get(const std::string& target) { return {"GET", target, {"127.0.0.1:8420"}, {}, {"Bearer secret"}, {}, false}; }
+RequestHead get(const std::string& target) {
+    return {"GET", parse_target(target), {"127.0.0.1:8420"}, {}, {"Bearer secret"}, {}, false};
+}
 
 RequestHead upgrade() {
-    return {"GET", "/api/socket", {"localhost:8420"}, {"http://localhost:8420"}, {}, {"kontur, secret"}, true};
+    return {"GET", parse_target("/api/socket"), {"localhost:8420"}, {"http://localhost:8420"}, {}, {"kontur, secret"}, true};
 }
 
 int status(const RequestHead& head) {
@@ -40,8 +42,17 @@ TEST(Access, ThePagesFilesNeedNoTokenButTheRightHost) {
     EXPECT_EQ(status(head), 421);
 }
 
+TEST(Access, NoSpellingOfAnApiAddressGoesWithoutTheToken) {
+    for (const char* target :
+         {"/api/mesh/1", "/%61pi/mesh/1", "/a%70i/mesh/1", "/api%2fmesh/1", "%2fapi/mesh/1", "/api/%zz"}) {
+        RequestHead head = get(target);
+        head.authorization.clear();
+        EXPECT_EQ(status(head), 401) << target;
+    }
+}
+
 TEST(Access, ChecksHostBeforeOriginBeforeTokenBeforeMethod) {
-    RequestHead head{"DELETE", "/api/x", {"evil:8420"}, {"http://evil"}, {}, {}, false};
+    RequestHead head{"DELETE", parse_target("/api/x"), {"evil:8420"}, {"http://evil"}, {}, {}, false};
     EXPECT_EQ(status(head), 421);
     head.host = {"127.0.0.1:8420"};
     EXPECT_EQ(status(head), 403);

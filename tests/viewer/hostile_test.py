@@ -83,6 +83,13 @@ REQUESTS = [
     ("prefix of the token", lambda s: head(s, target="/api/mesh/1", token=False, extra="Authorization: Bearer secre\r\n"), {401}),
     ("token as basic authorization", lambda s: head(s, target="/api/mesh/1", token=False, extra="Authorization: Basic secret\r\n"), {401}),
     ("token in the address", lambda s: head(s, target=f"/api/mesh/1?token={s.token}", token=False), {401}),
+    ("encoded address without token", lambda s: head(s, target="/%61pi/export/contours.json?structure=1", token=False), {401}),
+    ("address encoded elsewhere without token", lambda s: head(s, target="/a%70i/export/project.kontur", token=False), {401}),
+    ("encoded slash without token", lambda s: head(s, target="/api%2fexport/project.kontur", token=False), {401}),
+    ("encoded import without token", lambda s: head(s, "POST", "/%61pi/import/contours?name=x.json", origin=f"http://{s.host}", token=False), {401}),
+    ("malformed address without token", lambda s: head(s, target="/%zz", token=False), {401}),
+    ("encoded import beyond the limit", lambda s: head(s, "POST", "/%61pi/import/mask?name=a.nii", origin=f"http://{s.host}", extra="Content-Length: 9000000000\r\n"), {413}),
+    ("encoded slice beyond the limit", lambda s: head(s, "POST", "/%61pi/slice", origin=f"http://{s.host}", extra="Content-Length: 70000\r\n"), {413}),
     ("two authorizations", lambda s: head(s, target="/api/mesh/1", extra="Authorization: Bearer wrong\r\n"), {400, 401}),
     ("socket without origin", lambda s: upgrade(s, origin=None), {403}),
     ("socket with null origin", lambda s: upgrade(s, origin="null"), {403}),
@@ -168,6 +175,19 @@ def test_messages_that_are_no_calls_are_answered(server):
     for payload in (b"", b"null", b"[]", b"{", b'{"seq": 1}', b'{"call": 1}', b'{"call": "undo", "call": {}}', deep, b'{"call": "\\ud800"}', b"1e999"):
         page.send_frame(payload)
         assert page.receive()["error"]["kind"] == "invalid_input"
+
+
+def test_what_is_nested_deeply_is_refused(server):
+    """Copying and writing JSON is recursive: it would overflow the stack."""
+    page = server.page()
+    for depth in (65, 30_000, 200_000):
+        page.send_frame(b'{"seq": 1, "call": "page.save", "state": ' + b"[" * depth + b"]" * depth + b"}")
+        error = page.receive()["error"]
+        assert error == {"kind": "invalid_input", "message": "the message is nested deeper than 64 levels"}
+    page.do("page.save", state={"[{": ["]" * 100, "[" * 100]})
+    deep = json.dumps({**SLICE, "plane": {**SLICE["plane"], "x": "@"}}).replace('"@"', "[" * 30_000 + "]" * 30_000)
+    status, _, body = server.request("POST", "/api/slice", deep.encode())
+    assert status == 400 and "nested deeper" in json.loads(body)["error"]["message"]
 
 
 def test_text_that_is_no_utf8_closes_the_socket(server):

@@ -65,6 +65,26 @@ TEST(ModelJson, NumbersBeyondTheirLimitsAreRefused) {
     EXPECT_KONTUR_ERROR(m.point("short"), ErrorKind::invalid_input, "[x, y, z]");
 }
 
+TEST(ModelJson, WhatIsStoredMayBeLargerThanWhatIsSent) {
+    json far = to_json(oblique_contour());
+    far["points"][3] = {5e6, 0, 0};
+    EXPECT_KONTUR_ERROR(contour_from_json(far), ErrorKind::invalid_input, "limit is 1e+06 mm");
+    EXPECT_EQ(contour_from_json(far, kStoredLimits).points[3].x, 5e6);
+}
+
+TEST(ModelJson, DeepNestingIsRefusedBeforeItIsRead) {
+    const auto nested = [](int depth) {
+        const auto count = static_cast<std::size_t>(depth);
+        return std::string(count, '[') + std::string(count, ']');
+    };
+    EXPECT_NO_THROW(parsed(nested(kDeepest)));
+    EXPECT_KONTUR_ERROR(parsed(nested(kDeepest + 1)), ErrorKind::invalid_input, "nested deeper than 64 levels");
+    EXPECT_KONTUR_ERROR(parsed(std::string(1'000'000, '{')), ErrorKind::invalid_input, "nested deeper");
+    const std::string text = "\\\"" + nested(100);
+    EXPECT_EQ(parsed(json(text).dump()), text) << "brackets in a text nest nothing";
+    EXPECT_THROW(parsed("[\"\\"), json::exception);
+}
+
 TEST(ModelJson, APlaneIsMadeOrthonormalOrRefused) {
     const auto plane = [](const Vec3& u) {
         return json{{"plane", {{"origin", {0, 0, 0}}, {"normal", {0, 0, 1}}, {"u", to_json(u)}, {"v", {0, -1, 0}}}}};

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur open: a session as a page lives it."""
 import concurrent.futures
+import contextlib
 import gzip
+import html
 import json
 import math
 import os
@@ -11,6 +13,7 @@ import re
 import resource
 import signal
 import socket
+import sqlite3
 import subprocess
 import sys
 import time
@@ -19,7 +22,7 @@ import nibabel
 import numpy
 import pytest
 
-from support import KONTUR, Server, at_offset, ring, running, shifted, spline_controls, write_image
+from support import KONTUR, Page, Server, at_offset, ring, running, shifted, spline_controls, write_image
 
 RADIUS = 12.0
 
@@ -166,6 +169,21 @@ def test_only_the_latest_planes_are_watched(server):
         assert [view["view"] for view in event["views"]] == [f"view {number}" for number in range(12, 20)]
 
 
+def test_two_pages_are_told_of_their_own_planes(server):
+    page = server.page()
+    structure = the_structure(page)
+    draw_ball(page, structure)
+    page.wait_for_surface(structure)
+    plane = shifted(page.session["views"]["axial"]["plane"], 65, 65, 0.5)
+    planes = [at_offset(plane, offset) for offset in (-3, 0, 3)]
+    for at, name in zip(planes, ("one", "two", None), strict=True):
+        server.slice(at, 65, 65, view="axial", pixels=False, page=name)
+    page.events.clear()
+    page.do("contour.translate", id=max(page.contours), by=[1, 0, 0])
+    (last,) = [event for event in events_until_refined(page) if event["event"] == "outlines"][-1:]
+    assert [view["plane"] for view in last["views"]] == planes
+
+
 def test_a_surface_is_outdated_before_anybody_is_told_of_an_edit(server):
     """Else a page would show the figures of before as those of now."""
     page = server.page()
@@ -275,6 +293,24 @@ def test_a_draft_moves_the_surface_and_leaves_no_trace(server):
     page.do("draft.drop")
     assert page.wait_for_surface(structure)["volume_ml"] == pytest.approx(before["volume_ml"], rel=1e-9)
     assert (page.history, page.contours) == (history, contours)
+
+
+def test_a_draft_ends_with_its_page(server):
+    page, other = server.page(), server.page()
+    structure = the_structure(page)
+    ids = draw_ball(page, structure)
+    before = other.wait_for_surface(structure)
+    page.do("contour.translate", id=ids[1], by=[8, 0, 0], draft=True)
+    drafted = other.wait_for_surface(structure)
+    assert abs(drafted["volume_ml"] - before["volume_ml"]) > 0.01 * before["volume_ml"]
+    server.page().close()  # one that has drafted nothing
+    page.close()
+
+    def volume_ml():
+        (surface,) = server.page().session["surfaces"]
+        return surface.get("volume_ml", 0)
+
+    wait_for(lambda: volume_ml() == pytest.approx(before["volume_ml"], rel=1e-9), seconds=20)
 
 
 def test_pages_see_each_others_edits(server):
@@ -405,6 +441,68 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 422 and str(tmp_path) not in body.decode()
 
 
+def rings(z, count, points, radius=10.0, x=0.0):
+    """A contour file of axial circles."""
+    planes = [{"origin": [0, 0, z + k], "normal": [0, 0, 1], "u": [1, 0, 0], "v": [0, 1, 0]} for k in range(count)]
+    for plane in planes:
+        plane["contours"] = [{"closed": True, "hole": False, "points": ring(plane, radius, points, (x, 0.0))}]
+    return {"version": 1, "frame": "LPS mm", "structure": "Rings", "planes": planes}
+
+
+@pytest.mark.parametrize(
+    "document, part",
+    [(rings(31, 1, 100_001), "'points' has 100001 points; the limit is 100000"), (rings(31, 1, 20, x=2e6), "the limit is 1e+06 mm")],
+    ids=["points", "far"],
+)
+def test_what_could_not_be_opened_again_is_refused(tmp_path, image, document, part):
+    contours = tmp_path / "rings.json"
+    contours.write_text(json.dumps(document))
+    begun = subprocess.run([KONTUR, "open", image, contours, "--no-browser", "--timeout", "1"], capture_output=True, text=True)
+    assert begun.returncode == 65 and "a contour of Rings cannot be kept" in begun.stderr and part in begun.stderr
+    with running(tmp_path, image, "--project", tmp_path / "work.kontur") as server:
+        page = server.page()
+        status, _, body = server.request("POST", "/api/import/contours?name=a.json", contours.read_bytes())
+        assert status == 400 and part in json.loads(body)["error"]["message"]
+        ids = draw_ball(page, the_structure(page))
+        assert "cannot be kept" in page.refused("contour.copy", id=ids[0], offset_mm=1e7)["message"]
+        server.stop()
+        with running(tmp_path, server.project) as again:
+            assert again.page().contours == page.contours
+
+
+def test_contours_that_cannot_be_read_leave_no_project_in_their_way(tmp_path, image):
+    good = rings(31, 3, 20)
+    bad = rings(31, 3, 2)
+    contours, project = tmp_path / "mine.json", tmp_path / "mine.kontur"
+    contours.write_text(json.dumps(bad))
+    words = [KONTUR, "open", image, contours, "--no-browser", "--timeout", "1"]
+    failed = subprocess.run(words, capture_output=True, text=True)
+    assert failed.returncode == 65 and "2 points" in failed.stderr and not project.exists()
+    with running(tmp_path, image, "--project", project) as server:
+        server.stop(signal.SIGKILL)
+    for statement in ("DELETE FROM structure", "DELETE FROM history"):  # as if killed before it was filled
+        damage(project, statement)
+    contours.write_text(json.dumps(good))
+    with running(tmp_path, image, contours) as server:
+        assert server.project == project and len(server.page().contours) == 3
+
+
+def test_a_project_larger_than_what_may_wait_for_a_page_is_shown(tmp_path, image):
+    """70 MiB in one message."""
+    with running(tmp_path, image, "--project", tmp_path / "work.kontur") as server:
+        status, _, body = server.request("POST", "/api/import/contours?name=a.json", json.dumps(rings(20, 1, 90_000)).encode())
+        assert status == 200, body
+        server.stop()
+    with contextlib.closing(sqlite3.connect(server.project)) as database, database:
+        ((first, row),) = database.execute("SELECT id, data FROM contour").fetchall()
+        copies = [(n, row.replace(f'"id":{first},', f'"id":{n},')) for n in range(1000, 1000 + (70 << 20) // len(row))]
+        database.executemany("INSERT INTO contour VALUES (?, ?)", copies)
+        database.execute("UPDATE setting SET value = '5000' WHERE key = 'next_id'")
+    with running(tmp_path, server.project) as again:
+        page = again.page()
+        assert len(page.contours) == 1 + len(copies) and page.do("ping") == {}
+
+
 def big_mask(size=220):
     """A checkered mask of many voxels, which takes a while to trace."""
     index = numpy.indices((size, size, size)) // 20
@@ -416,6 +514,20 @@ def readers(server):
     """The processes in which the server reads imports."""
     tasks = pathlib.Path(f"/proc/{server.process.pid}/task")
     return [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
+
+
+def damage(project, statement, *values):
+    with contextlib.closing(sqlite3.connect(project)) as database, database:
+        database.execute(statement, values)
+
+
+def test_a_stored_page_that_no_page_can_have_saved_is_not_given_back(server, tmp_path):
+    server.page().do("page.save", state={"layout": "big"})
+    server.stop()
+    for stored in ('{"layout": "big"}', "[" * 1_000_000 + "]" * 1_000_000, '{"a":', '"' + "x" * 70_000 + '"'):
+        damage(server.project, "UPDATE setting SET value = ? WHERE key = 'page'", stored)
+        with running(tmp_path, server.project) as again:
+            assert again.page().session["page"] == ({"layout": "big"} if "big" in stored else None)
 
 
 def wait_for(condition, seconds=60):
@@ -456,6 +568,39 @@ def test_who_leaves_ends_what_was_read_for_him(server):
     assert server.page().structures.keys() == {1}
 
 
+def test_an_import_that_nobody_waits_for_any_more_is_not_applied(server):
+    """Not either when its reader is through, and the server takes over what it has read."""
+    page = server.page()
+    body = json.dumps(rings(20, 6, 95_000)).encode()
+    with socket.create_connection(("127.0.0.1", server.port)) as connection:
+        head = (
+            f"POST /api/import/contours?name=a.json HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
+            f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
+        )
+        connection.sendall(head.encode() + body)
+        wait_for(lambda: readers(server))
+        wait_for(lambda: not readers(server))
+    while (event := page.receive())["event"] != "status" or event["text"]:
+        pass  # until the end of "Importing"
+    assert page.do("ping") == {} and server.page().structures.keys() == {1}
+
+
+def test_what_a_killed_kontur_leaves_goes_with_the_next(server, tmp_path, image):
+    with socket.create_connection(("127.0.0.1", server.port)) as connection:
+        body = big_mask()
+        head = (
+            f"POST /api/import/mask?name=m.nii&planes=200 HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
+            f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
+        )
+        connection.sendall(head.encode() + body)
+        wait_for(lambda: readers(server))
+        server.stop(signal.SIGKILL)
+    (left,) = tmp_path.glob("kontur-*")
+    assert (left / "upload.nii").exists()
+    with running(tmp_path, image, "--project", tmp_path / "other.kontur"):
+        assert not list(tmp_path.glob("kontur-*"))
+
+
 @pytest.mark.parametrize("size", [(30000, 30000, 30), (2000, 2000, 2000)])
 def test_a_file_that_declares_more_than_it_holds_costs_no_memory(server, size):
     header = nibabel.Nifti1Header()
@@ -482,6 +627,18 @@ def test_an_rtstruct_brings_every_region_that_has_contours(server, tmp_path):
     names = {page.structures[i]["name"] for i in ids}
     assert {"plain", "nested", "keyhole"} <= names and "empty" not in names
     assert page.do("undo")["label"] == "Import contours" and not set(ids) & page.structures.keys()
+
+
+def test_a_project_that_cannot_be_told_turns_its_page_away_by_a_sentence(server, tmp_path):
+    server.stop()
+    damage(server.project, "DROP TABLE history")
+    with running(tmp_path, server.project) as again:
+        for _ in range(2):
+            page = Page(again, greeted=False)
+            told = page.receive()
+            assert told["event"] == "notice" and told["level"] == "error" and "history" in told["text"]
+            with pytest.raises(ConnectionError, match="1011"):
+                page.receive()
 
 
 def test_two_processes_on_one_project(server, tmp_path, image):
@@ -557,6 +714,31 @@ def test_it_ends_when_asked(tmp_path, image):
     assert server.stop(signal.SIGTERM) == 0
     idle = subprocess.run([KONTUR, "open", image, "--no-browser", "--timeout", "1", "--project", tmp_path / "i.kontur"], timeout=60)
     assert idle.returncode == 0
+
+
+def test_the_browser_lives_on_and_nobody_else_learns_the_token(tmp_path, image):
+    """By a stand-in for xdg-open, which keeps what it is told."""
+    stand_in = tmp_path / "bin" / "xdg-open"
+    stand_in.parent.mkdir()
+    stand_in.write_text('#!/bin/sh\necho "$$ $*" > "$TMPDIR/told"\ncp "$1" "$TMPDIR/page"\nls -ld "$(dirname "$1")" > "$TMPDIR/mode.new"\nmv "$TMPDIR/mode.new" "$TMPDIR/mode"\nsleep 1\ntouch "$TMPDIR/ended"\n')
+    stand_in.chmod(0o755)
+    environment = {**os.environ, "PATH": f"{stand_in.parent}:{os.environ['PATH']}", "DISPLAY": ":9", "TMPDIR": str(tmp_path)}
+    words = [KONTUR, "open", image, "--project", tmp_path / "work.kontur", "--token", "se'cret", "--timeout", "300"]
+    server = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+    try:
+        address = server.stdout.readline().strip()
+        wait_for((tmp_path / "mode").exists)
+        browser, page = (tmp_path / "told").read_text().split(maxsplit=1)
+        assert "cret" not in page and (tmp_path / "mode").read_text().startswith("drwx------")
+        assert f"url={address}" in html.unescape((tmp_path / "page").read_text())
+        assert os.getsid(int(browser)) == int(browser) != os.getsid(server.pid), "Ctrl+C does not reach it"
+        wait_for((tmp_path / "ended").exists)
+        wait_for(lambda: not pathlib.Path(f"/proc/{browser}").exists(), seconds=5)  # no zombie is left
+        server.send_signal(signal.SIGINT)
+        assert server.wait(60) == 0 and not list(tmp_path.glob("kontur-*"))
+    finally:
+        server.kill()
+        server.communicate()
 
 
 @pytest.mark.parametrize(

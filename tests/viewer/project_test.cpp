@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "support/expect_error.h"
@@ -187,6 +188,86 @@ TEST(Project, ForeignAndDamagedFilesAreRefused) {
     { Database(path).run("CREATE TABLE mine (x)"); }
     EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::corrupt_file, "is no kontur project");
     EXPECT_KONTUR_ERROR(image_of_project(folder.path() / "none.kontur"), ErrorKind::corrupt_file, "is no kontur project");
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Project, FilesOfOthersAreRefusedAsTheyAre) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    { Database(path).run("PRAGMA journal_mode = WAL; CREATE TABLE mine (x)"); }
+    const std::string foreign = bytes_of(path);
+    EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::corrupt_file, "is no kontur project");
+    EXPECT_EQ(bytes_of(path), foreign);
+    std::filesystem::remove(path);
+    { const Project project(path, kImage); }
+    { Database(path).run("PRAGMA user_version = 2; PRAGMA journal_mode = WAL"); }
+    const std::string newer = bytes_of(path);
+    EXPECT_KONTUR_ERROR(Project(path, kImage), ErrorKind::unsupported, "newer kontur");
+    EXPECT_EQ(bytes_of(path), newer);
+    EXPECT_EQ(folder.entry_count(), 1);
+}
+
+TEST(Project, ContoursThatCouldNotBeReadAgainAreRefused) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    {
+        Project project(path, kImage);
+        const Id structure = add_structure(project, "liver");
+        const Snapshot before = snapshot(project);
+        DrawnContour many = as_drawn({test::kPlane, test::circle(100'001), true, false});
+        DrawnContour far = as_drawn({test::kPlane, test::circle(20, 2e6), true, false});
+        for (DrawnContour* contour : {&many, &far}) {
+            contour->id = project.new_id();
+            contour->structure = structure;
+            const Commit step{"Import", {}, {{contour->id, {}, *contour}}};
+            const char* limit =
+                contour == &many ? "'points' has 100001 points; the limit is 100000" : "the limit is 1e+06 mm";
+            EXPECT_KONTUR_ERROR(project.commit(step), ErrorKind::invalid_input, "a contour of liver cannot be kept: ");
+            EXPECT_KONTUR_ERROR(project.begin_with(step), ErrorKind::invalid_input, limit);
+        }
+        EXPECT_EQ(snapshot(project), before);
+        EXPECT_EQ(project.undo_label(), "Add liver");
+    }
+    EXPECT_EQ(Project(path, {}).state().contours.size(), 0u);
+}
+
+TEST(Project, AFileThatIsNotThereAnyMoreTakesNoEdits) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur", moved = folder.path() / "b.kontur";
+    Project project(path, kImage);
+    const Id structure = add_structure(project, "liver");
+    const Snapshot before = snapshot(project);
+    for (const bool is_replaced : {false, true}) {
+        std::filesystem::rename(path, moved);
+        if (is_replaced) std::filesystem::copy_file(moved, path);
+        EXPECT_KONTUR_ERROR(add_contour(project, structure, 5), ErrorKind::io, "was moved, replaced or deleted");
+        EXPECT_KONTUR_ERROR(project.save_page_state("{}"), ErrorKind::io, "was moved, replaced or deleted");
+        EXPECT_KONTUR_ERROR(project.undo(), ErrorKind::io, "was moved, replaced or deleted");
+        EXPECT_EQ(snapshot(project), before);
+        const auto rescued = folder.path() / (is_replaced ? "one.kontur" : "two.kontur");
+        project.copy_to(rescued);
+        EXPECT_EQ(snapshot(Project(rescued, {})), before);
+        std::filesystem::rename(moved, path);
+    }
+    add_contour(project, structure, 5);
+    EXPECT_EQ(project.undo_label(), "Draw") << "it is back";
+}
+
+TEST(Project, IsNewUntilSomethingWasInIt) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    EXPECT_TRUE(Project(path, kImage).is_new());
+    EXPECT_TRUE(Project(path, kImage).is_new()) << "nothing came of the first start";
+    {
+        Project project(path, kImage);
+        add_structure(project, "liver");
+        project.undo();
+    }
+    EXPECT_FALSE(Project(path, kImage).is_new());
 }
 
 TEST(Project, RowsThatMakeNoSenseAreRefusedBySentence) {

@@ -83,9 +83,9 @@ class Server:
 class Page:
     """One WebSocket. Keeps every event; `state` is what a page would show."""
 
-    def __init__(self, server):
+    def __init__(self, server, greeted=True):
         self.socket = socket.create_connection(("127.0.0.1", server.port), timeout=120)
-        self.buffer, self.events, self.calls = b"", [], 0
+        self.buffer, self.events, self.calls = bytearray(), [], 0
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall(
             f"GET /api/socket HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\nUpgrade: websocket\r\n"
@@ -97,6 +97,8 @@ class Page:
         accept = hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()
         assert f"Sec-WebSocket-Accept: {base64.b64encode(accept).decode()}" in head
         assert "Sec-WebSocket-Protocol: kontur\r\n" in head
+        if not greeted:
+            return
         self.session = self.receive()
         assert self.session["event"] == "session"
         self.structures = {s["id"]: s for s in self.session["structures"]}
@@ -108,11 +110,12 @@ class Page:
 
     def _read(self, count):
         while len(self.buffer) < count:
-            more = self.socket.recv(1 << 16)
+            more = self.socket.recv(1 << 20)
             if not more:
                 raise ConnectionError("the server closed the connection")
             self.buffer += more
-        data, self.buffer = self.buffer[:count], self.buffer[count:]
+        data = bytes(self.buffer[:count])
+        del self.buffer[:count]
         return data
 
     def _until(self, end):

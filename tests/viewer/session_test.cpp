@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+#include "viewer/drawn_contours.h"
+#include "viewer/http_api.h"
+
+namespace kontur::viewer {
+namespace {
+
+using kontur::test::TemporaryFolder;
+using nlohmann::json;
+
+/// A session on a flat image with a project of its own.
+struct SessionHere {
+    TemporaryFolder folder;
+    Session session{{test::flat_image(), "flat", {"/images/flat.nii", "40x40x40-int16-0"}, {}}, folder.path() / "a.kontur"};
+};
+
+HttpRequest slice(const std::string& view, const json& page) {
+    json body{
+        {"view", view},
+        {"plane", {{"origin", {0, 0, 0}}, {"u", {1, 0, 0}}, {"v", {0, 1, 0}}, {"normal", {0, 0, 1}}, {"mm_per_pixel", 1}}},
+        {"width", 8},
+        {"height", 8},
+        {"window", {{"center", 0}, {"width", 1}}}};
+    if (!page.is_null()) body["page"] = page;
+    return {"POST", {"/api/slice", {}}, body.dump()};
+}
+
+/// Status of the first of two requests that wait together.
+int status_before(Session& session, const HttpRequest& first, const HttpRequest& second) {
+    HttpApi api(session);
+    const auto answer = api.prepare(first);
+    api.prepare(second);
+    return answer({}).status;
+}
+
+TEST(Session, ASliceIsOvertakenByItsOwnPagesOnly) {
+    SessionHere here;
+    EXPECT_EQ(status_before(here.session, slice("axial", {}), slice("axial", {})), 409);
+    EXPECT_EQ(status_before(here.session, slice("axial", {}), slice("coronal", {})), 200);
+    EXPECT_EQ(status_before(here.session, slice("axial", "one"), slice("axial", "one")), 409);
+    EXPECT_EQ(status_before(here.session, slice("axial", "one"), slice("axial", "two")), 200);
+    EXPECT_EQ(status_before(here.session, slice("axial", "one"), slice("axial", {})), 200);
+    EXPECT_EQ(status_before(here.session, slice("axial", std::string(65, 'x')), slice("b", {})), 400);
+    EXPECT_EQ(status_before(here.session, slice("axial", 7), slice("b", {})), 400);
+}
+
+ContourSet circles(int count, std::size_t points) {
+    ContourSet set;
+    set.name = "Rings";
+    for (int i = 0; i < count; ++i) set.contours.push_back({test::kPlane, test::circle(points), true, false});
+    return set;
+}
+
+TEST(Session, ImportsEndWhereAPageCouldNotBeToldOfAllPoints) {
+    SessionHere here;
+    here.session.add_structures("Import", {circles(1, 20)});
+    EXPECT_KONTUR_ERROR(here.session.add_structures("Import", {circles(20, 100'000)}), ErrorKind::too_large,
+                        "would hold 2000020 points; the limit is 2000000");
+    EXPECT_EQ(here.session.state().structures.size(), 1u);
+}
+
+TEST(Session, NamesOfFilesBecomeWholeCharactersThatCanBeReadAgain) {
+    SessionHere here;
+    ContourSet set = circles(1, 20);
+    set.name = "\xff" + std::string(97, 'x') + "\xc3\xa4\xc3\xa4";
+    const Id id = here.session.add_structures("Import", {set}).front();
+    EXPECT_EQ(here.session.state().structures.at(id).name, "\xef\xbf\xbd" + std::string(97, 'x'));
+}
+
+}  // namespace
+}  // namespace kontur::viewer

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/surfaces.h"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "support/contour_sets.h"
+
+namespace kontur::viewer {
+namespace {
+
+using namespace std::chrono_literals;
+
+SurfaceTask ball(Id structure) {
+    SurfaceTask task{structure, test::ball_contours(), {}};
+    for (std::size_t i = 0; i < task.set.contours.size(); ++i) task.ids.push_back(static_cast<Id>(i + 1));
+    return task;
+}
+
+SurfaceTask nothing(Id structure) { return {structure, {}, {}}; }
+
+SurfaceListener deaf() {
+    return {[](Id, std::int64_t, const PlaneCutter&) {}, [](const std::shared_ptr<const Surface>&) {},
+            [](const std::string&, std::optional<double>) {}};
+}
+
+std::ptrdiff_t threads() { return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}); }
+
+TEST(Surfaces, EndWhileOneIsBeingFinishedAndStartNoOther) {
+    {
+        Surfaces first(deaf());  // starts the threads that all share
+        first.follow(ball(1));
+        first.wait();
+    }
+    const std::ptrdiff_t before = threads();
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool is_finishing = false;
+    std::vector<Id> told;
+    SurfaceListener listener = deaf();
+    listener.surface = [&](const std::shared_ptr<const Surface>& surface) { told.push_back(surface->structure); };
+    listener.outlines = [&](Id structure, std::int64_t revision, const PlaneCutter&) {
+        if (structure != 2 || revision < 4) return;  // of the refined one, which comes after two for each preview
+        {
+            const std::scoped_lock lock(mutex);
+            is_finishing = true;
+        }
+        changed.notify_all();
+        std::this_thread::sleep_for(200ms);  // the destructor runs now
+    };
+    {
+        Surfaces surfaces(listener);
+        surfaces.follow(ball(1));
+        surfaces.wait();
+        surfaces.follow(ball(2));
+        surfaces.follow_later(ball(3));
+        std::unique_lock lock(mutex);
+        ASSERT_TRUE(changed.wait_for(lock, 60s, [&] { return is_finishing; }));
+    }
+    EXPECT_EQ(std::count(told.begin(), told.end(), 2), 2) << "the preview and the refined one";
+    EXPECT_EQ(std::count(told.begin(), told.end(), 3), 0);
+    // A thread that has ended is listed for a moment longer.
+    for (int i = 0; i < 100 && threads() > before; ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_LE(threads(), before);
+}
+
+TEST(Surfaces, AThreadLivesNoLongerThanTheContoursItFollows) {
+    Surfaces surfaces(deaf());
+    surfaces.follow(ball(1));
+    surfaces.wait();
+    const std::ptrdiff_t before = threads();
+    for (Id structure = 2; structure < 10; ++structure) {
+        surfaces.follow(nothing(structure));
+        surfaces.follow(ball(structure));
+        surfaces.wait();
+        surfaces.follow(nothing(structure));
+        surfaces.wait();
+    }
+    for (Id structure = 10; structure < 40; ++structure) surfaces.follow(nothing(structure));
+    EXPECT_LE(threads(), before + 2);
+    EXPECT_EQ(surfaces.all().size(), 39u);
+    surfaces.follow(ball(2));
+    surfaces.wait();
+    EXPECT_EQ(surfaces.all().at(2)->stage, SurfaceStage::refined) << "contours after none are followed again";
+    EXPECT_EQ(surfaces.all().at(3)->stage, SurfaceStage::none);
+}
+
+/// Makes every new thread ask for more memory than there are addresses, so that none can be started.
+class NoThreads {
+public:
+    NoThreads() {
+        pthread_attr_t attributes;
+        pthread_getattr_default_np(&attributes);
+        pthread_attr_getstacksize(&attributes, &usual_);
+        pthread_attr_destroy(&attributes);
+        set(std::size_t{1} << 47);
+    }
+    ~NoThreads() { set(usual_); }
+    NoThreads(const NoThreads&) = delete;
+    NoThreads& operator=(const NoThreads&) = delete;
+
+private:
+    static void set(std::size_t size) {
+        pthread_attr_t attributes;
+        pthread_attr_init(&attributes);
+        pthread_attr_setstacksize(&attributes, size);
+        EXPECT_EQ(pthread_setattr_default_np(&attributes), 0);
+        pthread_attr_destroy(&attributes);
+    }
+    std::size_t usual_ = 0;
+};
+
+TEST(Surfaces, WithoutAThreadThereIsAWarningUntilTheNextEdit) {
+    Surfaces surfaces(deaf());
+    {
+        const NoThreads here;
+        surfaces.follow(ball(1));
+        surfaces.follow_later(ball(2));
+        for (const Id structure : {1, 2}) {
+            const auto shown = surfaces.all().at(structure);
+            EXPECT_EQ(shown->stage, SurfaceStage::none);
+            ASSERT_EQ(shown->warnings.size(), 1u);
+            EXPECT_NE(shown->warnings[0].find("no thread"), std::string::npos) << shown->warnings[0];
+        }
+    }
+    surfaces.follow(ball(1));
+    surfaces.wait();
+    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::refined);
+}
+
+}  // namespace
+}  // namespace kontur::viewer

@@ -13,6 +13,7 @@
 #include "kontur/io/json_file.h"
 #include "kontur/io/markups.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/io/text_header.h"
 
 namespace kontur {
 namespace {
@@ -28,8 +29,12 @@ std::string head_of(const fs::path& path) {
     return {head.data(), static_cast<std::size_t>(file.gcount())};
 }
 
+bool has_extension(const fs::path& path, std::string_view extension) {
+    return lower_case(path.filename().string()).ends_with(extension);
+}
+
 bool is_dicom(const fs::path& path, std::string_view head) {
-    return (head.size() == 132 && head.ends_with("DICM")) || path.extension() == ".dcm";
+    return (head.size() == 132 && head.ends_with("DICM")) || has_extension(path, ".dcm");
 }
 
 bool is_json(std::string_view head) {
@@ -41,11 +46,13 @@ ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options) 
     const StructureSet set = read_rtstruct(path);
     return in_context(path.string(), [&] {
         Roi roi = select_roi(set, options.roi);
-        return ReadContours{std::move(roi.contours), std::move(roi.notes)};
+        ReadContours found{std::move(roi.contours), set.notes};
+        found.notes.insert(found.notes.end(), roi.notes.begin(), roi.notes.end());
+        return found;
     });
 }
 
-bool is_markups(const fs::path& path) { return path.string().ends_with(".mrk.json"); }
+bool is_markups(const fs::path& path) { return has_extension(path, ".mrk.json"); }
 
 }  // namespace
 
@@ -78,7 +85,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
 
 void write_contours(const fs::path& path, const ContourSet& set, const Provenance& provenance) {
     if (is_markups(path)) write_markups(path, set, provenance);
-    else if (path.extension() == ".json") write_contour_json(path, set, provenance);
+    else if (has_extension(path, ".json")) write_contour_json(path, set, provenance);
     else
         throw Error(ErrorKind::unsupported,
                     "contours are written to names that end in .json or .mrk.json, not to " + path.filename().string());

@@ -52,7 +52,8 @@ public:
 private:
     struct Inflater;
 
-    bool fill();
+    /// False when the file has fewer than `least` bytes left, which then are in the buffer.
+    bool fill(std::size_t least = 1);
     std::size_t fetch(void* to, std::size_t count);
     std::size_t read_stored(void* to, std::size_t count);
     std::size_t read_inflated(unsigned char* to, std::size_t count);

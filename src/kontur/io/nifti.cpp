@@ -16,6 +16,7 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/deflate.h"
 #include "kontur/io/nifti_header.h"
+#include "kontur/io/text_header.h"
 #include "kontur/io/voxel_stream.h"
 
 namespace kontur {
@@ -263,7 +264,7 @@ void write_nifti(const fs::path& path, const ImageView& image) {
     if (!extension.empty()) bytes[nifti_header_bytes(header.version)] = 1;
     bytes.insert(bytes.end(), extension.begin(), extension.end());
     write_file_atomically(path, [&](AtomicFile& file) {
-        if (path.extension() == ".gz") {
+        if (lower_case(path.extension().string()) == ".gz") {
             Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });
             deflater.write(std::as_bytes(std::span(bytes)));
             deflater.write(bytes_of(image));

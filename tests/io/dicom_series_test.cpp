@@ -165,6 +165,17 @@ TEST_F(DicomSeriesTest, ReadsJpegJpegLsAndJpeg2000) {
         }
 }
 
+TEST_F(DicomSeriesTest, FindsTheFragmentsOfEachFrame) {
+    for (const std::size_t fragments : {1, 2, 5})
+        for (const char* name : {"axial", "enhanced"}) {
+            SCOPED_TRACE(std::string(name) + " in " + std::to_string(fragments) + " fragments each");
+            const fs::path files = make(name);
+            test::recompress(files, EXS_JPEG2000LosslessOnly, fragments);
+            check(name);
+            fs::remove_all(files.parent_path());
+        }
+}
+
 TEST_F(DicomSeriesTest, KeepsTheValuesOfInvertedImagesAndSaysSo) {
     EXPECT_TRUE(notes_mention(read_and_check("inverted").notes, "MONOCHROME1"));
 }

@@ -142,6 +142,7 @@ public:
         : document_(document), slices_(slices), holes_(holes) {}
 
     void write(const Roi& roi, std::int64_t number) {
+        if (!roi.damage.empty()) throw invalid("its contours could not be read: " + roi.damage);
         const std::string name = roi.name.empty() ? roi.contours.name : roi.name;
         put_entry(roi, name, number);
         DcmItem& item = append_item(document_, DCM_ROIContourSequence);

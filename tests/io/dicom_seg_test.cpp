@@ -261,7 +261,18 @@ TEST_F(ReadDicomSeg, CountsFractionsFromOneHalfOn) {
     EXPECT_NE(found.notes.front().find("one half"), std::string::npos);
 }
 
+TEST_F(ReadDicomSeg, SaysThatFramesLieFartherApartThanDeclared) {
+    const DicomSegmentation found = read_dicom_segmentation(make("halved"));
+    EXPECT_EQ(found.grid.size.k, 11);
+    EXPECT_EQ(found.notes, (std::vector<std::string>{"slices are declared 1 mm apart, but no two frames lie less than 2 mm "
+                                                     "apart; the slices between them stay empty"}));
+}
+
 TEST_F(ReadDicomSeg, RefusesContradictionsByName) {
+    for (const char* most : {"0", "1000"})
+        EXPECT_KONTUR_ERROR(read_dicom_seg(make(std::string("fractional_") + most)), ErrorKind::corrupt_file,
+                            std::string("its MaximumFractionalValue is ") + most + "; 1 to 255 are possible");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("hair")), ErrorKind::unsupported, "its frames lie on no regular lattice");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("irregular")), ErrorKind::unsupported, "its frames lie on no regular lattice");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("turned")), ErrorKind::unsupported, "frame 3 is not parallel to the others");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("unlisted")), ErrorKind::corrupt_file,

@@ -159,6 +159,33 @@ TEST_F(MetaImageLines, LiesAreRefused) {
     spoil("ElementToIntensityFunctionSlope", "2", ErrorKind::unsupported, "rescaled");
 }
 
+TEST_F(MetaImageLines, TextHoldsAsManyNumbersAsDeclared) {
+    set("BinaryData", "False");
+    set("ElementType", "MET_FLOAT");
+    voxels = "1 2 3 4 5 6 7 " + std::string(60, '0') + "8.25\n \n";
+    EXPECT_EQ(sample(read(), 7), 8.25) << "64 characters";
+    voxels = "1 2 3 4 5 6 7 " + std::string(61, '0') + "8.25";
+    expect_refused(ErrorKind::corrupt_file,
+                   "the number \"0000000000000000...\" among its voxels has more than 64 characters");
+    voxels = "1 2 3 4 5 6 7 8 9";
+    expect_refused(ErrorKind::corrupt_file, "\"9\" follows the last of its declared voxels");
+    voxels = "1 2 3 4 5 6 7";
+    expect_refused(ErrorKind::corrupt_file, "");
+}
+
+TEST_F(MetaImageLines, IntegersStayExactOrAreRefused) {
+    set("BinaryData", "False");
+    set("ElementType", "MET_ULONG_LONG");
+    voxels = "0 1 2 3 4 5 6 4294967296";
+    EXPECT_EQ(sample(read(), 7), 4294967296.0);
+    for (const char* value : {"4000000001", "9007199254740993", "18446744073709551615"}) {
+        voxels = std::string("0 1 2 3 4 5 6 ") + value;
+        expect_refused(ErrorKind::unsupported, "is beyond 32-bit integers, and a float does not hold it exactly");
+    }
+    voxels = "0 1 2 3 4 5 6 4000000001";
+    expect_refused(ErrorKind::unsupported, "the voxel value 4000000001 is");
+}
+
 TEST_F(MetaImageLines, WrongCompressedSizeIsRefused) {
     set("CompressedData", "True");
     for (const char* size : {"9", "-1", "9223372036854775807"}) {

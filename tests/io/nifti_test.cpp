@@ -295,6 +295,24 @@ TEST_F(Spoiled, ContradictingTransformsNeedAChoice) {
     EXPECT_NO_THROW(read_nifti(folder / "close.nii"));
 }
 
+TEST_F(Spoiled, OneTransformThatIsNoneLeavesTheOther) {
+    const std::string valid = bytes;
+    put<float>(bytes, 76 + 12, 0);  // pixdim, which only the qform uses
+    expect_refused(ErrorKind::corrupt_file,
+                   "linearly dependent by its qform (pixdim 0.7 1.3 0); the option prefer sform reads it");
+    options.prefer = NiftiTransform::qform;
+    expect_refused(ErrorKind::corrupt_file, "linearly dependent");
+    options.prefer = NiftiTransform::sform;
+    EXPECT_EQ(read_nifti(folder / "spoiled.nii", options).grid, read_nifti(folder / "valid.nii").grid);
+    bytes = valid;
+    for (std::size_t n = 0; n < 4; ++n) put<float>(bytes, 280 + 4 * n, 0);
+    expect_refused(ErrorKind::corrupt_file, "linearly dependent");
+    options.prefer.reset();
+    expect_refused(ErrorKind::corrupt_file, "linearly dependent by its sform; the option prefer qform reads it");
+    options.prefer = NiftiTransform::qform;
+    EXPECT_NO_THROW(read_nifti(folder / "spoiled.nii", options));
+}
+
 TEST_F(Spoiled, MissingTransformsNeedConsent) {
     put<std::int16_t>(bytes, 252, 0);
     put<std::int16_t>(bytes, 254, 0);

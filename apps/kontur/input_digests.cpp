@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 
 /// A slice of a DICOM series stands for its folder.
 std::string image_sha256(const fs::path& image, const Progress& progress) {
-    const bool is_slice = !fs::is_directory(image) && looks_like_dicom(image) && !is_dicom_seg(image) && !is_rtstruct(image);
+    std::error_code ignored;
+    const bool is_slice =
+        !fs::is_directory(image, ignored) && looks_like_dicom(image) && !is_dicom_seg(image) && !is_rtstruct(image);
     return file_sha256(is_slice ? fs::absolute(image).parent_path() : image, progress);
 }
 

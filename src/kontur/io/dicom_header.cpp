@@ -95,6 +95,15 @@ DicomHeader read_frame_header(DicomHeader header, const dcmtk::Frame& frame, std
     return header;
 }
 
+/// Of an element that only tells slices at one place apart: what is no integer, such as "5.0", counts as not given.
+std::optional<std::int64_t> integer_if_any(DcmItem& item, const DcmTagKey& tag) {
+    try {
+        return dcmtk::integer(item, tag);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
 /// All but the placement.
 DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
     DicomHeader header;
@@ -124,11 +133,11 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     header.has_lookup_table = dataset.tagExists(DCM_ModalityLUTSequence);
     header.rescale = read_rescale(dataset);
     header.thickness_mm = dcmtk::first_decimal(dataset, DCM_SliceThickness);
-    header.temporal_position = dcmtk::integer(dataset, DCM_TemporalPositionIdentifier);
-    header.acquisition_number = dcmtk::integer(dataset, DCM_AcquisitionNumber);
-    header.echo_number = dcmtk::integer(dataset, DCM_EchoNumbers);
+    header.temporal_position = integer_if_any(dataset, DCM_TemporalPositionIdentifier);
+    header.acquisition_number = integer_if_any(dataset, DCM_AcquisitionNumber);
+    header.echo_number = integer_if_any(dataset, DCM_EchoNumbers);
     header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
-    header.instance_number = dcmtk::integer(dataset, DCM_InstanceNumber);
+    header.instance_number = integer_if_any(dataset, DCM_InstanceNumber);
     check_pixels_fit(header, syntax, dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
     return header;
 }
@@ -136,6 +145,9 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
 std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmDataset& dataset) {
     DicomHeader header = read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
     if (!has_placed_frames(dataset)) {
+        if (dcmtk::text(dataset, DCM_ImageType).find("MOSAIC") != std::string::npos)
+            throw Error(ErrorKind::unsupported,
+                        "it is a Siemens mosaic, many slices in one image; convert it with dcm2niix first");
         header.placement = dcmtk::read_placement(dataset, dataset, dataset);
         return {std::move(header)};
     }
@@ -175,7 +187,7 @@ std::string name_of(const DicomHeader& slice) {
     return slice.frame ? name + ", frame " + std::to_string(*slice.frame) : name;
 }
 
-std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std::filesystem::path& path) {
+std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path) {
     if (!has_dicom_prefix(path)) return NotAnImage{"not a DICOM file"};
     DcmFileFormat file;
     dcmtk::load(file, path, DCM_PixelData);
@@ -184,7 +196,7 @@ std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std:
         if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
         return read_slices(path, dataset);
     } catch (const Error& error) {
-        throw error.with_context(path.string());
+        return DamagedImage{path, dcmtk::text(dataset, DCM_SeriesInstanceUID), error.with_context(path.string())};
     }
 }
 

@@ -19,6 +19,13 @@ namespace kontur::app {
 /// Throws Error(invalid_input), before any work is done, when DICOM is to be written without DICOM images to refer to.
 void check_dicom_images(const std::filesystem::path& output, const std::filesystem::path& images);
 
+/// The frame of reference that a mask names: of a DICOM segmentation; else "".
+std::string frame_of_reference_of(const std::filesystem::path& mask);
+
+/// What the user should know, in one sentence, where contours or a mask name another frame of reference than the images;
+/// nothing where either names none.
+std::vector<std::string> frame_of_reference_notes(const std::string& uid, const ImageInput& images);
+
 /// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm; how they were made is in
 /// `options.provenance`. Returns what the user should know.
 std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,

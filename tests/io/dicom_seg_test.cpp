@@ -121,6 +121,12 @@ TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
     EXPECT_EQ(found.segments[0].voxels, count_labels(random_labels()).at(1));
 }
 
+TEST_F(WriteDicomSeg, NamesANewFrameOfReferenceWhereTheImagesNameNone) {
+    use_images("no_frame");
+    write_dicom_seg(path(), random_labels(), three_segments(), series_);
+    EXPECT_FALSE(read_dicom_segmentation(path()).frame_of_reference_uid.empty());
+}
+
 TEST_F(WriteDicomSeg, TakesMirroredTurnedAndCroppedMasks) {
     use_images("oblique");
     Image labels = random_labels();

@@ -46,7 +46,7 @@ ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options) 
     const StructureSet set = read_rtstruct(path);
     return in_context(path.string(), [&] {
         Roi roi = select_roi(set, options.roi);
-        ReadContours found{std::move(roi.contours), set.notes};
+        ReadContours found{std::move(roi.contours), std::move(roi.frame_of_reference_uid), set.notes};
         found.notes.insert(found.notes.end(), roi.notes.begin(), roi.notes.end());
         return found;
     });
@@ -64,8 +64,8 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
                                                 " holds no contours: kontur's .json, 3D Slicer's .mrk.json and DICOM RT "
                                                 "structure sets are read");
     if (is_markups(path) || read_json_file(path).contains("markups"))
-        return {read_markups(path, {options.plane_tolerance_mm}), {}};
-    return {read_contour_json(path), {}};
+        return {read_markups(path, {options.plane_tolerance_mm}), "", {}};
+    return {read_contour_json(path), "", {}};
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
@@ -74,6 +74,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
     for (const fs::path& path : paths) {
         const ReadContours one = read_contours(path, options);
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
+        if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;
         append(all.contours.contours, one.contours.contours);
         append(all.contours.interior, one.contours.interior);
         append(all.contours.exterior, one.contours.exterior);

@@ -67,7 +67,8 @@ struct WriteRtstructOptions {
 /// Writes a DICOM RT structure set (Implicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
 /// study, frame of reference, and for each contour its slice. ROIs are numbered from 1 where their number is 0; their frame
 /// of reference and notes are not used. Contours nested on one plane are filled even-odd, whatever their `hole` says.
-/// Coordinates are exact to 1e-9 mm. Returns what the user should know, one sentence each: contours that lie on no slice.
+/// Coordinates are exact to 1e-9 mm. Returns what the user should know, one sentence each: contours that lie on no
+/// slice, and images without a frame of reference, for which a new one is named.
 /// Throws Error(invalid_input), naming ROI and contour, for open contours, fewer than 3 points, coordinates that are not
 /// finite and a hole that nothing encloses, and for two ROIs with one number; Error(unsupported) for interior, exterior
 /// or surface points; Error(io). Source: DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.

@@ -256,6 +256,15 @@ TEST_F(DicomSeriesTest, DamageInOneSeriesLeavesTheOthers) {
 
 TEST_F(DicomSeriesTest, NumbersThatOnlyOrderSlicesMayBeNone) { read_and_check("numbered"); }
 
+TEST_F(DicomSeriesTest, NamesDicomFilesThatLackTheirPreamble) {
+    const fs::path files = make("axial");
+    const std::string bytes = test::read_bytes(read_dicom_grid(files).series.files.back());
+    fs::remove(read_dicom_grid(files).series.files.back());
+    test::write_bytes(files / "bare.dcm", bytes.substr(132));
+    EXPECT_EQ(read_dicom_grid(files).notes,
+              (std::vector<std::string>{"left out 1 file (DICOM without its preamble, which is not read): bare.dcm"}));
+}
+
 TEST_F(DicomSeriesTest, RefusesMosaics) {
     EXPECT_REFUSED(refusal(make("mosaic")), unsupported,
                    "it is a Siemens mosaic, many slices in one image; convert it with dcm2niix first");

@@ -161,9 +161,11 @@ TEST_F(RtstructTest, JoinsTheItemsThatHoldContoursOfOneRoi) {
 
 TEST_F(RtstructTest, DamageInOneRoiLeavesTheOthers) {
     const auto kind = ErrorKind::corrupt_file;
-    for (const auto& [name, problem] : {std::pair{"number", "contour 2: value 1 is not a decimal number"},
-                                        {"triples", "contour 2: it has 11 coordinates, which is no multiple of 3"},
-                                        {"count", "contour 2: it declares 5 points and has 4"}}) {
+    for (const auto& [name, problem] :
+         {std::pair{"number", "contour 2: value 1 is not a decimal number"},
+          {"triples", "contour 2: it has 11 coordinates, which is no multiple of 3"},
+          {"offset", "contour 2: its ContourOffsetVector is not 0; contours that are shifted by one are not read"},
+          {"count", "contour 2: it declares 5 points and has 4"}}) {
         const StructureSet set = read_rtstruct(make(name));
         EXPECT_EQ(set.rois[0].damage, std::string("ROI 1 'plain': ") + problem);
         EXPECT_EQ(refusal(kind, [&] { select_roi(set, "plain"); }), set.rois[0].damage);

@@ -4,7 +4,7 @@
 CASE is "good", with one ROI for each way to store contours, "long" (with very long ones besides), "explicit" (the same in
 explicit VR, where long contour data become VR UN), or what is wrong: "number", "triples", "count", "unlisted", "empty",
 "twice" (a second item with contours of the first ROI), "erased" (the same without contours), "orphan" (an observation of a
-ROI that is not listed).
+ROI that is not listed), "offset" (contours shifted by a vector).
 """
 
 import math
@@ -135,6 +135,8 @@ def main(case, path):
         if case == "twice":
             again.ContourSequence = Sequence([contour_item(PLANAR, square(0, 10, 6.0), 1)])
         contours.append(again)
+    if case == "offset":
+        second.add_new(0x30060045, "DS", ["0", "0", "2.5"])
     if case == "orphan":
         observations[0].ReferencedROINumber = 99
     d.StructureSetROISequence, d.ROIContourSequence = Sequence(listed), Sequence(contours)

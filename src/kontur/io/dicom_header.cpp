@@ -182,13 +182,29 @@ bool has_dicom_prefix(const std::filesystem::path& path) {
     return file.read(start.data(), start.size()) && std::string_view(&start[128], 4) == "DICM";
 }
 
+namespace {
+
+/// Starts with an element of group 2 or 8 as DICOM's first ones are: its number, then its type in two capitals.
+bool looks_like_dicom_without_preamble(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 6> start{};
+    if (!file.read(start.data(), start.size())) return false;
+    const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+    return (start[0] == 2 || start[0] == 8) && start[1] == 0 && start[3] == 0 && is_capital(start[4]) &&
+           is_capital(start[5]);
+}
+
+}  // namespace
+
 std::string name_of(const DicomHeader& slice) {
     const std::string name = slice.path.filename().string();
     return slice.frame ? name + ", frame " + std::to_string(*slice.frame) : name;
 }
 
 std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path) {
-    if (!has_dicom_prefix(path)) return NotAnImage{"not a DICOM file"};
+    if (!has_dicom_prefix(path))
+        return NotAnImage{looks_like_dicom_without_preamble(path) ? "DICOM without its preamble, which is not read"
+                                                                  : "not a DICOM file"};
     DcmFileFormat file;
     dcmtk::load(file, path, DCM_PixelData);
     DcmDataset& dataset = *file.getDataset();

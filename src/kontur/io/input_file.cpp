@@ -231,9 +231,10 @@ void InputFile::fail_short() const {
                             std::to_string(delivered_));
 }
 
-InputFile open_beside(const std::filesystem::path& header, const std::string& name) {
+InputFile open_beside(const std::filesystem::path& header, const std::string& declared) {
+    const std::string name = declared.substr(declared.starts_with("./") ? 2 : 0);
     if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
-        throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + name +
+        throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + declared +
                                                 "\"; only a plain file name in the header's own folder is accepted");
     return InputFile(header.parent_path() / name);
 }

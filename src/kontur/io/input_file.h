@@ -71,8 +71,9 @@ private:
     std::uint64_t delivered_ = 0;  ///< since `expect`, else since the start
 };
 
-/// A data file that a header names. Only a plain name in the header's own folder is accepted: a header from elsewhere must
-/// not make any other file's content into voxels. Throws Error(unsupported) for anything with a path in it.
-InputFile open_beside(const std::filesystem::path& header, const std::string& name);
+/// A data file that a header names. Only a plain name in the header's own folder, "./" before it or not, is accepted: a
+/// header from elsewhere must not make any other file's content into voxels. Throws Error(unsupported) for anything with a
+/// path in it.
+InputFile open_beside(const std::filesystem::path& header, const std::string& declared);
 
 }  // namespace kontur

@@ -40,6 +40,9 @@ StoredContour read_contour(DcmItem& item) {
     const std::int64_t points = static_cast<std::int64_t>(values.size() / 3);
     const std::int64_t declared = dcmtk::integer(item, DCM_NumberOfContourPoints).value_or(points);
     if (points != declared) throw corrupt(fmt::format("it declares {} points and has {}", declared, points));
+    const std::vector<double> offset = dcmtk::decimals(item, DCM_RETIRED_ContourOffsetVector);
+    if (std::any_of(offset.begin(), offset.end(), [](double mm) { return mm != 0; }))
+        throw corrupt("its ContourOffsetVector is not 0; contours that are shifted by one are not read");
     contour.points.reserve(values.size() / 3);
     for (std::size_t n = 0; n < values.size(); n += 3) contour.points.push_back({values[n], values[n + 1], values[n + 2]});
     return contour;

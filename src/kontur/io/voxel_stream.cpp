@@ -262,6 +262,13 @@ std::uint64_t declared_bytes(const OpenImage& image) {
     return image.encoding.text ? bytes - 1 : bytes;
 }
 
+void note_bytes_left(const OpenImage& image, const ReadImageOptions& options) {
+    const std::uint64_t declared = declared_bytes(image), held = image.data.stored_bytes_left();
+    if (options.on_note && held > declared)
+        options.on_note(fmt::format("{}: its header declares {} bytes of voxels, and {} are there; the rest is left out",
+                                    image.data.path().string(), declared, held));
+}
+
 void check_header_grid(const Grid& grid, const std::filesystem::path& path) {
     try {
         check_grid(grid);

@@ -43,7 +43,7 @@ std::optional<std::string> japanese_to_utf8(const std::string& value) {
         input += katakana ? std::string("\x1b(I") + static_cast<char>(c & 0x7F) + "\x1b(B" : std::string(1, c);
     }
     const iconv_t opened = ::iconv_open("UTF-8", "ISO-2022-JP-2");
-    if (opened == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
+    if (reinterpret_cast<std::intptr_t>(opened) == -1) return std::nullopt;
     const std::unique_ptr<void, int (*)(iconv_t)> converter(opened, &::iconv_close);
     std::string utf8(4 * input.size(), '\0');
     char *from = input.data(), *to = utf8.data();

@@ -74,6 +74,9 @@ Structures structures_of(const ConvertCommand& command, Console& console) {
 void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
     const ImageInput input{command.input.path, console.noting(command.input.options)};
     const ImageInput images{command.image, command.input.options};
+    if (is_dicom_name(output))
+        for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.input.path), images))
+            console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
     if (is_dicom_name(output) && by_itself)
         return write_structures(output, structures_of(command, console), images, made, console.progress());
@@ -90,6 +93,8 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
             const ImageInput images{command.image, command.input.options};
+            for (const std::string& note : frame_of_reference_notes(loaded.frame_of_reference_uid, images))
+                console.warn(note);
             return console.note(write_contours(output, loaded.contours, images, rtstruct_options(command.holes, made)));
         }
         case FileKind::mesh:

@@ -55,6 +55,19 @@ WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, 
     return options;
 }
 
+std::string frame_of_reference_of(const fs::path& mask) {
+    return is_dicom_seg(mask) ? read_dicom_segmentation(mask).frame_of_reference_uid : "";
+}
+
+std::vector<std::string> frame_of_reference_notes(const std::string& uid, const ImageInput& images) {
+    if (uid.empty() || images.path.empty() || !looks_like_dicom(images.path)) return {};
+    const std::string other =
+        is_dicom_seg(images.path) ? frame_of_reference_of(images.path) : series_of(images).frame_of_reference_uid;
+    if (other.empty() || other == uid) return {};
+    return {
+        fmt::format("what was drawn lies in the frame of reference {}, the images in {}; it may not fit them", uid, other)};
+}
+
 std::vector<std::string> write_contours(const fs::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options) {
     if (!is_dicom_name(path)) {
@@ -83,7 +96,7 @@ void write_mask(const fs::path& path, const Segmentation& result, const ImageInp
 void write_image(const fs::path& path, const Image& image, const ImageInput& source, const ImageInput& images,
                  const Provenance& provenance, const Progress& progress) {
     if (!is_dicom_name(path)) {
-        const bool has_names = path.filename().string().ends_with(".seg.nrrd");
+        const bool has_names = has_extension(path, ".seg.nrrd");
         const std::vector<LabelName> names = has_names ? label_names(named_segments(source)) : std::vector<LabelName>{};
         return kontur::write_image(path, image, {names, provenance});
     }

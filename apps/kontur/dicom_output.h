@@ -25,6 +25,13 @@ void check_holes(const std::optional<HoleEncoding>& holes, bool is_rtstruct);
 
 WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, const Provenance& made);
 
+/// The frame of reference that a mask names: of a DICOM segmentation; else "".
+std::string frame_of_reference_of(const std::filesystem::path& mask);
+
+/// What the user should know, in one sentence, where contours or a mask name another frame of reference than the images;
+/// nothing where either names none.
+std::vector<std::string> frame_of_reference_notes(const std::string& uid, const ImageInput& images);
+
 /// Writes contours to .json, .mrk.json or, as a structure set with one ROI, to .dcm; how they were made is in
 /// `options.provenance`. Returns what the user should know.
 std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,

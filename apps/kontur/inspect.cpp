@@ -94,6 +94,14 @@ std::size_t error_count(const Facts& facts) {
     return count;
 }
 
+/// Of the first damaged ROI; else "".
+std::string first_damage(const Facts& facts) {
+    if (facts.contains("rois"))
+        for (const Facts& roi : facts["rois"])
+            if (roi.contains("damage")) return roi["damage"].get<std::string>();
+    return "";
+}
+
 Facts inspect_structure_set(const InspectCommand& command, const fs::path& path) {
     const StructureSet set = read_rtstruct(path);
     Facts rois = Facts::array();
@@ -103,9 +111,13 @@ Facts inspect_structure_set(const InspectCommand& command, const fs::path& path)
         facts.erase("interior_points");  // which RTSTRUCT does not know
         facts.erase("exterior_points");
         facts["notes"] = roi.notes;
+        if (!roi.damage.empty()) {
+            facts["damage"] = roi.damage;
+            facts.erase("problems");  // of contours that were not read
+        }
         rois.push_back(std::move(facts));
     }
-    Facts facts = {{"kind", "structure set"}, {"label", set.label}, {"rois", rois}};
+    Facts facts = {{"kind", "structure set"}, {"label", set.label}, {"rois", rois}, {"notes", set.notes}};
     if (command.check)
         for (const Roi& roi : set.rois)
             if (!roi.contours.contours.empty()) append_findings(roi.contours, roi.contours.name, facts);
@@ -157,6 +169,8 @@ void run(const InspectCommand& command, Console& console) {
         Facts facts;
         try {
             facts = inspect(command, path, console);
+            if (const std::string damage = first_damage(facts); !damage.empty() && !first_error)
+                first_error = Error(ErrorKind::corrupt_file, path.string() + ": " + damage);
             if (const std::size_t errors = error_count(facts); errors > 0 && !first_error)
                 first_error = Error(ErrorKind::invalid_input,
                                     fmt::format("{} has {} error{}", path.string(), errors, errors == 1 ? "" : "s"));

@@ -76,6 +76,8 @@ Grid grid_around_contours(const SegmentCommand& command, const ContourSet& conto
 Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
     ReadContours contours = read_contours(command.contours, command.read);
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
+    for (std::string& note : frame_of_reference_notes(contours.frame_of_reference_uid, command.image))
+        inputs.notes.push_back(std::move(note));
     ReadImageOptions read = command.image.options;
     read.on_note = [&](std::string_view note) { inputs.notes.emplace_back(note); };
     if (!command.name.empty()) inputs.contours.name = command.name;

@@ -49,6 +49,8 @@ void run(const TraceCommand& command, Console& console) {
     check(command);
     const Progress progress = console.progress();
     const std::vector<Plane> planes = read_planes(command, console, progress);
+    for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), command.image))
+        console.warn(note);
     const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), progress);
     ContourSet set = trace(mask, planes, command.options, progress);
     if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));

@@ -114,7 +114,10 @@ ContourSet traced(const Mask& mask, const TraceRequest& request) {
 /// Every region that has contours.
 Imported read_rtstruct_of(const fs::path& path) {
     Imported imported;
-    for (Roi& roi : read_rtstruct(path).rois) {
+    StructureSet set = read_rtstruct(path);
+    imported.notes = std::move(set.notes);
+    for (Roi& roi : set.rois) {
+        if (!roi.damage.empty()) imported.notes.push_back("left out: " + roi.damage);
         for (const std::string& note : roi.notes) imported.notes.push_back(roi.name + ": " + note);
         if (roi.contours.contours.empty()) continue;
         check_contours(roi.contours);

@@ -80,6 +80,7 @@ number : int
     roi.def_readonly("color", &Roi::color, "list of 3 int (red, green, blue, 0 to 255), or None.");
     roi.def_readonly("contours", &Roi::contours, "ContourSet: may be empty.");
     roi.def_readonly("notes", &Roi::notes, "list of str: how the stored contours were interpreted.");
+    roi.def_readonly("damage", &Roi::damage, "str: why its contours cannot be read; empty when they can.");
     roi.def("__repr__", [](const Roi& r) { return py::str("<Roi {}: {!r}>").format(r.number, r.name); });
 
     py::class_<StructureSet> set(m, "StructureSet", R"(An RT structure set.
@@ -92,11 +93,12 @@ label : str
     constructor(
         set,
         [](std::vector<Roi> rois, std::string label) {
-            return StructureSet{std::move(label), std::move(rois)};
+            return StructureSet{std::move(label), std::move(rois), {}};
         },
         py::arg("rois"), py::arg("label") = "");
     set.def_readonly("label", &StructureSet::label, "str");
     set.def_readonly("rois", &StructureSet::rois, "list of Roi: in the file's order.");
+    set.def_readonly("notes", &StructureSet::notes, "list of str: what was left out that belongs to no ROI.");
 
     define(m, "is_rtstruct", "Whether a file is a DICOM RT structure set; reads a few elements only.", &is_rtstruct,
            py::arg("path"));

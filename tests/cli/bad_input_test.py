@@ -278,3 +278,12 @@ def test_a_standard_output_that_is_full(folder):
         result = subprocess.run([KONTUR, "inspect", folder / "ball.json"], stdout=full, stderr=subprocess.PIPE, text=True)
     assert result.returncode == 74
     assert result.stderr == "kontur: error: standard output cannot be written\n"
+
+
+def test_names_that_cannot_be_reached_are_input_that_cannot_be_read(folder):
+    os.symlink("loop", folder / "loop")
+    for name in ("n" * 300, "loop", "loop.nii.gz"):
+        for words in (["inspect", name], ["convert", name, "out.nrrd"], ["segment", "ball.json", "--image", name, "--output", OUT]):
+            result = kontur(*words, cwd=folder)
+            assert result.returncode == 74 and re.fullmatch(r"kontur: error: .+\n", result.stderr), (words, result)
+            assert "unexpected" not in result.stderr

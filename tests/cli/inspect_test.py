@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur inspect says what files are."""
 import json
+import pathlib
+import subprocess
+import sys
 
 import numpy
 import pytest
 from support import ball_array, ball_planes, circle, kontur, lps_affine, names, real_data, succeed, write_nifti, write_planes
+
+SUPPORT = pathlib.Path(__file__).parent.parent / "support"
 
 
 def inspect(*paths):
@@ -147,3 +152,17 @@ def test_writes_no_file(tmp_path):
     path = write_planes(tmp_path / "ball.json", ball_planes())
     succeed("inspect", path, cwd=tmp_path)
     assert names(tmp_path) == ["ball.json"]
+
+
+def test_damage_in_one_roi_is_told_beside_the_others(tmp_path):
+    subprocess.run([sys.executable, SUPPORT / "make_rtstruct.py", "count", tmp_path / "rs.dcm"], check=True)
+    result = kontur("inspect", tmp_path / "rs.dcm", "--json")
+    damage = "ROI 1 'plain': contour 2: it declares 5 points and has 4"
+    assert result.returncode == 66 and result.stderr.endswith(f"rs.dcm: {damage}\n"), result
+    [facts] = json.loads(result.stdout)
+    assert facts["rois"][0]["damage"] == damage and "problems" not in facts["rois"][0]
+    assert facts["rois"][3]["contours"] == 2 and "damage" not in facts["rois"][3]
+    words = ["--spacing-mm", "1", "--output", tmp_path / "m.nii.gz"]
+    assert kontur("segment", tmp_path / "rs.dcm", "--roi", "nested", *words).returncode == 0
+    refused = kontur("segment", tmp_path / "rs.dcm", "--roi", "plain", *words)
+    assert refused.returncode == 66 and refused.stderr.endswith(f"{damage}\n"), refused

@@ -124,3 +124,47 @@ def test_dicom_output_without_dicom_images_is_refused_before_any_work(tmp_path):
         assert result.returncode == 65
         assert "DICOM" in result.stderr
         assert names(tmp_path) == before
+
+
+def test_another_frame_of_reference_than_the_images_is_told(tmp_path, images):
+    kontur("segment", ball_contours(tmp_path / "ball.json"), "--image", images, "--output", tmp_path / "seg.dcm", "--rtstruct", tmp_path / "rs.dcm")
+    [own] = {str(pydicom.dcmread(path).FrameOfReferenceUID) for path in images.iterdir()}
+    commands = {
+        "rs.dcm": [["segment", "rs.dcm", "--output", "m.nii.gz"], ["convert", "rs.dcm", "again.dcm"]],
+        "seg.dcm": [["trace", "seg.dcm", "--output", "t.dcm"], ["trace", "seg.dcm", "--output", "t.json"], ["convert", "seg.dcm", "again.dcm"]],
+    }
+    for name, of_file in commands.items():
+        for uid in (own, "1.2.3.4"):
+            file = pydicom.dcmread(tmp_path / name)
+            file.FrameOfReferenceUID = uid
+            for roi in file.get("StructureSetROISequence", []):
+                roi.ReferencedFrameOfReferenceUID = uid
+            file.save_as(tmp_path / name)
+            for words in of_file:
+                result = kontur(*words, "--image", images, cwd=tmp_path)
+                assert result.returncode == 0, result
+                told = f"lies in the frame of reference 1.2.3.4, the images in {own}; it may not fit them\n" in result.stderr
+                assert told == (uid != own), (words, result)
+
+
+@pytest.mark.parametrize(
+    "declared, name, written",
+    [
+        (["", "ISO 2022 IR 87"], "Yamada^Tarou=山田^太郎=やまだ^たろう", "Yamada^Tarou=山田^太郎=やまだ^たろう"),
+        (["ISO 2022 IR 13", "ISO 2022 IR 87"], "ﾔﾏﾀﾞ^ﾀﾛｳ=山田^太郎=やまだ^たろう", "ﾔﾏﾀﾞ^ﾀﾛｳ=山田^太郎=やまだ^たろう"),
+        (["", "ISO 2022 IR 149"], "Hong^Gildong=洪^吉洞=홍^길동", "Hong^Gildong=洪^吉洞=홍^길동"),
+        ("GB18030", "王^小东", "王^小东"),
+        (None, b"M\xfcller^J", "Müller^J"),
+    ],
+)
+def test_the_patients_name_is_written_as_the_images_have_it(tmp_path, images, declared, name, written):
+    (tmp_path / "images").mkdir()
+    for path in images.iterdir():
+        image = pydicom.dcmread(path)
+        image.PatientName = name
+        if declared:
+            image.SpecificCharacterSet = declared
+        image.save_as(tmp_path / "images" / path.name)
+    contours = ball_contours(tmp_path / "ball.json")
+    assert kontur("convert", contours, tmp_path / "rs.dcm", "--image", tmp_path / "images").returncode == 0
+    assert str(pydicom.dcmread(tmp_path / "rs.dcm").PatientName) == written

@@ -45,6 +45,13 @@ TEST_F(Contours, TheNameDecidesWhatIsWritten) {
     EXPECT_FALSE(fs::exists(folder_ / "a.dcm"));
 }
 
+TEST_F(Contours, ExtensionsMeanTheSameInCapitals) {
+    write_contours(folder_ / "A.JSON", set_);
+    write_contours(folder_ / "A.MRK.JSON", set_);
+    EXPECT_EQ(read_contour_json(folder_ / "A.JSON").contours.size(), 3u);
+    EXPECT_EQ(read_markups(folder_ / "A.MRK.JSON").contours.size(), 3u);
+}
+
 TEST_F(Contours, TheContentDecidesWhatIsRead) {
     write_markups(folder_ / "a.json", set_);
     write_contour_json(folder_ / "b.txt", set_);

@@ -76,6 +76,25 @@ TEST(DicomNesting, DisorderIsAcceptedWhileItCannotNestDeep) {
     EXPECT_KONTUR_ERROR(check_dicom_nesting(folder / "a"), ErrorKind::corrupt_file, "do not follow one another");
 }
 
+TEST(DicomNesting, FollowsMetaInformationWithoutItsLengthAndZerosBehindTheLastElement) {
+    const test::TemporaryFolder folder;
+    for (const bool is_explicit : {true, false}) {
+        const std::string with_length = head(is_explicit ? kExplicit : kImplicit), zeros(512, '\0');
+        const std::string without = with_length.substr(0, 132) + with_length.substr(144);
+        std::string siblings = le(8, 2) + le(0x1140, 2) + (is_explicit ? "SQ" + le(0, 2) : "") + le(~0u, 4);
+        for (int n = 0; n < 5000; ++n) siblings += kItem + le(0, 4);
+        siblings += kSequenceEnd;
+        for (const std::string& bytes : {without + siblings, with_length + siblings + zeros, without + siblings + zeros}) {
+            test::write_bytes(folder / "a", bytes);
+            EXPECT_NO_THROW(check_dicom_nesting(folder / "a"));
+        }
+        test::write_bytes(folder / "a", without + nested(101, is_explicit, false));
+        EXPECT_KONTUR_ERROR(check_dicom_nesting(folder / "a"), ErrorKind::corrupt_file, "more than 100 deep");
+        test::write_bytes(folder / "a", with_length + siblings + zeros + "x");
+        EXPECT_KONTUR_ERROR(check_dicom_nesting(folder / "a"), ErrorKind::corrupt_file, "do not follow one another");
+    }
+}
+
 TEST(DicomNesting, ManySiblingsAreNoDepth) {
     const test::TemporaryFolder folder;
     std::string siblings = le(8, 2) + le(0x1140, 2) + "SQ" + le(0, 2) + le(~0u, 4);

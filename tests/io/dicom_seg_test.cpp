@@ -121,6 +121,12 @@ TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
     EXPECT_EQ(found.segments[0].voxels, count_labels(random_labels()).at(1));
 }
 
+TEST_F(WriteDicomSeg, NamesANewFrameOfReferenceWhereTheImagesNameNone) {
+    use_images("no_frame");
+    write_dicom_seg(path(), random_labels(), three_segments(), series_);
+    EXPECT_FALSE(read_dicom_segmentation(path()).frame_of_reference_uid.empty());
+}
+
 TEST_F(WriteDicomSeg, TakesMirroredTurnedAndCroppedMasks) {
     use_images("oblique");
     Image labels = random_labels();
@@ -186,6 +192,11 @@ TEST_F(WriteDicomSeg, RefusesWhatDoesNotFit) {
     labels.grid.index_to_mm.translation.x += 0.35;
     EXPECT_KONTUR_ERROR(write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
                         "they are up to 0.5 of a voxel off; the limit is 0.05");
+    labels.grid.index_to_mm = grid_.index_to_mm;
+    labels.grid.index_to_mm.set_column(2, 0.5 * grid_.index_to_mm.column(2));
+    EXPECT_KONTUR_ERROR(
+        write_dicom_seg(path(), labels, three_segments(), series_), ErrorKind::invalid_input,
+        "the mask's voxels of 0.7 x 0.8 x 1.25 mm are not those of the images, which have 0.7 x 0.8 x 2.5 mm");
     EXPECT_FALSE(fs::exists(path()));
 }
 
@@ -261,7 +272,18 @@ TEST_F(ReadDicomSeg, CountsFractionsFromOneHalfOn) {
     EXPECT_NE(found.notes.front().find("one half"), std::string::npos);
 }
 
+TEST_F(ReadDicomSeg, SaysThatFramesLieFartherApartThanDeclared) {
+    const DicomSegmentation found = read_dicom_segmentation(make("halved"));
+    EXPECT_EQ(found.grid.size.k, 11);
+    EXPECT_EQ(found.notes, (std::vector<std::string>{"slices are declared 1 mm apart, but no two frames lie less than 2 mm "
+                                                     "apart; the slices between them stay empty"}));
+}
+
 TEST_F(ReadDicomSeg, RefusesContradictionsByName) {
+    for (const char* most : {"0", "1000"})
+        EXPECT_KONTUR_ERROR(read_dicom_seg(make(std::string("fractional_") + most)), ErrorKind::corrupt_file,
+                            std::string("its MaximumFractionalValue is ") + most + "; 1 to 255 are possible");
+    EXPECT_KONTUR_ERROR(read_dicom_seg(make("hair")), ErrorKind::unsupported, "its frames lie on no regular lattice");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("irregular")), ErrorKind::unsupported, "its frames lie on no regular lattice");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("turned")), ErrorKind::unsupported, "frame 3 is not parallel to the others");
     EXPECT_KONTUR_ERROR(read_dicom_seg(make("unlisted")), ErrorKind::corrupt_file,

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kontur/base/error.h"
+#include "kontur/io/file_digest.h"
 #include "support/damage.h"
 #include "support/recompress.h"
 #include "support/run_python.h"
@@ -165,6 +166,17 @@ TEST_F(DicomSeriesTest, ReadsJpegJpegLsAndJpeg2000) {
         }
 }
 
+TEST_F(DicomSeriesTest, FindsTheFragmentsOfEachFrame) {
+    for (const std::size_t fragments : {1, 2, 5})
+        for (const char* name : {"axial", "enhanced"}) {
+            SCOPED_TRACE(std::string(name) + " in " + std::to_string(fragments) + " fragments each");
+            const fs::path files = make(name);
+            test::recompress(files, EXS_JPEG2000LosslessOnly, fragments);
+            check(name);
+            fs::remove_all(files.parent_path());
+        }
+}
+
 TEST_F(DicomSeriesTest, KeepsTheValuesOfInvertedImagesAndSaysSo) {
     EXPECT_TRUE(notes_mention(read_and_check("inverted").notes, "MONOCHROME1"));
 }
@@ -226,6 +238,45 @@ TEST_F(DicomSeriesTest, AsksWhichOfSeveralSeries) {
         EXPECT_EQ(read_dicom_series(series.files[3]).series.series_uid, series.series_uid) << "a file stands for its series";
     }
     EXPECT_REFUSED(refusal(files, {.series_uid = "1.2.3"}), invalid_input, "there is no series 1.2.3; there are: ");
+}
+
+TEST_F(DicomSeriesTest, DamageInOneSeriesLeavesTheOthers) {
+    const fs::path files = make("other_damaged");
+    const auto series = list_dicom_series(files);
+    ASSERT_EQ(series.size(), 1u);
+    EXPECT_REFUSED(refusal(files), corrupt_file, "is 0; the other series " + series[0].series_uid + " can be read when it");
+    EXPECT_REFUSED(refusal(files / "capture.dcm"), corrupt_file, "capture.dcm: RescaleSlope (0028,1053) is 0");
+    const DicomVolume volume = check("other_damaged", {.series_uid = series[0].series_uid});
+    EXPECT_EQ(volume.notes, (std::vector<std::string>{"left out 1 damaged file of other series: capture.dcm"}));
+    EXPECT_EQ(read_dicom_grid(series[0].files[2]).grid, volume.image.grid) << "a file stands for its series";
+    const fs::path damaged = make("own_damaged");
+    EXPECT_REFUSED(refusal(damaged), corrupt_file, "RescaleSlope (0028,1053) is 0");
+    EXPECT_REFUSED(refusal(damaged, {.series_uid = list_dicom_series(damaged)[0].series_uid}), corrupt_file, "is 0");
+}
+
+TEST_F(DicomSeriesTest, NumbersThatOnlyOrderSlicesMayBeNone) { read_and_check("numbered"); }
+
+TEST_F(DicomSeriesTest, NamesDicomFilesThatLackTheirPreamble) {
+    const fs::path files = make("axial");
+    const std::string bytes = test::read_bytes(read_dicom_grid(files).series.files.back());
+    fs::remove(read_dicom_grid(files).series.files.back());
+    test::write_bytes(files / "bare.dcm", bytes.substr(132));
+    EXPECT_EQ(read_dicom_grid(files).notes,
+              (std::vector<std::string>{"left out 1 file (DICOM without its preamble, which is not read): bare.dcm"}));
+}
+
+TEST_F(DicomSeriesTest, RefusesMosaics) {
+    EXPECT_REFUSED(refusal(make("mosaic")), unsupported,
+                   "it is a Siemens mosaic, many slices in one image; convert it with dcm2niix first");
+}
+
+TEST_F(DicomSeriesTest, PassesOverLinksThatLeadNowhere) {
+    const fs::path files = make("axial");
+    fs::create_symlink("loop", files / "loop");
+    fs::create_symlink("nothing", files / "dangling");
+    EXPECT_EQ(check("axial").notes, (std::vector<std::string>{"left out 1 file (Too many levels of symbolic links): loop"}));
+    EXPECT_NO_THROW(file_sha256(files));
+    EXPECT_REFUSED(refusal(files / "loop"), io, "loop: no such file");
 }
 
 TEST_F(DicomSeriesTest, TellsVolumesAtTheSamePositionsApart) {

@@ -147,7 +147,7 @@ TEST_F(MetaImageLines, LiesAreRefused) {
     spoil("TransformMatrix", "1 0 0 0 1 0 1 1 0", ErrorKind::corrupt_file, "linearly dependent");
     spoil("TransformMatrix", "1 0 0 0 1 0 1 1", ErrorKind::corrupt_file, "9 numbers are expected");
     spoil("Offset", "0 inf 0", ErrorKind::corrupt_file, "not finite");
-    spoil("Origin", "0 0 0", ErrorKind::corrupt_file, "twice");
+    spoil("Origin", "0 0 1", ErrorKind::corrupt_file, "twice, with two values");
     spoil("ElementType", "MET_STRING", ErrorKind::unsupported, "MET_STRING");
     spoil("ElementNumberOfChannels", "0", ErrorKind::corrupt_file, "0 channels");
     spoil("NDims", "2", ErrorKind::unsupported, "2 axes");
@@ -157,6 +157,55 @@ TEST_F(MetaImageLines, LiesAreRefused) {
     spoil("HeaderSize", "-2", ErrorKind::corrupt_file, "-2");
     spoil("CompressedData", "True", ErrorKind::corrupt_file, "compressed data are damaged");
     spoil("ElementToIntensityFunctionSlope", "2", ErrorKind::unsupported, "rescaled");
+}
+
+TEST_F(MetaImageLines, TextHoldsAsManyNumbersAsDeclared) {
+    set("BinaryData", "False");
+    set("ElementType", "MET_FLOAT");
+    voxels = "1 2 3 4 5 6 7 " + std::string(60, '0') + "8.25\n \n";
+    EXPECT_EQ(sample(read(), 7), 8.25) << "64 characters";
+    voxels = "1 2 3 4 5 6 7 " + std::string(61, '0') + "8.25";
+    expect_refused(ErrorKind::corrupt_file,
+                   "the number \"0000000000000000...\" among its voxels has more than 64 characters");
+    voxels = "1 2 3 4 5 6 7 8 9";
+    expect_refused(ErrorKind::corrupt_file, "\"9\" follows the last of its declared voxels");
+    voxels = "1 2 3 4 5 6 7";
+    expect_refused(ErrorKind::corrupt_file, "");
+}
+
+TEST_F(MetaImageLines, IntegersStayExactOrAreRefused) {
+    set("BinaryData", "False");
+    set("ElementType", "MET_ULONG_LONG");
+    voxels = "0 1 2 3 4 5 6 4294967296";
+    EXPECT_EQ(sample(read(), 7), 4294967296.0);
+    for (const char* value : {"4000000001", "9007199254740993", "18446744073709551615"}) {
+        voxels = std::string("0 1 2 3 4 5 6 ") + value;
+        expect_refused(ErrorKind::unsupported, "is beyond 32-bit integers, and a float does not hold it exactly");
+    }
+    voxels = "0 1 2 3 4 5 6 4000000001";
+    expect_refused(ErrorKind::unsupported, "the voxel value 4000000001 is");
+}
+
+TEST_F(MetaImageLines, TwoNamesOfOneFieldMayAgree) {
+    set("BinaryDataByteOrderMSB", "False");
+    set("ElementByteOrderMSB", "False");
+    EXPECT_NO_THROW(read());
+    set("ElementByteOrderMSB", "True");
+    expect_refused(ErrorKind::corrupt_file, "\"BinaryDataByteOrderMSB\" twice, with two values");
+}
+
+TEST_F(MetaImageLines, BytesBehindTheVoxelsAreTold) {
+    std::vector<std::string> notes;
+    options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
+    file = "a.mhd";
+    set("ElementDataFile", "./a.raw");
+    test::put_content(folder / "a.raw", voxels);
+    read();
+    EXPECT_TRUE(notes.empty());
+    test::put_content(folder / "a.raw", voxels + voxels);
+    read();
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(notes[0].ends_with("its header declares 8 bytes of voxels, and 16 are there; the rest is left out"));
 }
 
 TEST_F(MetaImageLines, WrongCompressedSizeIsRefused) {

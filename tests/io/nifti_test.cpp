@@ -155,6 +155,46 @@ TEST(Nifti, ReadsSeveralGzipMembers) {
     EXPECT_EQ(read_nifti(folder / "members.nii.gz").samples, read_nifti(folder / "valid.nii").samples);
 }
 
+/// A gzip member of this many bytes: a file name pads it.
+std::string gzip_member(const std::string& content, std::size_t size) {
+    const auto with_name = [&](std::string name) {
+        z_stream stream{};
+        ::deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+        gz_header header{};
+        header.name = reinterpret_cast<Bytef*>(name.data());
+        ::deflateSetHeader(&stream, &header);
+        std::string input = content, member(size + content.size() + 1000, '\0');
+        stream.next_in = reinterpret_cast<Bytef*>(input.data());
+        stream.avail_in = static_cast<uInt>(input.size());
+        stream.next_out = reinterpret_cast<Bytef*>(member.data());
+        stream.avail_out = static_cast<uInt>(member.size());
+        EXPECT_EQ(::deflate(&stream, Z_FINISH), Z_STREAM_END);
+        member.resize(stream.total_out);
+        ::deflateEnd(&stream);
+        return member;
+    };
+    return with_name(std::string(size - with_name("").size(), 'x'));
+}
+
+TEST(Nifti, GzipMembersMayEndAnywhereInTheReadersBuffer) {
+    constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+    const test::TemporaryFolder folder;
+    const std::string bytes = valid_file(folder / "valid.nii");
+    for (const std::size_t end : {kBufferBytes - 2, kBufferBytes - 1, kBufferBytes, kBufferBytes + 1}) {
+        test::put_content(folder / "members.nii.gz",
+                          gzip_member(bytes.substr(0, 360), end) + gzip_member(bytes.substr(360), 1000));
+        EXPECT_EQ(read_nifti(folder / "members.nii.gz").samples, read_nifti(folder / "valid.nii").samples) << end;
+    }
+}
+
+TEST(Nifti, CompressesAlsoForAnExtensionInCapitals) {
+    const test::TemporaryFolder folder;
+    const Image image = test::pattern_image<std::int16_t>(test::all_orientations()[0]);
+    write_nifti(folder / "a.nii.gz", image);
+    write_nifti(folder / "A.NII.GZ", image);
+    EXPECT_EQ(test::content_of(folder / "A.NII.GZ"), test::content_of(folder / "a.nii.gz"));
+}
+
 TEST(Nifti, RefusesAGzipBombBeforeAllocating) {
     const test::TemporaryFolder folder;
     std::string bytes = valid_file(folder / "valid.nii");
@@ -253,6 +293,24 @@ TEST_F(Spoiled, ContradictingTransformsNeedAChoice) {
     put<float>(bytes, 268, 123.45f);
     test::put_content(folder / "close.nii", bytes);
     EXPECT_NO_THROW(read_nifti(folder / "close.nii"));
+}
+
+TEST_F(Spoiled, OneTransformThatIsNoneLeavesTheOther) {
+    const std::string valid = bytes;
+    put<float>(bytes, 76 + 12, 0);  // pixdim, which only the qform uses
+    expect_refused(ErrorKind::corrupt_file,
+                   "linearly dependent by its qform (pixdim 0.7 1.3 0); the option prefer sform reads it");
+    options.prefer = NiftiTransform::qform;
+    expect_refused(ErrorKind::corrupt_file, "linearly dependent");
+    options.prefer = NiftiTransform::sform;
+    EXPECT_EQ(read_nifti(folder / "spoiled.nii", options).grid, read_nifti(folder / "valid.nii").grid);
+    bytes = valid;
+    for (std::size_t n = 0; n < 4; ++n) put<float>(bytes, 280 + 4 * n, 0);
+    expect_refused(ErrorKind::corrupt_file, "linearly dependent");
+    options.prefer.reset();
+    expect_refused(ErrorKind::corrupt_file, "linearly dependent by its sform; the option prefer qform reads it");
+    options.prefer = NiftiTransform::qform;
+    EXPECT_NO_THROW(read_nifti(folder / "spoiled.nii", options));
 }
 
 TEST_F(Spoiled, MissingTransformsNeedConsent) {

@@ -210,6 +210,13 @@ TEST_F(NrrdLines, TextThatIsNoNumberIsRefused) {
     expect_refused(ErrorKind::corrupt_file, "\"\"");
 }
 
+TEST_F(NrrdLines, LabelValuesThatAreNoIntegersAreRefused) {
+    const std::string magic = "NRRD0004\n", segment = "Segment0_ID:=a\nSegment0_LabelValue:=one\n";
+    test::put_content(folder / "a.seg.nrrd", magic + segment + text().substr(magic.size()));
+    expect_error(ErrorKind::corrupt_file, "the label value of its segment 0 is \"one\", which is no integer",
+                 [&] { read_nrrd_segments(folder / "a.seg.nrrd"); });
+}
+
 TEST_F(NrrdLines, DataFilesElsewhereAreRefused) {
     for (const char* name : {"/etc/passwd", "../a.raw", "sub/a.raw", "..", "."}) {
         set("data file", name);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kontur/base/error.h"
+#include "kontur/io/contours.h"
 #include "support/damage.h"
 #include "support/run_python.h"
 #include "support/temporary_folder.h"
@@ -107,7 +108,9 @@ TEST_F(RtstructTest, SaysWhatItLeftOutAndWhatIsAmbiguous) {
             "read as stretches of the object's boundary: 2 open contours",
             "read as points on the object's surface: 1 single point"});
     expect("without area", 1, {"left out 2 contours without area"});
-    expect("repeated", 1, {"left out 1 repetition of another contour"});
+    expect("repeated", 2,
+           {"left out 5 repetitions of another contour",
+            "read as holes, filling even-odd: 1 contour inside others on the slice"});
     expect("closing point", 1, {"left out 1 repetition of a neighbouring point"});
     expect("overlapping", 2, {"contours 1 and 2 overlap in part; even-odd filling leaves the overlap out"});
     EXPECT_EQ(point_count(select_roi(set, "closing point").contours), 4u);
@@ -147,11 +150,41 @@ TEST_F(RtstructTest, ReadsLongContoursInImplicitAndExplicitRepresentation) {
     }
 }
 
-TEST_F(RtstructTest, RefusesContradictionsNamingRoiAndContour) {
+TEST_F(RtstructTest, JoinsTheItemsThatHoldContoursOfOneRoi) {
+    for (const auto& [name, contours] : {std::pair{"twice", 3u}, {"erased", 2u}}) {
+        const Roi plain = select_roi(read_rtstruct(make(name)), "plain");
+        EXPECT_EQ(plain.contours.contours.size(), contours) << name;
+        EXPECT_EQ(plain.notes, (std::vector<std::string>{"its contours stand in 2 items of the file, which are joined"}));
+        EXPECT_EQ(plain.color, (std::array<std::uint8_t, 3>{1, 2, 255})) << name;
+    }
+}
+
+TEST_F(RtstructTest, DamageInOneRoiLeavesTheOthers) {
     const auto kind = ErrorKind::corrupt_file;
-    EXPECT_PRED2(ends_with, refusal(kind, make("number")), "ROI 1 'plain': contour 2: value 1 is not a decimal number");
-    EXPECT_PRED2(ends_with, refusal(kind, make("triples")), "contour 2: it has 11 coordinates, which is no multiple of 3");
-    EXPECT_PRED2(ends_with, refusal(kind, make("count")), "contour 2: it declares 5 points and has 4");
+    for (const auto& [name, problem] :
+         {std::pair{"number", "contour 2: value 1 is not a decimal number"},
+          {"triples", "contour 2: it has 11 coordinates, which is no multiple of 3"},
+          {"offset", "contour 2: its ContourOffsetVector is not 0; contours that are shifted by one are not read"},
+          {"count", "contour 2: it declares 5 points and has 4"}}) {
+        const StructureSet set = read_rtstruct(make(name));
+        EXPECT_EQ(set.rois[0].damage, std::string("ROI 1 'plain': ") + problem);
+        EXPECT_EQ(refusal(kind, [&] { select_roi(set, "plain"); }), set.rois[0].damage);
+        EXPECT_NE(refusal(ErrorKind::invalid_input, [&] { select_roi(set); }).find("1 'plain' (damaged), 2 '"),
+                  std::string::npos);
+        EXPECT_EQ(select_roi(set, "exclusive").contours.contours.size(), 2u);
+    }
+}
+
+TEST_F(RtstructTest, LeavesOutObservationsOfNoListedRoi) {
+    const fs::path path = make("orphan");
+    EXPECT_EQ(select_roi(read_rtstruct(path), "plain").interpreted_type, "");
+    const std::vector<std::string> notes{"left out an observation of ROI 99, which is not listed"};
+    EXPECT_EQ(read_rtstruct(path).notes, notes);
+    EXPECT_EQ(read_contours(path, {.roi = "plain"}).notes, notes);
+}
+
+TEST_F(RtstructTest, RefusesContradictionsOfTheWholeFile) {
+    const auto kind = ErrorKind::corrupt_file;
     EXPECT_PRED2(ends_with, refusal(kind, make("unlisted")), "contours refer to ROI 99, which is not listed");
     EXPECT_PRED2(ends_with, refusal(kind, make("empty")), "has no list of ROIs or none of contours");
 }

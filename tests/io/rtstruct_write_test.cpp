@@ -9,6 +9,7 @@
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/keyhole.h"
 #include "kontur/io/rtstruct.h"
+#include "support/damage.h"
 #include "support/expect_error.h"
 #include "support/random.h"
 #include "support/run_python.h"
@@ -243,6 +244,22 @@ TEST(JoinKeyhole, EnclosesTheOuterRingLessItsHolesWithoutCrossingItself) {
         EXPECT_EQ(crossings(path), 0);
         EXPECT_NEAR(std::abs(signed_area(path)), area, 1e-9) << "holes run against the outer ring";
         EXPECT_EQ(split_keyhole(path, 1e-3).size(), 26u);
+    }
+}
+
+TEST_F(WriteRtstruct, NamesANewFrameOfReferenceWhereTheImagesNameNone) {
+    for (const char* images : {"no_frame", "anonymised"}) {
+        use_images(images);
+        EXPECT_EQ(series_.frame_of_reference_uid, "") << images;
+        EXPECT_EQ(write(holes()),
+                  (std::vector<std::string>{"the images name no common frame of reference; the structure set "
+                                            "names a new one"}));
+        const std::string uid = read_rtstruct(path()).rois.front().frame_of_reference_uid;
+        ASSERT_FALSE(uid.empty());
+        const std::string bytes = test::read_bytes(path());
+        std::size_t times = 0;
+        for (std::size_t at = bytes.find(uid); at != std::string::npos; at = bytes.find(uid, at + 1)) ++times;
+        EXPECT_EQ(times, 3u) << "of the file, of the list of frames, of the ROI";
     }
 }
 

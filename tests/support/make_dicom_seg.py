@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """make_dicom_seg.py CASE FILE TRUTH: writes a DICOM segmentation of two segments on 6 slices of 7 x 5 pixels.
 
-CASE: "shuffled" (frames in no order, those without voxels left out), "overlapping", "fractional", or what is wrong:
-"irregular", "turned", "unlisted", "short", "kind". TRUTH gets the label map that it shows (uint8, i fastest); of
+CASE: "shuffled" (frames in no order, those without voxels left out), "overlapping", "fractional" ("fractional_0",
+"fractional_1000": with that MaximumFractionalValue), "halved" (half of the true spacing is declared, "hair": 1/100 mm, with
+frames 0.3 mm off), or what is wrong: "irregular", "turned", "unlisted", "short", "kind". TRUTH gets the label map that it shows (uint8, i fastest); of
 overlapping ones, segment 1 is in front, and the mask of segment 4 follows.
 """
 
@@ -16,6 +17,7 @@ from pydicom.uid import ExplicitVRLittleEndian, generate_uid
 
 case, path, truth_path = sys.argv[1:]
 NZ, NY, NX = 6, 5, 7
+SPACING = {"halved": 1, "hair": 0.013}
 rng = np.random.default_rng(5)
 masks = {1: rng.random((NZ, NY, NX)) < 0.3, 4: rng.random((NZ, NY, NX)) < 0.3}
 if case != "overlapping":
@@ -42,12 +44,12 @@ d.SpecificCharacterSet = "ISO_IR 192"
 d.FrameOfReferenceUID = "1.2.3"
 d.Rows, d.Columns, d.SamplesPerPixel, d.PhotometricInterpretation = NY, NX, 1, "MONOCHROME2"
 d.PixelRepresentation = 0
-fractional = case == "fractional"
+fractional = case.startswith("fractional")
 d.SegmentationType = "FRACTIONAL" if fractional else "LABELMAP" if case == "kind" else "BINARY"
 d.BitsAllocated = d.BitsStored = 8 if fractional else 1
 d.HighBit = d.BitsStored - 1
 if fractional:
-    d.MaximumFractionalValue = 200
+    d.MaximumFractionalValue = int(case.partition("_")[2] or 200)
 d.SegmentSequence = Sequence(
     [of(SegmentNumber=n, SegmentLabel=name, SegmentAlgorithmType="MANUAL") for n, name in [(1, "Läsion"), (4, "node")]]
 )
@@ -55,7 +57,7 @@ d.SharedFunctionalGroupsSequence = Sequence(
     [
         of(
             PlaneOrientationSequence=Sequence([of(ImageOrientationPatient=[0.6, 0.8, 0, 0, 0, 1])]),
-            PixelMeasuresSequence=Sequence([of(PixelSpacing=[0.5, 0.7], SliceThickness=9, SpacingBetweenSlices=2)]),
+            PixelMeasuresSequence=Sequence([of(PixelSpacing=[0.5, 0.7], SliceThickness=9, SpacingBetweenSlices=SPACING.get(case, 2))]),
         )
     ]
 )
@@ -64,7 +66,7 @@ frames = [(number, k) for number, mask in masks.items() for k in range(NZ) if ma
 random.Random(3).shuffle(frames)
 items, pixels = [], []
 for n, (number, k) in enumerate(frames):
-    height = 2 * k + (0.3 if case == "irregular" and n == 0 else 2e19 if case == "far" and n == 0 else 0)
+    height = 2 * k + (0.3 if case in ("irregular", "hair") and n == 0 else 2e19 if case == "far" and n == 0 else 0)
     position = np.array([10, 20, 30]) + height * normal
     item = of(
         PlanePositionSequence=Sequence([of(ImagePositionPatient=[f"{v:.8g}" for v in position])]),

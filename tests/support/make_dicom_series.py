@@ -141,11 +141,21 @@ def make(case, folder):
             d.AcquisitionNumber = k + 1
         if case == "anonymised":
             d.FrameOfReferenceUID = uid(case, "frame", k)
+        if case == "no_frame":
+            del d.FrameOfReferenceUID
+        if case == "mosaic":
+            d.ImageType = ["ORIGINAL", "PRIMARY", "M", "ND", "MOSAIC"]
+        if case == "own_damaged" and k == 5:
+            d.RescaleSlope = 0
+        if case == "numbered":
+            d.InstanceNumber = 54321
         name = f"f{names[k]:04d}.dcm"
         save(d, name)
         if case == "truncated" and k == 5:
             content = (files / name).read_bytes()
             (files / name).write_bytes(content[:-100])
+        if case == "numbered":  # what pydicom refuses to write
+            (files / name).write_bytes((files / name).read_bytes().replace(b"54321", b"543.0"))
         if case == "duplicated" and k == 5:
             (files / "copy.dcm").write_bytes((files / name).read_bytes())
         if case in ("echoes", "times", "other_series"):
@@ -159,6 +169,12 @@ def make(case, folder):
                 d.TriggerTime, d2.TriggerTime = f"{300 - k}", f"{700 - 3 * k}"
             save(d, name)
             save(d2, f"a{names[k]:04d}.dcm")
+    if case == "other_damaged":
+        d = new_slice(case, "capture", "other")
+        place(d, orientation, ORIGIN)
+        set_pixels(d, stored[0])
+        d.RescaleSlope = 0
+        save(d, "capture.dcm")
     if case == "company":
         (files / "README.txt").write_text("not DICOM")
         (files / "empty").write_bytes(b"")

@@ -2,7 +2,9 @@
 """make_rtstruct.py CASE FILE: writes an RT structure set.
 
 CASE is "good", with one ROI for each way to store contours, "long" (with very long ones besides), "explicit" (the same in
-explicit VR, where long contour data become VR UN), or what is wrong: "number", "triples", "count", "unlisted", "empty".
+explicit VR, where long contour data become VR UN), or what is wrong: "number", "triples", "count", "unlisted", "empty",
+"twice" (a second item with contours of the first ROI), "erased" (the same without contours), "orphan" (an observation of a
+ROI that is not listed), "offset" (contours shifted by a vector).
 """
 
 import math
@@ -62,7 +64,15 @@ ROIS = {
         (PLANAR, [(0, 0, 0), (1, 0, 0), (2, 0, 0)]),
         (PLANAR, square(0, 4)),
     ],
-    "repeated": [(PLANAR, square(0, 4)), (PLANAR, square(0, 4))],
+    "repeated": [
+        (PLANAR, square(0, 4)),
+        (PLANAR, square(0, 4)),
+        (PLANAR, square(0, 4) + [(0, 0, 0)]),
+        (PLANAR, square(0, 4)[2:] + square(0, 4)[:2]),
+        (PLANAR, square(0, 4)[::-1]),
+        (PLANAR, [(x + 0.0002, y, z) for x, y, z in square(0, 4)]),
+        (PLANAR, square(1, 2)),
+    ],
     "closing point": [(PLANAR, square(0, 4) + [(0, 0, 0)])],
     "empty": [],
     "oblique": [(PLANAR, oblique(10, 0)), (PLANAR, oblique(10, 5)), (PLANAR, oblique(0.02, 5))],
@@ -119,6 +129,16 @@ def main(case, path):
         second.NumberOfContourPoints = 5
     if case == "unlisted":
         contours[0].ReferencedROINumber = 99
+    if case in ("twice", "erased"):
+        again = Dataset()
+        again.ReferencedROINumber = 1
+        if case == "twice":
+            again.ContourSequence = Sequence([contour_item(PLANAR, square(0, 10, 6.0), 1)])
+        contours.append(again)
+    if case == "offset":
+        second.add_new(0x30060045, "DS", ["0", "0", "2.5"])
+    if case == "orphan":
+        observations[0].ReferencedROINumber = 99
     d.StructureSetROISequence, d.ROIContourSequence = Sequence(listed), Sequence(contours)
     d.RTROIObservationsSequence = Sequence(observations)
     if case == "empty":

@@ -79,8 +79,24 @@ inline std::vector<std::uint8_t> encode_jpeg2000(const std::vector<std::int32_t>
     return sink.bytes;
 }
 
-/// Replaces uncompressed 8- or 16-bit pixels by JPEG 2000 ones, each frame cut into fragments of at most 1 kB.
-inline void put_jpeg2000(DcmDataset& dataset) {
+/// Appends a frame in `fragments` pieces of even length and its place to the offset table.
+inline void store_frame(DcmPixelSequence& sequence, DcmOffsetList& offsets, std::vector<std::uint8_t> code,
+                        std::size_t fragments) {
+    code.resize((code.size() + 1) / 2 * 2);
+    const std::size_t each = (code.size() / fragments + 1) / 2 * 2;
+    Uint32 stored = 0;
+    for (std::size_t begin = 0; begin < code.size(); begin += each) {
+        auto item = std::make_unique<DcmPixelItem>(DcmTag(DCM_Item, EVR_OB));
+        const auto length = static_cast<Uint32>(std::min(each, code.size() - begin));
+        item->putUint8Array(code.data() + begin, length);
+        sequence.insert(item.release());
+        stored += 8 + length;
+    }
+    offsets.push_back(stored);
+}
+
+/// Replaces uncompressed 8- or 16-bit pixels by JPEG 2000 ones, each frame in a number of fragments.
+inline void put_jpeg2000(DcmDataset& dataset, std::size_t fragments) {
     Uint16 rows = 0, columns = 0, bits = 0, sign = 0;
     dataset.findAndGetUint16(DCM_Rows, rows);
     dataset.findAndGetUint16(DCM_Columns, columns);
@@ -105,9 +121,7 @@ inline void put_jpeg2000(DcmDataset& dataset) {
             const int low = bits == 8 ? bytes[at] : bytes[2 * at] | bytes[2 * at + 1] << 8;
             samples[n] = sign && bits == 16 ? static_cast<std::int16_t>(low) : low;
         }
-        std::vector<std::uint8_t> code = encode_jpeg2000(samples, columns, rows, bits, sign != 0);
-        sequence->storeCompressedFrame(offsets, code.data(), static_cast<Uint32>(code.size()),
-                                       /*fragment kB=*/frames > 1 ? 0 : 1);
+        store_frame(*sequence, offsets, encode_jpeg2000(samples, columns, rows, bits, sign != 0), fragments);
     }
     offset_table.createOffsetTable(offsets);
     static_cast<DcmPixelData*>(element)->putOriginalRepresentation(EXS_JPEG2000LosslessOnly, nullptr, sequence.release());
@@ -116,8 +130,8 @@ inline void put_jpeg2000(DcmDataset& dataset) {
 }  // namespace detail
 
 /// Rewrites every DICOM file in the folder with its pixels compressed without loss (EXS_JPEGProcess14SV1: JPEG,
-/// EXS_JPEGLSLossless: JPEG-LS, EXS_JPEG2000LosslessOnly: JPEG 2000).
-inline void recompress(const std::filesystem::path& folder, E_TransferSyntax syntax) {
+/// EXS_JPEGLSLossless: JPEG-LS, EXS_JPEG2000LosslessOnly: JPEG 2000, each frame in a number of fragments).
+inline void recompress(const std::filesystem::path& folder, E_TransferSyntax syntax, std::size_t fragments = 1) {
     OFLog::configure(OFLogger::OFF_LOG_LEVEL);
     DJEncoderRegistration::registerCodecs();
     DJLSEncoderRegistration::registerCodecs();
@@ -131,7 +145,7 @@ inline void recompress(const std::filesystem::path& folder, E_TransferSyntax syn
         const OFFilename name(entry.path().c_str());
         if (file.loadFile(name).bad() || file.loadAllDataIntoMemory().bad())
             throw std::runtime_error("cannot read " + entry.path().string());
-        if (syntax == EXS_JPEG2000LosslessOnly) detail::put_jpeg2000(*file.getDataset());
+        if (syntax == EXS_JPEG2000LosslessOnly) detail::put_jpeg2000(*file.getDataset(), fragments);
         if (file.getDataset()->chooseRepresentation(syntax, how).bad() || file.saveFile(name, syntax).bad())
             throw std::runtime_error("cannot recompress " + entry.path().string());
     }

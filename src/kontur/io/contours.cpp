@@ -14,6 +14,7 @@
 #include "kontur/io/json_file.h"
 #include "kontur/io/markups.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/io/text_header.h"
 
 namespace kontur {
 namespace {
@@ -29,8 +30,12 @@ std::string head_of(const fs::path& path) {
     return {head.data(), static_cast<std::size_t>(file.gcount())};
 }
 
+bool has_extension(const fs::path& path, std::string_view extension) {
+    return lower_case(path.filename().string()).ends_with(extension);
+}
+
 bool is_dicom(const fs::path& path, std::string_view head) {
-    return (head.size() == 132 && head.ends_with("DICM")) || path.extension() == ".dcm";
+    return (head.size() == 132 && head.ends_with("DICM")) || has_extension(path, ".dcm");
 }
 
 bool is_json(std::string_view head) {
@@ -42,7 +47,9 @@ ReadContours read_roi(const fs::path& path, const ReadContoursOptions& options) 
     const StructureSet set = read_rtstruct(path);
     return in_context(path.string(), [&] {
         Roi roi = select_roi(set, options.roi);
-        return ReadContours{std::move(roi.contours), std::move(roi.notes)};
+        ReadContours found{std::move(roi.contours), std::move(roi.frame_of_reference_uid), set.notes};
+        found.notes.insert(found.notes.end(), roi.notes.begin(), roi.notes.end());
+        return found;
     });
 }
 
@@ -55,7 +62,7 @@ void check_name(const fs::path& path, const ContourSet& contours, const std::str
     throw Error(ErrorKind::invalid_input, path.string() + ": there is no structure '" + roi + "'; the file holds " + own);
 }
 
-bool is_markups(const fs::path& path) { return path.string().ends_with(".mrk.json"); }
+bool is_markups(const fs::path& path) { return has_extension(path, ".mrk.json"); }
 
 }  // namespace
 
@@ -69,7 +76,7 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
     const bool has_markups = is_markups(path) || read_json_file(path).contains("markups");
     ContourSet contours = has_markups ? read_markups(path, {options.plane_tolerance_mm}) : read_contour_json(path);
     if (options.roi) check_name(path, contours, *options.roi);
-    return {std::move(contours), {}};
+    return {std::move(contours), "", {}};
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
@@ -80,6 +87,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
     for (const fs::path& path : paths) {
         const ReadContours one = read_contours(path, is_structure_set(path) ? options : of_others);
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
+        if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;
         append(all.contours.contours, one.contours.contours);
         append(all.contours.interior, one.contours.interior);
         append(all.contours.exterior, one.contours.exterior);
@@ -91,7 +99,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
 
 void write_contours(const fs::path& path, const ContourSet& set, const Provenance& provenance) {
     if (is_markups(path)) write_markups(path, set, provenance);
-    else if (path.extension() == ".json") write_contour_json(path, set, provenance);
+    else if (has_extension(path, ".json")) write_contour_json(path, set, provenance);
     else
         throw Error(ErrorKind::unsupported,
                     "contours are written to names that end in .json or .mrk.json, not to " + path.filename().string());

@@ -20,7 +20,8 @@ struct ReadContoursOptions {
 
 struct ReadContours {
     ContourSet contours;
-    std::vector<std::string> notes;  ///< how the file was interpreted and what was left out, for the user to see
+    std::string frame_of_reference_uid;  ///< of a ROI; of several files' the first; "" when none is named
+    std::vector<std::string> notes;      ///< how the file was interpreted and what was left out, for the user to see
 };
 
 /// Reads kontur's contour file, 3D Slicer's markups or a DICOM RT structure set; the content decides which. Throws

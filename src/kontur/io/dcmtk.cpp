@@ -7,10 +7,13 @@
 #include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/oflog/oflog.h>
 
+#include <iconv.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <memory>
 #include <mutex>
 #include <string_view>
 
@@ -31,6 +34,25 @@ std::string raw_text(DcmItem& item, const DcmTagKey& tag) {
     return text;
 }
 
+/// Of text in Japanese sets (ISO 2022 IR 13, 87 and 159), of which DCMTK asks iconv by names that it may not know. nullopt:
+/// it is no such text.
+std::optional<std::string> japanese_to_utf8(const std::string& value) {
+    std::string input;
+    for (const char c : value) {
+        const bool katakana = static_cast<unsigned char>(c) >= 0x80;  // of IR 13, which ISO-2022-JP has in 7 bits
+        input += katakana ? std::string("\x1b(I") + static_cast<char>(c & 0x7F) + "\x1b(B" : std::string(1, c);
+    }
+    const iconv_t opened = ::iconv_open("UTF-8", "ISO-2022-JP-2");
+    if (reinterpret_cast<std::intptr_t>(opened) == -1) return std::nullopt;
+    const std::unique_ptr<void, int (*)(iconv_t)> converter(opened, &::iconv_close);
+    std::string utf8(4 * input.size(), '\0');
+    char *from = input.data(), *to = utf8.data();
+    std::size_t left = input.size(), room = utf8.size();
+    if (::iconv(opened, &from, &left, &to, &room) == static_cast<std::size_t>(-1)) return std::nullopt;
+    utf8.resize(utf8.size() - room);
+    return utf8;
+}
+
 /// Converted by the character set of the nearest enclosing item that declares one; unchanged when that fails.
 std::string to_utf8(DcmItem& item, const std::string& value) {
     DcmItem* declaring = &item;
@@ -39,7 +61,20 @@ std::string to_utf8(DcmItem& item, const std::string& value) {
     OFString converted;
     const bool done = declaring && characters.selectCharacterSet(*declaring).good() &&
                       characters.convertString(value.c_str(), value.size(), converted).good();
-    return done ? std::string(converted.c_str(), converted.length()) : value;
+    if (done) return {converted.c_str(), converted.length()};
+    const bool escapes = value.find('\x1b') != std::string::npos;
+    return escapes ? japanese_to_utf8(value).value_or(value) : value;
+}
+
+/// What files without a declared character set hold as a rule.
+std::string latin1_to_utf8(const std::string& value) {
+    std::string utf8;
+    for (const char c : value) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) utf8 += c;
+        else utf8 += {static_cast<char>(0xC0 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3F))};
+    }
+    return utf8;
 }
 
 }  // namespace
@@ -71,9 +106,12 @@ void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKe
 }
 
 std::string text(DcmItem& item, const DcmTagKey& tag) {
+    constexpr char kEscape = '\x1b';  // with which ISO 2022 turns ASCII into other characters
     const std::string value = raw_text(item, tag);
-    const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    return printable_utf8(ascii ? value : to_utf8(item, value));
+    const bool ascii =
+        std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80 && c != kEscape; });
+    const std::string utf8 = ascii ? value : to_utf8(item, value);
+    return printable_utf8(is_utf8(utf8) ? utf8 : latin1_to_utf8(utf8));
 }
 
 std::optional<std::int64_t> integer(DcmItem& item, const DcmTagKey& tag) {

@@ -23,7 +23,8 @@ void set_up();
 /// Error(corrupt_file) when it is truncated or malformed.
 void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop = DCM_UndefinedTagKey);
 
-/// All values of a text element, trimmed, as valid UTF-8; "" when absent.
+/// All values of a text element, trimmed, as valid UTF-8; "" when absent. Bytes that are no characters of the declared set,
+/// or of any where none is declared, are taken for UTF-8, else for Latin-1.
 std::string text(DcmItem& item, const DcmTagKey& tag);
 
 /// First value of an integer element (US, SS, IS, ...); nullopt when absent or empty. Throws Error(corrupt_file) naming the

@@ -83,7 +83,8 @@ void start_document(DcmItem& document, const DicomSeries& images, const char* cl
     for (const DcmTagKey& tag : kPatientAndStudy) put(document, tag, text(source, tag));
     for (const DcmTagKey& tag : kInheritedIfPresent)
         if (source.tagExistsWithValue(tag)) put(document, tag, text(source, tag));
-    put(document, DCM_FrameOfReferenceUID, images.frame_of_reference_uid);
+    put(document, DCM_FrameOfReferenceUID,
+        images.frame_of_reference_uid.empty() ? new_uid() : images.frame_of_reference_uid);
     put(document, DCM_PositionReferenceIndicator, text(source, DCM_PositionReferenceIndicator));
 
     put(document, DCM_SOPClassUID, class_uid);
@@ -142,6 +143,7 @@ namespace {
 
 std::vector<DicomHeader> slices_of_file(const std::filesystem::path& path) {
     auto content = read_dicom_headers(path);
+    if (const auto* damaged = std::get_if<DamagedImage>(&content)) throw damaged->error;
     auto* slices = std::get_if<std::vector<DicomHeader>>(&content);
     if (!slices || slices->front().sop_class_uid.empty() || slices->front().sop_instance_uid.empty() ||
         slices->front().series_uid.empty())

@@ -34,7 +34,8 @@ struct Code {
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 
 /// A new object of a series of its own, in UTF-8, that belongs to the patient, study and frame of reference of `images`,
-/// whose first file is read for it; names kontur as its maker.
+/// whose first file is read for it; names kontur as its maker. The frame of reference is a new one where the images name
+/// none.
 void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
                     const std::string& series_description);
 

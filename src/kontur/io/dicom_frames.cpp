@@ -7,9 +7,8 @@
 #include <dcmtk/dcmdata/dcpixseq.h>
 #include <dcmtk/dcmdata/dcpxitem.h>
 
+#include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
 
 #include "kontur/base/error.h"
 
@@ -43,10 +42,10 @@ std::vector<std::span<const Uint8>> fragments(DcmDataset& dataset) {
     if (!pixels || pixels->getEncapsulatedRepresentation(dataset.getCurrentXfer(), nullptr, sequence).bad() || !sequence)
         throw corrupt("the file ends before its pixels");
     std::vector<std::span<const Uint8>> items;
-    for (unsigned long n = 0; n < sequence->card(); ++n) {
-        DcmPixelItem* item = nullptr;
+    for (DcmObject* child = nullptr; (child = sequence->nextInContainer(child)) != nullptr;) {
+        auto* item = dynamic_cast<DcmPixelItem*>(child);
         Uint8* bytes = nullptr;
-        if (sequence->getItem(item, n).bad() || !item || (item->getLength() > 0 && item->getUint8Array(bytes).bad()))
+        if (!item || (item->getLength() > 0 && item->getUint8Array(bytes).bad()))
             throw corrupt("its compressed pixels are damaged");
         items.emplace_back(bytes, bytes ? item->getLength() : 0);
     }
@@ -57,25 +56,13 @@ std::uint32_t little_endian(std::span<const Uint8> bytes) {
     return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 | std::uint32_t{bytes[3]} << 24;
 }
 
-/// Index of the first fragment at this distance from the start of the first one.
-std::size_t fragment_at(const std::vector<std::span<const Uint8>>& items, std::uint64_t offset) {
+/// Where each fragment starts, counted from the start of the first one; nothing is there for the offset table.
+std::vector<std::uint64_t> starts_of(const std::vector<std::span<const Uint8>>& items) {
     constexpr std::uint64_t kItemHeader = 8;
+    std::vector<std::uint64_t> starts;
     std::uint64_t at = 0;
-    for (std::size_t n = 1; n < items.size(); at += kItemHeader + items[n++].size())
-        if (at == offset) return n;
-    throw corrupt(fmt::format("no compressed frame starts at offset {}", offset));
-}
-
-/// [first, end) of the items that hold a frame: all of them, one each, or what the offset table says.
-std::pair<std::size_t, std::size_t> fragments_of_frame(const std::vector<std::span<const Uint8>>& items, std::int64_t frame,
-                                                       std::int64_t frames) {
-    const auto index = static_cast<std::size_t>(frame), count = static_cast<std::size_t>(frames);
-    if (count == 1) return {1, items.size()};
-    if (items.size() == count + 1) return {index, index + 1};
-    if (items.empty() || items[0].size() != 4 * count)
-        throw corrupt(fmt::format("{} fragments without an offset table hold {} frames", items.size() - 1, count));
-    const auto start = [&](std::size_t n) { return fragment_at(items, little_endian(items[0].subspan(4 * (n - 1), 4))); };
-    return {start(index), index == count ? items.size() : start(index + 1)};
+    for (std::size_t n = 1; n < items.size(); at += kItemHeader + items[n++].size()) starts.push_back(at);
+    return starts;
 }
 
 }  // namespace
@@ -108,12 +95,33 @@ std::vector<Frame> frames_of(DcmItem& dataset) {
     return frames;
 }
 
-std::vector<Uint8> compressed_frame(DcmDataset& dataset, std::int64_t frame, std::int64_t frames) {
-    const std::vector<std::span<const Uint8>> items = fragments(dataset);
-    const auto [first, end] = fragments_of_frame(items, frame, frames);
+CompressedFrames::CompressedFrames(DcmDataset& dataset, std::int64_t frames)
+    : items_(fragments(dataset)), starts_(starts_of(items_)), count_(static_cast<std::size_t>(frames)) {
+    const bool one_fragment_each = count_ == 1 || items_.size() == count_ + 1;
+    if (!one_fragment_each && (items_.empty() || items_[0].size() != 4 * count_))
+        throw corrupt(fmt::format("{} fragments without an offset table hold {} frames",
+                                  items_.empty() ? 0 : items_.size() - 1, count_));
+}
+
+std::vector<Uint8> CompressedFrames::code(std::int64_t frame) const {
+    const auto [first, end] = fragments_of(static_cast<std::size_t>(frame));
     std::vector<Uint8> code;
-    for (std::size_t n = first; n < end; ++n) code.insert(code.end(), items[n].begin(), items[n].end());
+    for (std::size_t n = first; n < end; ++n) code.insert(code.end(), items_[n].begin(), items_[n].end());
     return code;
+}
+
+std::pair<std::size_t, std::size_t> CompressedFrames::fragments_of(std::size_t frame) const {
+    if (count_ == 1) return {1, items_.size()};
+    if (items_.size() == count_ + 1) return {frame, frame + 1};
+    return {first_fragment(frame), frame == count_ ? items_.size() : first_fragment(frame + 1)};
+}
+
+std::size_t CompressedFrames::first_fragment(std::size_t frame) const {
+    const std::uint64_t offset = little_endian(items_[0].subspan(4 * (frame - 1), 4));
+    const auto found = std::lower_bound(starts_.begin(), starts_.end(), offset);
+    if (found == starts_.end() || *found != offset)
+        throw corrupt(fmt::format("no compressed frame starts at offset {}", offset));
+    return static_cast<std::size_t>(found - starts_.begin()) + 1;
 }
 
 SlicePlacement read_placement(DcmItem& position_item, DcmItem& orientation_item, DcmItem& measures) {

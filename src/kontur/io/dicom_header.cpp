@@ -95,6 +95,15 @@ DicomHeader read_frame_header(DicomHeader header, const dcmtk::Frame& frame, std
     return header;
 }
 
+/// Of an element that only tells slices at one place apart: what is no integer, such as "5.0", counts as not given.
+std::optional<std::int64_t> integer_if_any(DcmItem& item, const DcmTagKey& tag) {
+    try {
+        return dcmtk::integer(item, tag);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
 /// All but the placement.
 DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
     DicomHeader header;
@@ -124,11 +133,11 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     header.has_lookup_table = dataset.tagExists(DCM_ModalityLUTSequence);
     header.rescale = read_rescale(dataset);
     header.thickness_mm = dcmtk::first_decimal(dataset, DCM_SliceThickness);
-    header.temporal_position = dcmtk::integer(dataset, DCM_TemporalPositionIdentifier);
-    header.acquisition_number = dcmtk::integer(dataset, DCM_AcquisitionNumber);
-    header.echo_number = dcmtk::integer(dataset, DCM_EchoNumbers);
+    header.temporal_position = integer_if_any(dataset, DCM_TemporalPositionIdentifier);
+    header.acquisition_number = integer_if_any(dataset, DCM_AcquisitionNumber);
+    header.echo_number = integer_if_any(dataset, DCM_EchoNumbers);
     header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
-    header.instance_number = dcmtk::integer(dataset, DCM_InstanceNumber);
+    header.instance_number = integer_if_any(dataset, DCM_InstanceNumber);
     check_pixels_fit(header, syntax, dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
     return header;
 }
@@ -136,6 +145,9 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
 std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmDataset& dataset) {
     DicomHeader header = read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
     if (!has_placed_frames(dataset)) {
+        if (dcmtk::text(dataset, DCM_ImageType).find("MOSAIC") != std::string::npos)
+            throw Error(ErrorKind::unsupported,
+                        "it is a Siemens mosaic, many slices in one image; convert it with dcm2niix first");
         header.placement = dcmtk::read_placement(dataset, dataset, dataset);
         return {std::move(header)};
     }
@@ -170,13 +182,29 @@ bool has_dicom_prefix(const std::filesystem::path& path) {
     return file.read(start.data(), start.size()) && std::string_view(&start[128], 4) == "DICM";
 }
 
+namespace {
+
+/// Starts with an element of group 2 or 8 as DICOM's first ones are: its number, then its type in two capitals.
+bool looks_like_dicom_without_preamble(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 6> start{};
+    if (!file.read(start.data(), start.size())) return false;
+    const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+    return (start[0] == 2 || start[0] == 8) && start[1] == 0 && start[3] == 0 && is_capital(start[4]) &&
+           is_capital(start[5]);
+}
+
+}  // namespace
+
 std::string name_of(const DicomHeader& slice) {
     const std::string name = slice.path.filename().string();
     return slice.frame ? name + ", frame " + std::to_string(*slice.frame) : name;
 }
 
-std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std::filesystem::path& path) {
-    if (!has_dicom_prefix(path)) return NotAnImage{"not a DICOM file"};
+std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path) {
+    if (!has_dicom_prefix(path))
+        return NotAnImage{looks_like_dicom_without_preamble(path) ? "DICOM without its preamble, which is not read"
+                                                                  : "not a DICOM file"};
     DcmFileFormat file;
     dcmtk::load(file, path, DCM_PixelData);
     DcmDataset& dataset = *file.getDataset();
@@ -184,7 +212,7 @@ std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std:
         if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
         return read_slices(path, dataset);
     } catch (const Error& error) {
-        throw error.with_context(path.string());
+        return DamagedImage{path, dcmtk::text(dataset, DCM_SeriesInstanceUID), error.with_context(path.string())};
     }
 }
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "kontur/base/error.h"
 #include "kontur/base/geometry.h"
 
 namespace kontur {
@@ -69,16 +70,23 @@ struct NotAnImage {
     std::string reason;
 };
 
+/// An image that cannot be read, of a series that it does name.
+struct DamagedImage {
+    std::filesystem::path path;
+    std::string series_uid;
+    Error error;
+};
+
 /// True when the file starts as a DICOM file does (preamble and "DICM").
 bool has_dicom_prefix(const std::filesystem::path& path);
 
 /// "slice.dcm", or "enhanced.dcm, frame 7".
 std::string name_of(const DicomHeader& slice);
 
-/// Reads everything before the pixels: one header for each slice in the file, in the order of its frames. Throws
-/// Error(corrupt_file), naming file and element, for a truncated or contradictory header: orientation vectors that are not
-/// perpendicular unit vectors, a spacing that is not positive, a slope of 0, or more uncompressed pixels than the file has
-/// bytes.
-std::variant<std::vector<DicomHeader>, NotAnImage> read_dicom_headers(const std::filesystem::path& path);
+/// Reads everything before the pixels: one header for each slice in the file, in the order of its frames. Damaged is an
+/// image with a contradictory header (orientation vectors that are not perpendicular unit vectors, a spacing that is not
+/// positive, a slope of 0, or more uncompressed pixels than the file has bytes: Error(corrupt_file) naming file and element)
+/// and a mosaic of slices (Error(unsupported)). Throws Error(corrupt_file), naming the file, for a truncated header.
+std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path);
 
 }  // namespace kontur

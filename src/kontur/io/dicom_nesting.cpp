@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,11 +57,12 @@ class Scanner {
 public:
     explicit Scanner(InputFile& file, Coding coding) : file_(file), coding_(coding) {}
 
-    /// All elements to the end, which is thrown.
-    void scan() {
-        for (;;) {
+    /// All elements to the end, which is thrown; of the first one the tag may have been read.
+    void scan(std::optional<Tag> first) {
+        for (;; first.reset()) {
             close_ended_levels();
-            const Tag tag = read_tag();
+            const Tag tag = first ? *first : read_tag();
+            if (tag == Tag{} && levels_.empty()) skip_zeros();
             if (tag.group == 0xFFFE) read_delimiter(tag);
             else read_element(tag);
         }
@@ -109,6 +111,13 @@ public:
     void set_inflated() { inflated_ = true; }
 
 private:
+    /// Some programs fill the file up with zeros behind the last element.
+    void skip_zeros() {
+        while (number(1) == 0) {
+        }
+        throw Disorder{inflated_};
+    }
+
     void close_ended_levels() {
         while (!levels_.empty() && levels_.back().end <= at_) {
             if (levels_.back().end < at_) throw Disorder{inflated_};
@@ -195,13 +204,21 @@ private:
 };
 
 /// What the file's meta information says, read up to the first element of the data set.
-std::string transfer_syntax(Scanner& meta) {
-    constexpr Tag kLength{0x0002, 0x0000}, kSyntax{0x0002, 0x0010};
-    if (meta.read_tag() != kLength || meta.text(2) != "UL" || meta.number(2) != 4) throw Disorder{false};
-    const std::uint64_t length = meta.number(4);
+struct Meta {
     std::string syntax;
-    for (std::uint64_t used = 0; used < length;) {
-        const Tag tag = meta.read_tag();
+    std::optional<Tag>
+        next;  ///< the data set's first tag, which had to be read where the information does not say its length
+};
+
+Meta read_meta(Scanner& meta) {
+    constexpr Tag kLength{0x0002, 0x0000}, kSyntax{0x0002, 0x0010};
+    Tag tag = meta.read_tag();
+    const bool has_length = tag == kLength;
+    if (has_length && (meta.text(2) != "UL" || meta.number(2) != 4)) throw Disorder{false};
+    const std::uint64_t length = has_length ? meta.number(4) : kNoEnd;
+    if (has_length && length > 0) tag = meta.read_tag();
+    std::string syntax;
+    for (std::uint64_t used = 0; used < length && (has_length || tag.group == 2);) {
         const std::string vr = meta.text(2);
         const bool is_long = vr == "OB" || vr == "UN" || vr == "UT";
         if (is_long) meta.number(2);
@@ -209,21 +226,26 @@ std::string transfer_syntax(Scanner& meta) {
         if (tag == kSyntax) syntax = meta.text(static_cast<std::size_t>(std::min<std::uint64_t>(size, 64)));
         else meta.skip(size);
         used += (is_long ? 12 : 8) + size;
+        if (used < length) tag = meta.read_tag();
     }
     while (!syntax.empty() && (syntax.back() == '\0' || syntax.back() == ' ')) syntax.pop_back();
-    return syntax;
+    return {syntax, has_length ? std::nullopt : std::optional(tag)};
 }
 
 void scan(InputFile& file) {
     file.skip(132);
     Scanner meta(file, {});
-    const std::string syntax = transfer_syntax(meta);
+    auto [syntax, next] = read_meta(meta);
     Scanner scanner(file, {syntax != "1.2.840.10008.1.2", syntax == "1.2.840.10008.1.2.2"});
+    if (next && scanner.coding().big_endian)
+        next = Tag{static_cast<std::uint16_t>(next->group << 8 | next->group >> 8),
+                   static_cast<std::uint16_t>(next->element << 8 | next->element >> 8)};
     if (syntax == "1.2.840.10008.1.2.1.99") {
+        if (next) throw Disorder{true};  // what was read as a tag is deflated
         file.inflate_raw();
         scanner.set_inflated();
     }
-    scanner.scan();
+    scanner.scan(next);
 }
 
 /// Items in all of the file, in either byte order.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -105,13 +106,14 @@ public:
         if (!is_jpeg2000(dataset())) decompress(dataset());
         // A decoder may change the layout, so it counts as it stands after decoding.
         layout_ = read_layout(dataset());
-        if (!is_jpeg2000(dataset())) check_no_more(dataset(), pixels * layout_.bytes, any_slice.columns * layout_.bytes);
+        if (is_jpeg2000(dataset())) compressed_.emplace(dataset(), any_slice.frames);
+        else check_no_more(dataset(), pixels * layout_.bytes, any_slice.columns * layout_.bytes);
     }
 
     const std::filesystem::path& path() const { return path_; }
 
     std::vector<std::int64_t> stored_values(const DicomHeader& slice) {
-        return is_jpeg2000(dataset()) ? decoded_values(slice) : plain_values(slice);
+        return compressed_ ? decoded_values(slice) : plain_values(slice);
     }
 
 private:
@@ -129,7 +131,7 @@ private:
 
     /// The decoded bits mean what the header says, whatever sign the code stream claims.
     std::vector<std::int64_t> decoded_values(const DicomHeader& slice) {
-        const std::vector<Uint8> code = dcmtk::compressed_frame(dataset(), slice.frame.value_or(1), slice.frames);
+        const std::vector<Uint8> code = compressed_->code(slice.frame.value_or(1));
         const std::vector<std::int32_t> decoded = decode_jpeg2000(code, slice.columns, slice.rows);
         std::vector<std::int64_t> values(decoded.size());
         std::transform(decoded.begin(), decoded.end(), values.begin(),
@@ -140,6 +142,7 @@ private:
     std::filesystem::path path_;
     DcmFileFormat file_;
     PixelLayout layout_;
+    std::optional<dcmtk::CompressedFrames> compressed_;  ///< only of JPEG 2000
 };
 
 /// Keeps the file that it read last: the frames of one come one after another.

@@ -108,6 +108,8 @@ private:
                             kind, bits));
         if (binary_) return;
         const std::int64_t most = dcmtk::integer(dataset(), DCM_MaximumFractionalValue).value_or(255);
+        if (most < 1 || most > 255)
+            throw corrupt(fmt::format("its MaximumFractionalValue is {}; 1 to 255 are possible", most));
         threshold_ = static_cast<int>((most + 1) / 2);
         description_.notes.push_back("a fractional segmentation; voxels from one half on count as inside");
     }
@@ -172,21 +174,30 @@ private:
     }
 
     /// The distance of slices: the declared one if all frames lie on multiples of it, else the least between two frames.
-    double slice_step(const std::vector<double>& heights) const {
+    double slice_step(const std::vector<double>& heights) {
         const auto fits = [&](double step) {
             return std::all_of(heights.begin(), heights.end(), [&](double h) {
                 const double off = h - heights.front() - step * std::round((h - heights.front()) / step);
-                return std::abs(off) <= std::max(0.01 * step, 0.01);
+                return std::abs(off) <= std::min(std::max(0.01 * step, 0.01), 0.1 * step);
             });
         };
-        if (spacing_ && *spacing_ > 0 && fits(*spacing_)) return *spacing_;
+        const bool is_declared = spacing_ && *spacing_ > 0 && fits(*spacing_);
         if (heights.size() == 1) {
+            if (is_declared) return *spacing_;
             if (!thickness_ || !(*thickness_ > 0))
                 refuse("all frames lie at one position, and their thickness is not given");
             return *thickness_;
         }
         double least = heights[1] - heights[0];
         for (std::size_t n = 2; n < heights.size(); ++n) least = std::min(least, heights[n] - heights[n - 1]);
+        if (is_declared) {
+            if (heights.size() > 2 && least > 1.5 * *spacing_)
+                description_.notes.push_back(
+                    fmt::format("slices are declared {:.6g} mm apart, but no two frames lie less than {:.6g} mm apart; the "
+                                "slices between them stay empty",
+                                *spacing_, least));
+            return *spacing_;
+        }
         if (!fits(least)) refuse(fmt::format("its frames lie on no regular lattice of slices {:.6g} mm apart", least));
         return least;
     }

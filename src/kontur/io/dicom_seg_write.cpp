@@ -96,8 +96,14 @@ private:
         }
         for (const auto& row : to_label_.linear)
             for (const double x : row) spread = std::max(spread, std::abs(x - std::round(x)));
-        if (off <= kTolerance && spread <= kTolerance && std::abs(std::abs(to_label_.determinant()) - 1) <= kTolerance)
-            return;
+        if (const double volumes = std::abs(to_label_.determinant()); std::abs(volumes - 1) > kTolerance) {
+            const Vec3 own = labels_.spacing_mm(), theirs = images_.spacing_mm();
+            throw invalid(fmt::format(
+                "the mask's voxels of {:.6g} x {:.6g} x {:.6g} mm are not those of the images, which have {:.6g} x "
+                "{:.6g} x {:.6g} mm",
+                own.x, own.y, own.z, theirs.x, theirs.y, theirs.z));
+        }
+        if (off <= kTolerance && spread <= kTolerance) return;
         throw invalid(
             fmt::format("the mask's voxels do not lie on those of the images: they are up to {:.3g} of a voxel off; "
                         "the limit is {:g}",

@@ -20,34 +20,47 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kVolumesListed = 20;
 
+using LeftOut = std::map<std::string, std::vector<std::string>>;  ///< file names by reason
+
 /// Regular files in order of their names, so that nothing depends on how the file system lists them.
-std::vector<fs::path> files_in(const fs::path& folder) {
+struct FolderFiles {
     std::vector<fs::path> files;
-    std::error_code failure;
-    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
-        if (entry->is_regular_file()) files.push_back(entry->path());
+    LeftOut unreachable;  ///< links in a circle
+};
+
+FolderFiles files_in(const fs::path& folder) {
+    FolderFiles found;
+    std::error_code failure, unreachable;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
+        if (entry->is_regular_file(unreachable)) found.files.push_back(entry->path());
+        if (unreachable && unreachable != std::errc::no_such_file_or_directory)
+            found.unreachable[unreachable.message()].push_back(entry->path().filename().string());
+    }
     if (failure) throw Error(ErrorKind::io, fmt::format("{}: {}", folder.string(), failure.message()));
-    std::sort(files.begin(), files.end());
-    return files;
+    std::sort(found.files.begin(), found.files.end());
+    for (auto& [reason, names] : found.unreachable) std::sort(names.begin(), names.end());
+    return found;
 }
 
 struct FolderContent {
     std::vector<DicomStack> stacks;
     std::vector<std::string> notes;
+    std::vector<DamagedImage> damaged;
 };
 
 FolderContent read_folder(const fs::path& folder, const Progress& progress) {
     std::vector<DicomHeader> headers;
-    std::map<std::string, std::vector<std::string>> left_out;  // reason -> file names
-    const std::vector<fs::path> files = files_in(folder);
+    std::vector<DamagedImage> damaged;
+    auto [files, left_out] = files_in(folder);
     for (std::size_t n = 0; n < files.size(); ++n) {
         progress.report("read headers", static_cast<double>(n) / static_cast<double>(files.size()));
         auto content = read_dicom_headers(files[n]);
         if (auto* slices = std::get_if<std::vector<DicomHeader>>(&content))
             std::move(slices->begin(), slices->end(), std::back_inserter(headers));
+        else if (auto* image = std::get_if<DamagedImage>(&content)) damaged.push_back(std::move(*image));
         else left_out[std::get<NotAnImage>(content).reason].push_back(files[n].filename().string());
     }
-    FolderContent result{group_into_stacks(std::move(headers)), {}};
+    FolderContent result{group_into_stacks(std::move(headers)), {}, std::move(damaged)};
     for (const auto& [reason, names] : left_out)
         result.notes.push_back(fmt::format("left out {} file{} ({}): {}{}", names.size(), names.size() == 1 ? "" : "s",
                                            reason, names.front(), names.size() == 1 ? "" : ", ..."));
@@ -61,7 +74,10 @@ DicomSeries describe(const DicomStack& stack) {
     series.modality = first.modality;
     series.description = first.description;
     series.distinction = stack.distinction;
-    series.frame_of_reference_uid = first.frame_of_reference_uid;
+    const bool agree = std::all_of(stack.slices.begin(), stack.slices.end(), [&](const DicomHeader& slice) {
+        return slice.frame_of_reference_uid == first.frame_of_reference_uid;
+    });
+    if (agree) series.frame_of_reference_uid = first.frame_of_reference_uid;
     series.columns = first.columns;
     series.rows = first.rows;
     for (const DicomHeader& slice : stack.slices) {
@@ -126,6 +142,35 @@ DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& opti
     return std::move(stacks[static_cast<std::size_t>(volume) - 1]);
 }
 
+/// The series that the options or the file name; nullopt: neither does.
+std::optional<std::string> named_series(const FolderContent& content, const DicomSeriesOptions& options,
+                                        const std::optional<fs::path>& file) {
+    if (options.series_uid || !file) return options.series_uid;
+    for (const DicomStack& stack : content.stacks)
+        if (contains_file(stack, *file)) return series_of(stack);
+    for (const DamagedImage& image : content.damaged)
+        if (image.path.filename() == file->filename()) return image.series_uid;
+    return std::nullopt;
+}
+
+/// Damage in other series than the named one is passed over.
+void refuse_damage_of(const std::string& series, FolderContent& content) {
+    for (const DamagedImage& image : content.damaged)
+        if (image.series_uid == series) throw image.error;
+    if (const std::size_t count = content.damaged.size(); count > 0)
+        content.notes.push_back(fmt::format("left out {} damaged file{} of other series: {}{}", count, count == 1 ? "" : "s",
+                                            content.damaged.front().path.filename().string(), count == 1 ? "" : ", ..."));
+}
+
+/// Where no series is named, the damaged file might be of the one that is meant.
+void refuse_damage_beside(const std::string& chosen, const FolderContent& content) {
+    if (content.damaged.empty()) return;
+    const DamagedImage& first = content.damaged.front();
+    if (first.series_uid == chosen) throw first.error;
+    throw Error(first.error.kind(),
+                fmt::format("{}; the other series {} can be read when it is named", first.error.what(), chosen));
+}
+
 void check_size(const Grid& grid, std::int64_t max_voxels) {
     if (grid.voxel_count() > max_voxels)
         throw Error(ErrorKind::too_large, fmt::format("the volume has {} x {} x {} voxels; the limit is {} voxels",
@@ -144,16 +189,22 @@ Located locate(const fs::path& path, const DicomSeriesOptions& options, const Pr
     if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");
     const fs::path folder = is_folder ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
     FolderContent content = read_folder(folder, progress);
+    const std::optional<fs::path> file = is_folder ? std::nullopt : std::optional(path);
+    const std::optional<std::string> series = named_series(content, options, file);
+    if (series) refuse_damage_of(*series, content);
+    if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
     if (content.stacks.empty())
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{}: there is no DICOM image to read{}{}", path.string(), content.notes.empty() ? "" : "; ",
                                 fmt::join(content.notes, "; ")));
     Located result;
     try {
-        result.stack = choose(std::move(content.stacks), options, is_folder ? std::nullopt : std::optional(path));
+        result.stack = choose(std::move(content.stacks), options, file);
+        if (!series) refuse_damage_beside(series_of(result.stack), content);
         result.geometry = stack_grid(result.stack);
         check_size(result.geometry.grid, options.max_voxels);
     } catch (const Error& error) {
+        if (std::string_view(error.what()).starts_with(path.string())) throw;
         throw error.with_context(path.string());
     }
     result.geometry.notes.insert(result.geometry.notes.begin(), content.notes.begin(), content.notes.end());
@@ -165,13 +216,15 @@ Located locate(const fs::path& path, const DicomSeriesOptions& options, const Pr
 bool looks_like_dicom(const fs::path& path) {
     std::error_code failure;
     if (!fs::is_directory(path, failure)) return has_dicom_prefix(path);
-    const std::vector<fs::path> files = files_in(path);
+    const std::vector<fs::path> files = files_in(path).files;
     return std::any_of(files.begin(), files.end(), has_dicom_prefix);
 }
 
 std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
+    const FolderContent content = read_folder(folder, {});
+    if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
     std::vector<DicomSeries> result;
-    for (const DicomStack& stack : read_folder(folder, {}).stacks) result.push_back(describe(stack));
+    for (const DicomStack& stack : content.stacks) result.push_back(describe(stack));
     return result;
 }
 

@@ -45,11 +45,14 @@ std::string digest_of(const std::vector<std::string>& digests) {
 }  // namespace
 
 std::string file_sha256(const fs::path& path, const Progress& progress) {
-    if (fs::is_other(path)) fail(path, "it is a device or a pipe, not a file");  // devices may never end
-    if (!fs::is_directory(path)) return digest_of_file(path, progress);
+    std::error_code failure, unreachable;
+    const fs::file_status status = fs::status(path, failure);
+    if (fs::is_other(status)) fail(path, "it is a device or a pipe, not a file");  // devices may never end
+    if (!fs::is_directory(status)) return digest_of_file(path, progress);
     std::vector<std::string> digests;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path))
-        if (entry.is_regular_file()) digests.push_back(digest_of_file(entry.path(), progress));
+    for (fs::directory_iterator entry(path, failure), end; !failure && entry != end; entry.increment(failure))
+        if (entry->is_regular_file(unreachable)) digests.push_back(digest_of_file(entry->path(), progress));
+    if (failure) fail(path, failure.message().c_str());
     std::sort(digests.begin(), digests.end());
     return digest_of(digests);
 }

@@ -45,8 +45,14 @@ NameRule rule_for(const fs::path& path) {
     return {"", Format::unknown, false};
 }
 
+/// False, too, for what cannot be reached, which opening it then tells.
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
 Format format_by_content(const fs::path& path) {
-    if (fs::is_directory(path) || looks_like_dicom(path)) return Format::dicom;
+    if (is_folder(path) || looks_like_dicom(path)) return Format::dicom;
     InputFile file(path);
     if (file.at_gzip()) file.inflate();
     std::array<unsigned char, 10> start{};
@@ -59,7 +65,7 @@ Format format_by_content(const fs::path& path) {
 
 Format readable_format(const fs::path& path) {
     Format format = rule_for(path).format;
-    if (format == Format::unknown || fs::is_directory(path)) format = format_by_content(path);
+    if (format == Format::unknown || is_folder(path)) format = format_by_content(path);
     if (format == Format::unknown)
         throw Error(ErrorKind::unsupported, path.string() +
                                                 " has no known image format; known are NIfTI (.nii, .nii.gz), NRRD "

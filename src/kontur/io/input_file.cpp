@@ -87,17 +87,21 @@ std::size_t InputFile::fetch(void* to, std::size_t count) {
     return static_cast<std::size_t>(got);
 }
 
-bool InputFile::fill() {
-    if (buffer_begin_ < buffer_end_) return true;
+bool InputFile::fill(std::size_t least) {
+    const std::size_t held = buffer_end_ - buffer_begin_;
+    if (held >= least) return true;
+    std::memmove(buffer_.get(), buffer_.get() + buffer_begin_, held);
     buffer_begin_ = 0;
-    buffer_end_ = fetch(buffer_.get(), kBufferBytes);
-    return buffer_end_ > 0;
+    buffer_end_ = held;
+    while (buffer_end_ < least) {
+        const std::size_t got = fetch(buffer_.get() + buffer_end_, kBufferBytes - buffer_end_);
+        if (got == 0) return false;
+        buffer_end_ += got;
+    }
+    return true;
 }
 
-bool InputFile::at_gzip() {
-    return fill() && buffer_end_ - buffer_begin_ >= 2 && buffer_[buffer_begin_] == 0x1f &&
-           buffer_[buffer_begin_ + 1] == 0x8b;
-}
+bool InputFile::at_gzip() { return fill(2) && buffer_[buffer_begin_] == 0x1f && buffer_[buffer_begin_ + 1] == 0x8b; }
 
 void InputFile::inflate() {
     constexpr int kGzipOrZlib = 32;
@@ -227,9 +231,10 @@ void InputFile::fail_short() const {
                             std::to_string(delivered_));
 }
 
-InputFile open_beside(const std::filesystem::path& header, const std::string& name) {
+InputFile open_beside(const std::filesystem::path& header, const std::string& declared) {
+    const std::string name = declared.substr(declared.starts_with("./") ? 2 : 0);
     if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
-        throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + name +
+        throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + declared +
                                                 "\"; only a plain file name in the header's own folder is accepted");
     return InputFile(header.parent_path() / name);
 }

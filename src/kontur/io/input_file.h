@@ -52,7 +52,8 @@ public:
 private:
     struct Inflater;
 
-    bool fill();
+    /// False when the file has fewer than `least` bytes left, which then are in the buffer.
+    bool fill(std::size_t least = 1);
     std::size_t fetch(void* to, std::size_t count);
     std::size_t read_stored(void* to, std::size_t count);
     std::size_t read_inflated(unsigned char* to, std::size_t count);
@@ -70,8 +71,9 @@ private:
     std::uint64_t delivered_ = 0;  ///< since `expect`, else since the start
 };
 
-/// A data file that a header names. Only a plain name in the header's own folder is accepted: a header from elsewhere must
-/// not make any other file's content into voxels. Throws Error(unsupported) for anything with a path in it.
-InputFile open_beside(const std::filesystem::path& header, const std::string& name);
+/// A data file that a header names. Only a plain name in the header's own folder, "./" before it or not, is accepted: a
+/// header from elsewhere must not make any other file's content into voxels. Throws Error(unsupported) for anything with a
+/// path in it.
+InputFile open_beside(const std::filesystem::path& header, const std::string& declared);
 
 }  // namespace kontur

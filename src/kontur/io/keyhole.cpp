@@ -2,7 +2,8 @@
 #include "kontur/io/keyhole.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cmath>
 #include <set>
 #include <unordered_map>
 
@@ -11,19 +12,61 @@ namespace {
 
 using Vertex = std::size_t;
 
-/// For each point the number of the vertex it lies on: the first point of the path within the tolerance.
-std::vector<Vertex> merge_points(const std::vector<Vec3>& path, double tolerance) {
-    std::vector<std::size_t> by_x(path.size());
-    std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-    std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) { return path[a].x < path[b].x; });
-    std::vector<Vertex> vertex(path.size());
-    std::iota(vertex.begin(), vertex.end(), Vertex{0});
-    for (std::size_t a = 0; a < by_x.size(); ++a)
-        for (std::size_t b = a + 1; b < by_x.size() && path[by_x[b]].x - path[by_x[a]].x <= tolerance; ++b) {
-            const auto [first, second] = std::minmax(by_x[a], by_x[b]);
-            if (distance(path[first], path[second]) <= tolerance) vertex[second] = std::min(vertex[second], first);
+/// Vertices none of which lies within the tolerance of another, in cells that a point's tolerance reaches two of along an
+/// axis at most.
+class Vertices {
+public:
+    Vertices(const std::vector<Vec3>& path, double tolerance) : path_(path), tolerance_(tolerance) {}
+
+    /// The first vertex within the tolerance of a point of the path; without any the point becomes one.
+    Vertex at(Vertex point) {
+        const Vec3& p = path_[point];
+        const Cell low = cell_of(p - Vec3{tolerance_, tolerance_, tolerance_});
+        const Cell high = cell_of(p + Vec3{tolerance_, tolerance_, tolerance_});
+        Vertex first = point;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            Cell cell = low;
+            bool repeats_another = false;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if (corner >> axis & 1) {
+                    repeats_another |= low[axis] == high[axis];
+                    cell[axis] = high[axis];
+                }
+            const auto found = repeats_another ? cells_.end() : cells_.find(cell);
+            if (found == cells_.end()) continue;
+            for (const Vertex v : found->second)
+                if (distance(path_[v], p) <= tolerance_) first = std::min(first, v);
         }
-    for (Vertex& v : vertex) v = vertex[v];
+        if (first == point) cells_[cell_of(p)].push_back(point);
+        return first;
+    }
+
+private:
+    using Cell = std::array<double, 3>;  // whole numbers, which may be too large for integers
+
+    struct Hash {
+        std::size_t operator()(const Cell& cell) const {
+            std::size_t hash = 0;
+            for (const double number : cell) hash = hash * 0x9E3779B97F4A7C15 + std::hash<double>()(number);
+            return hash;
+        }
+    };
+
+    Cell cell_of(const Vec3& p) const {
+        const double edge = 4 * tolerance_;
+        return {std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)};
+    }
+
+    const std::vector<Vec3>& path_;
+    double tolerance_;
+    std::unordered_map<Cell, std::vector<Vertex>, Hash> cells_;
+};
+
+/// For each point the number of the vertex it lies on: the first point of the path within the tolerance that is one.
+std::vector<Vertex> merge_points(const std::vector<Vec3>& path, double tolerance) {
+    Vertices vertices(path, tolerance);
+    std::vector<Vertex> vertex(path.size());
+    for (Vertex point = 0; point < path.size(); ++point) vertex[point] = vertices.at(point);
     return vertex;
 }
 

@@ -141,7 +141,7 @@ InputFile data_file(InputFile&& header_file, const TextHeader& header) {
     return open_beside(header.path(), name);
 }
 
-void advance_to_voxels(OpenImage& image, const TextHeader& header) {
+void advance_to_voxels(OpenImage& image, const TextHeader& header, const ReadImageOptions& options) {
     const std::int64_t skipped = header.has("HeaderSize") ? header.integers("HeaderSize", 1)[0] : 0;
     const bool compressed = flag(header, "CompressedData", false);
     if (skipped < -1 || (skipped == -1 && (compressed || image.encoding.text)))
@@ -151,6 +151,7 @@ void advance_to_voxels(OpenImage& image, const TextHeader& header) {
         image.data.expect(declared_bytes(image));
         image.data.skip(image.data.stored_bytes_left() - declared_bytes(image));
     }
+    if (!compressed && !image.encoding.text) note_bytes_left(image, options);
     if (!compressed) return;
     const std::int64_t size = header.has("CompressedDataSize") ? header.integers("CompressedDataSize", 1)[0] : 0;
     if (size < 0 || static_cast<std::uint64_t>(size) > image.data.stored_bytes_left())
@@ -179,7 +180,7 @@ OpenImage open_metaimage(const fs::path& path, const ReadImageOptions& options) 
     const Grid grid{{sizes[0], sizes[1], sizes[2]}, index_to_mm(header, axes, options)};
     check_header_grid(grid, path);
     OpenImage image{grid, encoding, data_file(std::move(file), header)};
-    advance_to_voxels(image, header);
+    advance_to_voxels(image, header, options);
     return image;
 }
 

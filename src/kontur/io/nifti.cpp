@@ -16,6 +16,7 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/deflate.h"
 #include "kontur/io/nifti_header.h"
+#include "kontur/io/text_header.h"
 #include "kontur/io/voxel_stream.h"
 
 namespace kontur {
@@ -129,22 +130,42 @@ std::string millimetres(double value) {
     return text.substr(0, text.size() - 3) + " mm";
 }
 
+/// Why a grid is none; "" for one.
+std::string fault_of(const Grid& grid) {
+    try {
+        check_grid(grid);
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+/// Where one of a file's two transforms is none, the user may choose the other.
+void check_both(const Grid& by_sform, const Grid& by_qform, const NiftiHeader& header, const fs::path& path) {
+    const std::string sform = fault_of(by_sform), qform = fault_of(by_qform);
+    if (sform.empty() && !qform.empty())
+        fail_corrupt(path, fmt::format("{} by its qform (pixdim {:g} {:g} {:g}); the option prefer sform reads it", qform,
+                                       header.pixdim[1], header.pixdim[2], header.pixdim[3]));
+    if (qform.empty() && !sform.empty())
+        fail_corrupt(path, fmt::format("{} by its sform; the option prefer qform reads it", sform));
+    if (!sform.empty()) fail_corrupt(path, sform);
+}
+
 /// The transform that counts, index to LPS in mm.
 Affine3 chosen_affine(const NiftiHeader& header, const Index3& size, const fs::path& path, const ReadImageOptions& options) {
     const double unit = mm_per_unit(header, path);
     const auto in_lps_mm = [&](const Affine3& affine) { return ras_to_lps(scaled(affine, unit)); };
     const bool has_sform = header.sform_code > 0, has_qform = header.qform_code > 0;
     const Grid by_sform{size, in_lps_mm(header.sform)}, by_qform{size, in_lps_mm(qform_affine(header))};
-    if (has_sform) check_header_grid(by_sform, path);
-    if (has_qform) check_header_grid(by_qform, path);
-    if (has_sform && has_qform) {
+    if (has_sform && has_qform && !options.prefer) {
+        check_both(by_sform, by_qform, header, path);
         const double difference = corner_distance_mm(by_sform, by_qform);
-        if (!options.prefer && !(difference <= kAgreementMm))
+        if (!(difference <= kAgreementMm))
             fail_unsupported(
                 path, "its sform and qform differ by " + millimetres(difference) +
                           " at a corner (limit 0.1 mm); say which one counts with the option prefer (sform or qform)");
-        return options.prefer == NiftiTransform::qform ? by_qform.index_to_mm : by_sform.index_to_mm;
     }
+    if (has_sform && has_qform && options.prefer == NiftiTransform::qform) return by_qform.index_to_mm;
     if (has_sform) return by_sform.index_to_mm;
     if (has_qform) return by_qform.index_to_mm;
     if (!options.allow_missing_geometry)
@@ -263,7 +284,7 @@ void write_nifti(const fs::path& path, const ImageView& image) {
     if (!extension.empty()) bytes[nifti_header_bytes(header.version)] = 1;
     bytes.insert(bytes.end(), extension.begin(), extension.end());
     write_file_atomically(path, [&](AtomicFile& file) {
-        if (path.extension() == ".gz") {
+        if (lower_case(path.extension().string()) == ".gz") {
             Deflater deflater(DeflateFormat::gzip, [&](const void* data, std::size_t count) { file.write(data, count); });
             deflater.write(std::as_bytes(std::span(bytes)));
             deflater.write(bytes_of(image));

@@ -37,7 +37,7 @@ std::int64_t skip_count(const TextHeader& fields, const std::string& field, std:
 }
 
 /// From the start of the data to the first voxel: lines before the decompression, bytes behind it.
-void advance_to_voxels(OpenImage& image, const TextHeader& fields) {
+void advance_to_voxels(OpenImage& image, const TextHeader& fields, const ReadImageOptions& options) {
     const std::string encoding = lower_case(fields.text("encoding"));
     const bool compressed = encoding == "gzip" || encoding == "gz", raw = encoding == "raw";
     if (!compressed && !raw && !image.encoding.text)
@@ -51,7 +51,11 @@ void advance_to_voxels(OpenImage& image, const TextHeader& fields) {
         image.data.inflate();
     }
     const std::int64_t bytes = skip_count(fields, "byte skip", raw ? -1 : 0);
-    if (bytes >= 0) return image.data.skip(static_cast<std::uint64_t>(bytes));
+    if (bytes >= 0) {
+        image.data.skip(static_cast<std::uint64_t>(bytes));
+        if (raw) note_bytes_left(image, options);
+        return;
+    }
     // -1: the voxels are at the end of the file.
     image.data.expect(declared_bytes(image));
     image.data.skip(image.data.stored_bytes_left() - declared_bytes(image));
@@ -62,7 +66,7 @@ OpenImage open_nrrd(const fs::path& path, const ReadImageOptions& options) {
     const NrrdHeader header = read_nrrd_header(file);
     const NrrdLayout layout = nrrd_layout(header.fields, options);
     OpenImage image{layout.grid, layout.encoding, data_file(std::move(file), header.fields)};
-    advance_to_voxels(image, header.fields);
+    advance_to_voxels(image, header.fields, options);
     return image;
 }
 
@@ -187,7 +191,13 @@ std::vector<NrrdSegment> read_nrrd_segments(const fs::path& path) {
         NrrdSegment segment;
         segment.name = value_of(number, "Name").value_or(*value_of(number, "ID"));
         // Files of 3D Slicer before 4.11 have one layer for each segment, with the value 1.
-        segment.label_value = parse_integer(value_of(number, "LabelValue").value_or("1")).value_or(1);
+        const std::string label = value_of(number, "LabelValue").value_or("1");
+        const std::optional<std::int64_t> label_value = parse_integer(trimmed(label));
+        if (!label_value)
+            header.fields.refuse(
+                ErrorKind::corrupt_file,
+                fmt::format("the label value of its segment {} is \"{}\", which is no integer", number, label));
+        segment.label_value = *label_value;
         segment.layer = parse_integer(value_of(number, "Layer").value_or(std::to_string(number))).value_or(0);
         const std::string color = value_of(number, "Color").value_or("");
         const auto parts = words(color);

@@ -172,7 +172,8 @@ Provenance from_dicom(const fs::path& path) {
 Provenance as_written(const fs::path& path) {
     const std::string name = lower_case(path.filename().string());
     const auto has = [&](std::string_view extension) { return name.ends_with(extension); };
-    if (fs::is_directory(path)) return {};
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) return {};
     if (has(".json")) return from_json(path);
     if (has(".ply")) return from_lines(head_of(path, kMostHeaderBytes), "comment kontur ");
     if (has(".obj")) return from_lines(head_of(path, kMostHeaderBytes), "# kontur ");

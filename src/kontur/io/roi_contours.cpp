@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "kontur/io/keyhole.h"
 #include "kontur/io/shared_planes.h"
@@ -84,16 +85,44 @@ void add_stored(Interpretation& interpretation, const StoredContour& stored) {
     for (std::vector<Vec3>& ring : rings) add_ring(interpretation, std::move(ring));
 }
 
+using Ring = std::vector<std::array<double, 3>>;
+
+/// Index at which the ring must start to be the first in lexicographical order. Source: Shiloach 1981.
+std::size_t least_rotation(const Ring& ring) {
+    const std::size_t count = ring.size();
+    std::size_t best = 0, other = 1;
+    for (std::size_t same = 0; best < count && other < count && same < count;) {
+        const auto &a = ring[(best + same) % count], &b = ring[(other + same) % count];
+        if (a == b) {
+            ++same;
+            continue;
+        }
+        (a < b ? other : best) += same + 1;
+        if (best == other) ++other;
+        same = 0;
+    }
+    return std::min(best, other);
+}
+
+/// The same for each way to write a ring down: any start, either direction, with or without points that repeat a neighbour.
+Ring canonical(const std::vector<Vec3>& points) {
+    const auto rounded = [](double mm) { return std::round(mm / kChannelToleranceMm); };
+    Ring ring;
+    for (const Vec3& p : points)
+        if (const std::array at{rounded(p.x), rounded(p.y), rounded(p.z)}; ring.empty() || at != ring.back())
+            ring.push_back(at);
+    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+    Ring turned(ring.rbegin(), ring.rend());
+    for (Ring* one : {&ring, &turned})
+        std::rotate(one->begin(), one->begin() + static_cast<std::ptrdiff_t>(least_rotation(*one)), one->end());
+    return std::min(ring, turned);
+}
+
 /// A copy of a contour would cancel it when filled even-odd; nobody means that by storing one twice.
 std::size_t count_repeated(const std::vector<StoredContour>& stored, std::vector<bool>& repeated) {
-    const auto before = [&](std::size_t a, std::size_t b) {
-        return std::lexicographical_compare(
-            stored[a].points.begin(), stored[a].points.end(), stored[b].points.begin(), stored[b].points.end(),
-            [](const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
-    };
-    std::set<std::size_t, decltype(before)> seen(before);
+    std::set<Ring> seen;
     for (std::size_t n = 0; n < stored.size(); ++n)
-        if (stored[n].type == "CLOSED_PLANAR") repeated[n] = !seen.insert(n).second;
+        if (stored[n].type == "CLOSED_PLANAR") repeated[n] = !seen.insert(canonical(stored[n].points)).second;
     return static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), true));
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "kontur/base/error.h"
 #include "kontur/io/dcmtk.h"
@@ -39,13 +40,15 @@ StoredContour read_contour(DcmItem& item) {
     const std::int64_t points = static_cast<std::int64_t>(values.size() / 3);
     const std::int64_t declared = dcmtk::integer(item, DCM_NumberOfContourPoints).value_or(points);
     if (points != declared) throw corrupt(fmt::format("it declares {} points and has {}", declared, points));
+    const std::vector<double> offset = dcmtk::decimals(item, DCM_RETIRED_ContourOffsetVector);
+    if (std::any_of(offset.begin(), offset.end(), [](double mm) { return mm != 0; }))
+        throw corrupt("its ContourOffsetVector is not 0; contours that are shifted by one are not read");
     contour.points.reserve(values.size() / 3);
     for (std::size_t n = 0; n < values.size(); n += 3) contour.points.push_back({values[n], values[n + 1], values[n + 2]});
     return contour;
 }
 
-std::vector<StoredContour> read_contours(DcmItem& roi_contour) {
-    std::vector<StoredContour> contours;
+void append_contours(DcmItem& roi_contour, std::vector<StoredContour>& contours) {
     for (DcmItem* item : dcmtk::items(roi_contour, DCM_ContourSequence)) {
         try {
             contours.push_back(read_contour(*item));
@@ -53,7 +56,6 @@ std::vector<StoredContour> read_contours(DcmItem& roi_contour) {
             throw error.with_context(fmt::format("contour {}", contours.size() + 1));
         }
     }
-    return contours;
 }
 
 std::optional<std::array<std::uint8_t, 3>> read_color(DcmItem& roi_contour) {
@@ -85,26 +87,53 @@ std::vector<Roi> read_roi_list(DcmItem& dataset) {
     return rois;
 }
 
-/// The ROI that an item of another sequence is about.
-Roi& referenced_roi(std::vector<Roi>& rois, DcmItem& item) {
-    const std::int64_t number = required_number(item, DCM_ReferencedROINumber);
+Roi* find_roi(std::vector<Roi>& rois, std::int64_t number) {
     const auto found = std::find_if(rois.begin(), rois.end(), [&](const Roi& roi) { return roi.number == number; });
-    if (found == rois.end()) throw corrupt(fmt::format("contours refer to ROI {}, which is not listed", number));
-    return *found;
+    return found == rois.end() ? nullptr : &*found;
 }
 
-void read_roi_contours(Roi& roi, DcmItem& roi_contour) {
+/// The items that hold the contours of one ROI: one, but some programs write several.
+void read_roi_contours(Roi& roi, const std::vector<DcmItem*>& items) {
+    std::vector<StoredContour> stored;
+    for (DcmItem* item : items) {
+        if (const auto color = read_color(*item)) roi.color = color;
+        append_contours(*item, stored);
+    }
+    InterpretedContours interpreted = interpret_contours(stored);
+    roi.contours.contours = std::move(interpreted.contours);
+    roi.contours.surface = std::move(interpreted.surface);
+    roi.notes = std::move(interpreted.notes);
+    if (items.size() > 1)
+        roi.notes.push_back(fmt::format("its contours stand in {} items of the file, which are joined", items.size()));
+    if (const std::size_t dropped = drop_duplicate_points(roi.contours); dropped > 0)
+        roi.notes.push_back(
+            fmt::format("left out {} repetition{} of a neighbouring point", dropped, dropped == 1 ? "" : "s"));
+}
+
+/// Damage in one ROI says nothing about the others.
+void read_roi_contours_or_damage(Roi& roi, const std::vector<DcmItem*>& items) {
     try {
-        roi.color = read_color(roi_contour);
-        InterpretedContours interpreted = interpret_contours(read_contours(roi_contour));
-        roi.contours.contours = std::move(interpreted.contours);
-        roi.contours.surface = std::move(interpreted.surface);
-        roi.notes = std::move(interpreted.notes);
-        if (const std::size_t dropped = drop_duplicate_points(roi.contours); dropped > 0)
-            roi.notes.push_back(
-                fmt::format("left out {} repetition{} of a neighbouring point", dropped, dropped == 1 ? "" : "s"));
+        read_roi_contours(roi, items);
     } catch (const Error& error) {
-        throw error.with_context(fmt::format("ROI {} '{}'", roi.number, roi.name));
+        roi.damage = error.with_context(fmt::format("ROI {} '{}'", roi.number, roi.name)).what();
+    }
+}
+
+void read_all_contours(StructureSet& set, DcmItem& dataset) {
+    std::map<std::int64_t, std::vector<DcmItem*>> items;
+    for (DcmItem* item : dcmtk::items(dataset, DCM_ROIContourSequence)) {
+        const std::int64_t number = required_number(*item, DCM_ReferencedROINumber);
+        if (!find_roi(set.rois, number)) throw corrupt(fmt::format("contours refer to ROI {}, which is not listed", number));
+        items[number].push_back(item);
+    }
+    for (const auto& [number, its_items] : items) read_roi_contours_or_damage(*find_roi(set.rois, number), its_items);
+}
+
+void read_observations(StructureSet& set, DcmItem& dataset) {
+    for (DcmItem* item : dcmtk::items(dataset, DCM_RTROIObservationsSequence)) {
+        const std::int64_t number = required_number(*item, DCM_ReferencedROINumber);
+        if (Roi* roi = find_roi(set.rois, number)) roi->interpreted_type = dcmtk::text(*item, DCM_RTROIInterpretedType);
+        else set.notes.push_back(fmt::format("left out an observation of ROI {}, which is not listed", number));
     }
 }
 
@@ -117,10 +146,8 @@ StructureSet read_structure_set(DcmItem& dataset) {
     StructureSet set;
     set.label = dcmtk::text(dataset, DCM_StructureSetLabel);
     set.rois = read_roi_list(dataset);
-    for (DcmItem* item : dcmtk::items(dataset, DCM_ROIContourSequence))
-        read_roi_contours(referenced_roi(set.rois, *item), *item);
-    for (DcmItem* item : dcmtk::items(dataset, DCM_RTROIObservationsSequence))
-        referenced_roi(set.rois, *item).interpreted_type = dcmtk::text(*item, DCM_RTROIInterpretedType);
+    read_all_contours(set, dataset);
+    read_observations(set, dataset);
     return set;
 }
 
@@ -128,8 +155,8 @@ std::string listed(const std::vector<Roi>& rois) {
     if (rois.empty()) return "none";
     std::string text;
     for (const Roi& roi : rois)
-        text += fmt::format("{}{} '{}' ({} contours)", text.empty() ? "" : ", ", roi.number, roi.name,
-                            roi.contours.contours.size());
+        text += fmt::format("{}{} '{}' ({})", text.empty() ? "" : ", ", roi.number, roi.name,
+                            roi.damage.empty() ? fmt::format("{} contours", roi.contours.contours.size()) : "damaged");
     return text;
 }
 
@@ -139,6 +166,11 @@ std::vector<const Roi*> rois_where(const std::vector<Roi>& rois, const Condition
     for (const Roi& roi : rois)
         if (condition(roi)) found.push_back(&roi);
     return found;
+}
+
+Roi readable(const Roi& roi) {
+    if (!roi.damage.empty()) throw corrupt(roi.damage);
+    return roi;
 }
 
 }  // namespace
@@ -170,16 +202,16 @@ Roi select_roi(const StructureSet& set, const std::optional<std::string>& name_o
     };
     std::vector<const Roi*> found;
     if (!name_or_number) {
-        found = rois_where(set.rois, [](const Roi& roi) { return !roi.contours.contours.empty(); });
+        found = rois_where(set.rois, [](const Roi& roi) { return !roi.contours.contours.empty() || !roi.damage.empty(); });
         if (found.size() != 1) refuse(found.empty() ? "no ROI has contours" : "several ROIs have contours; name one");
-        return *found.front();
+        return readable(*found.front());
     }
     found = rois_where(set.rois, [&](const Roi& roi) { return roi.name == *name_or_number; });
     if (found.empty())
         found = rois_where(set.rois, [&](const Roi& roi) { return std::to_string(roi.number) == *name_or_number; });
     if (found.empty()) refuse(fmt::format("there is no ROI '{}'", *name_or_number));
     if (found.size() > 1) refuse(fmt::format("{} ROIs have the name '{}'; give a number", found.size(), *name_or_number));
-    return *found.front();
+    return readable(*found.front());
 }
 
 }  // namespace kontur

@@ -24,11 +24,13 @@ struct Roi {
     std::optional<std::array<std::uint8_t, 3>> color;  ///< red, green, blue
     ContourSet contours;                               ///< `contours.name` is the ROI's name; may be empty
     std::vector<std::string> notes;                    ///< how the stored contours were interpreted, and what was left out
+    std::string damage;  ///< why its contours cannot be read, naming ROI and contour; "" when they can
 };
 
 struct StructureSet {
     std::string label;
-    std::vector<Roi> rois;  ///< in the file's order
+    std::vector<Roi> rois;             ///< in the file's order
+    std::vector<std::string> notes{};  ///< what was left out that belongs to no ROI
 };
 
 /// True for a file that starts as a DICOM file does and says that it is an RT structure set. Reads a few elements only.
@@ -39,12 +41,14 @@ bool is_rtstruct(const std::filesystem::path& path);
 /// a channel, retraced within 0.001 mm) becomes an outer and an inner contour; CLOSEDPLANAR_XOR contours and nested
 /// CLOSED_PLANAR ones on one slice are filled even-odd, so those at odd depth are marked `hole`. OPEN_PLANAR contours are
 /// open contours, POINT ones points on the surface, with a note each. OPEN_NONPLANAR contours, repeated ones and those
-/// without area are left out, with a note each. Throws Error(invalid_input) when the file is no RTSTRUCT and
-/// Error(corrupt_file), naming ROI and contour, for coordinates that are no numbers, no triples or not as many as declared.
+/// without area are left out, with a note each; a contour is repeated by another through the same points, rounded to 0.001
+/// mm, whatever its start, direction and closing point. A ROI with coordinates that are no numbers, no triples or not as
+/// many as declared has `damage` and no contours. Throws Error(invalid_input) when the file is no RTSTRUCT and
+/// Error(corrupt_file) for contours of a ROI that is not listed.
 StructureSet read_rtstruct(const std::filesystem::path& path);
 
 /// The ROI with this name or, if none has it, with this number; without either, the only ROI that has contours. Throws
-/// Error(invalid_input), listing the ROIs, when that leaves none or several.
+/// Error(invalid_input), listing the ROIs, when that leaves none or several, and Error(corrupt_file) naming its damage.
 Roi select_roi(const StructureSet& set, const std::optional<std::string>& name_or_number = std::nullopt);
 
 /// How the holes of a slice are stored.
@@ -63,7 +67,8 @@ struct WriteRtstructOptions {
 /// Writes a DICOM RT structure set (Implicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
 /// study, frame of reference, and for each contour its slice. ROIs are numbered from 1 where their number is 0; their frame
 /// of reference and notes are not used. Contours nested on one plane are filled even-odd, whatever their `hole` says.
-/// Coordinates are exact to 1e-9 mm. Returns what the user should know, one sentence each: contours that lie on no slice.
+/// Coordinates are exact to 1e-9 mm. Returns what the user should know, one sentence each: contours that lie on no
+/// slice, and images without a frame of reference, for which a new one is named.
 /// Throws Error(invalid_input), naming ROI and contour, for open contours, fewer than 3 points, coordinates that are not
 /// finite and a hole that nothing encloses, and for two ROIs with one number; Error(unsupported) for interior, exterior
 /// or surface points; Error(io). Source: DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.

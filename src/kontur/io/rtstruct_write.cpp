@@ -142,6 +142,7 @@ public:
         : document_(document), slices_(slices), holes_(holes) {}
 
     void write(const Roi& roi, std::int64_t number) {
+        if (!roi.damage.empty()) throw invalid("its contours could not be read: " + roi.damage);
         const std::string name = roi.name.empty() ? roi.contours.name : roi.name;
         put_entry(roi, name, number);
         DcmItem& item = append_item(document_, DCM_ROIContourSequence);
@@ -232,9 +233,14 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     }
     // Explicit VR has 16-bit lengths for decimal strings; a contour of 1300 points would not fit.
     dcmtk::save(file, path, EXS_LittleEndianImplicit);
-    if (writer.off_slices() == 0) return {};
-    return {fmt::format("{} contour{} on no slice of the images, and carry no reference to one; many programs ignore such",
-                        writer.off_slices(), writer.off_slices() == 1 ? " lies" : "s lie")};
+    std::vector<std::string> notes;
+    if (images.frame_of_reference_uid.empty())
+        notes.emplace_back("the images name no common frame of reference; the structure set names a new one");
+    if (writer.off_slices() > 0)
+        notes.push_back(
+            fmt::format("{} contour{} on no slice of the images, and carry no reference to one; many programs ignore such",
+                        writer.off_slices(), writer.off_slices() == 1 ? " lies" : "s lie"));
+    return notes;
 }
 
 }  // namespace kontur

@@ -36,8 +36,9 @@ std::optional<std::vector<Value>> parse_list(std::string_view text, std::size_t 
 }  // namespace
 
 void TextHeader::add(std::string_view key, std::string_view value) {
-    if (!fields_.emplace(key, trimmed(value)).second)
-        refuse(ErrorKind::corrupt_file, fmt::format("its header has the field \"{}\" twice", key));
+    const auto [field, is_new] = fields_.emplace(key, trimmed(value));
+    if (!is_new && field->second != trimmed(value))
+        refuse(ErrorKind::corrupt_file, fmt::format("its header has the field \"{}\" twice, with two values", key));
 }
 
 std::optional<std::string> TextHeader::find(const std::string& key) const {

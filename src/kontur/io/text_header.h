@@ -21,7 +21,7 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// Refuses a field that is there already: two values for one thing contradict each other.
+    /// Refuses another value for a field that is there already.
     void add(std::string_view key, std::string_view value);
 
     bool has(const std::string& key) const { return fields_.contains(key); }

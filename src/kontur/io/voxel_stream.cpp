@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/voxel_stream.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -114,22 +116,33 @@ public:
         const char* begin = token.data() + (token.starts_with('+') ? 1 : 0);
         const auto [end, error] = std::from_chars(begin, token.data() + token.size(), value);
         if (error != std::errc{} || end != token.data() + token.size())
-            throw Error(ErrorKind::corrupt_file, data_.path().string() + ": \"" + token +
-                                                     "\" among its voxels is no number of "
-                                                     "the declared type");
+            fail("\"" + token + "\" among its voxels is no number of the declared type");
         return value;
     }
 
+    void check_end() {
+        if (const std::string token = next_token(); !token.empty())
+            fail("\"" + token + "\" follows the last of its declared voxels");
+    }
+
 private:
+    /// Empty at the end of the text.
     std::string next_token() {
-        constexpr std::size_t kMaxLength = 64;
+        constexpr std::size_t kMaxLength = 64, kShown = 16;
         std::string token;
-        for (char c; token.size() < kMaxLength && next_character(c);) {
+        for (char c; next_character(c);) {
             const bool blank = c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',';
             if (blank && !token.empty()) break;
             if (!blank) token += c;
+            if (token.size() > kMaxLength)
+                fail("the number \"" + token.substr(0, kShown) + "...\" among its voxels has more than " +
+                     std::to_string(kMaxLength) + " characters");
         }
         return token;
+    }
+
+    [[noreturn]] void fail(const std::string& reason) const {
+        throw Error(ErrorKind::corrupt_file, data_.path().string() + ": " + reason);
     }
 
     bool next_character(char& c) {
@@ -159,6 +172,7 @@ std::vector<Value> read_text(InputFile& data, const VoxelEncoding& encoding, std
         const auto value = numbers.next<Value>();
         if (this_component == component) values[voxel] = value;
     }
+    numbers.check_end();
     return values;
 }
 
@@ -171,6 +185,19 @@ Image::Samples convert(const std::vector<From>& values, const Convert& function)
 
 /// Largest magnitude up to which `double` holds every integer.
 constexpr double kExactIntegers = 9007199254740992.0;
+
+/// Integers that a float does not hold exactly would merge with their neighbours; they may be labels.
+template <typename Value, typename Rescaled>
+void check_exact_in_float(const std::vector<Value>& values, const Rescaled& rescaled) {
+    const auto is_exact = [](double v) {
+        return std::abs(v) < kExactIntegers && static_cast<double>(static_cast<float>(v)) == v;
+    };
+    for (const Value value : values)
+        if (const double v = rescaled(value); !is_exact(v))
+            throw Error(
+                ErrorKind::unsupported,
+                fmt::format("the voxel value {:.0f} is beyond 32-bit integers, and a float does not hold it exactly", v));
+}
 
 /// Samples of slope * value + intercept, which are integers, in the narrowest type for their range.
 template <typename Value>
@@ -186,6 +213,7 @@ Image::Samples narrowest_integers(std::vector<Value>&& values, double slope, dou
     if (fits(std::int16_t{})) return convert<std::int16_t>(values, rescaled);
     if (fits(std::uint16_t{})) return convert<std::uint16_t>(values, rescaled);
     if (fits(std::int32_t{})) return convert<std::int32_t>(values, rescaled);
+    check_exact_in_float(values, rescaled);
     return convert<float>(values, rescaled);
 }
 
@@ -234,6 +262,13 @@ std::uint64_t declared_bytes(const OpenImage& image) {
     return image.encoding.text ? bytes - 1 : bytes;
 }
 
+void note_bytes_left(const OpenImage& image, const ReadImageOptions& options) {
+    const std::uint64_t declared = declared_bytes(image), held = image.data.stored_bytes_left();
+    if (options.on_note && held > declared)
+        options.on_note(fmt::format("{}: its header declares {} bytes of voxels, and {} are there; the rest is left out",
+                                    image.data.path().string(), declared, held));
+}
+
 void check_header_grid(const Grid& grid, const std::filesystem::path& path) {
     try {
         check_grid(grid);
@@ -256,7 +291,11 @@ Image read_voxels(OpenImage&& image, const ReadImageOptions& options) {
         auto values = encoding.text ? read_text<Value>(image.data, encoding, voxels, component)
                                     : read_binary<Value>(image.data, encoding, voxels, component);
         image.data.finish();
-        return Image{image.grid, to_samples(std::move(values), encoding.slope, encoding.intercept)};
+        try {
+            return Image{image.grid, to_samples(std::move(values), encoding.slope, encoding.intercept)};
+        } catch (const Error& error) {
+            throw error.with_context(image.data.path().string());
+        }
     });
 }
 

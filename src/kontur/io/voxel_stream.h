@@ -37,6 +37,9 @@ struct OpenImage {
 /// Bytes of all voxels as declared (for text: the least they can take). Throws Error(corrupt_file) beyond 64 bits.
 std::uint64_t declared_bytes(const OpenImage& image);
 
+/// Tells of bytes behind the voxels, which are not compressed: the header may declare fewer slices or frames than there are.
+void note_bytes_left(const OpenImage& image, const ReadImageOptions& options);
+
 /// The component that the options choose, in the narrowest sample type that is exact. Checks the declared size against the
 /// file and against `max_voxels` before it allocates.
 Image read_voxels(OpenImage&& image, const ReadImageOptions& options);

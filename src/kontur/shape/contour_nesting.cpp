@@ -36,17 +36,17 @@ bool boxes_meet(const Outline& a, const Outline& b) {
 
 enum class Position { outside, inside, crossing };
 
-Position position_of(const Outline& outline, const Outline& other, double tolerance) {
+Position position_of(const Outline& outline, const Outline& other, const SectionSearch& of_other, double tolerance) {
     if (!boxes_meet(outline, other)) return Position::outside;
     constexpr std::size_t kMostTested = 2000;
     const Polygon2& points = outline.section.outlines.front();
     const std::size_t stride = 1 + points.size() / kMostTested;
     std::size_t inside = 0, outside = 0;
-    for (std::size_t i = 0; i < points.size(); i += stride) ++(other.section.contains(points[i]) ? inside : outside);
+    for (std::size_t i = 0; i < points.size(); i += stride) ++(of_other.contains(points[i]) ? inside : outside);
     if (inside == 0) return Position::outside;
     inside = outside = 0;
     for (std::size_t i = 0; i < points.size(); i += stride)
-        if (other.section.clearance(points[i]) > tolerance) ++(other.section.contains(points[i]) ? inside : outside);
+        if (of_other.clearance(points[i]) > tolerance) ++(of_other.contains(points[i]) ? inside : outside);
     return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
 }
 
@@ -107,13 +107,15 @@ Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) 
     const std::vector<std::size_t> plane = shared_planes(contours, tolerance_mm);
     std::vector<Outline> outlines;
     for (std::size_t i = 0; i < contours.size(); ++i) outlines.push_back(outline_of(contours[i], contours[plane[i]].plane));
+    std::vector<SectionSearch> searches;
+    for (const Outline& outline : outlines) searches.emplace_back(outline.section);
     Nesting nesting;
     nesting.depth.assign(contours.size(), 0);
     nesting.enclosing.resize(contours.size());
     for (std::size_t a = 0; a < contours.size(); ++a)
         for (std::size_t b = 0; b < contours.size(); ++b) {
             if (a == b || plane[a] != plane[b] || !contours[a].closed || !contours[b].closed) continue;
-            const Position position = position_of(outlines[a], outlines[b], tolerance_mm);
+            const Position position = position_of(outlines[a], outlines[b], searches[b], tolerance_mm);
             if (position == Position::inside) {
                 ++nesting.depth[a];
                 nesting.enclosing[a].push_back(b);

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/editor.h"
 
+#include <memory>
+#include <mutex>
+
 #include "bindings.h"
 #include "live_editor.h"
 #include "segment_words.h"
 
 namespace kontur::python {
 namespace {
+
+/// The library's editor is for one thread at a time.
+struct SharedEditor {
+    explicit SharedEditor(const EditorOptions& options) : editor(options) {}
+
+    Editor editor;
+    std::recursive_mutex mutex;  // a progress callback may call the editor again
+};
 
 Keywords<EditorOptions> editor_keywords() {
     const auto segment = [](auto member) {
@@ -47,8 +58,8 @@ void bind_editor_itself(py::module_& m) {
     const Keywords<EditorOptions> keywords = editor_keywords();
     const std::string help = filled_in(R"(Follows contours while they are edited.
 
-After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give. Not for use from several
-threads at once.
+After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give. Threads that
+share one wait for each other.
 
 Parameters
 ----------
@@ -63,20 +74,28 @@ Examples
 (False, False, True)
 )",
                                        keywords.documentation());
-    py::class_<Editor> editor(m, "Editor", help.c_str());
+    py::class_<SharedEditor> editor(m, "Editor", help.c_str());
     const std::string init_doc = docstring("__init__", "self, *", "", KeywordText(keywords));
-    editor.def(py::init([keywords](const py::kwargs& given) { return Editor(keywords.parse("Editor", given)); }),
+    editor.def(py::init([keywords](const py::kwargs& given) {
+                   return std::make_unique<SharedEditor>(keywords.parse("Editor", given));
+               }),
                init_doc.c_str());
     method(
         editor, "preview", "The EditedSurface through a ContourSet, fitted to a part of its points.",
-        [](Editor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return self.preview(contours, p); });
+        [](SharedEditor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) {
+                const std::lock_guard lock(self.mutex);
+                return self.editor.preview(contours, p);
+            });
         },
         py::arg("contours"), py::kw_only(), kProgress, kStop);
     method(
         editor, "refine", "The final EditedSurface through a ContourSet: the same function as `segment`'s.",
-        [](const Editor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return self.refine(contours, p); });
+        [](SharedEditor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
+            return run({progress, stop}, [&](const Progress& p) {
+                const std::lock_guard lock(self.mutex);
+                return self.editor.refine(contours, p);
+            });
         },
         py::arg("contours"), py::kw_only(), kProgress, kStop);
 }

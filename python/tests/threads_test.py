@@ -129,6 +129,20 @@ print("end")
 """)
 
 
+def test_threads_may_share_an_editor():
+    ends_well("""
+editor, three = kontur.Editor(), kontur.ContourSet(case.contours.contours[:3])
+drawings = [kontur.ContourSet(case.contours.contours[:n]) for n in (1, 2, 3)]
+def work():
+    for n in range(30):
+        editor.preview(drawings[n % 3])
+threads = [threading.Thread(target=work) for _ in range(4)]
+[t.start() for t in threads]
+[t.join() for t in threads]
+print("end")
+""")
+
+
 def test_a_listener_must_be_callable():
     with pytest.raises(TypeError, match="a callable is needed, not 5"):
         kontur.LiveEditor(5)

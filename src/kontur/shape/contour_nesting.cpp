@@ -108,6 +108,7 @@ Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) 
     std::vector<Outline> outlines;
     for (std::size_t i = 0; i < contours.size(); ++i) outlines.push_back(outline_of(contours[i], contours[plane[i]].plane));
     std::vector<SectionSearch> searches;
+    searches.reserve(outlines.size());
     for (const Outline& outline : outlines) searches.emplace_back(outline.section);
     Nesting nesting;
     nesting.depth.assign(contours.size(), 0);

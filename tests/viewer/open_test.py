@@ -554,14 +554,18 @@ def test_a_file_that_crashes_its_reader_costs_only_the_import(server):
     assert not list(server.folder.glob("kontur-*")), "nothing is left of the upload"
 
 
+def send_import(server, connection, what, body):
+    """A request whose answer nobody waits for."""
+    head = (
+        f"POST /api/import/{what} HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
+        f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
+    )
+    connection.sendall(head.encode() + body)
+
+
 def test_who_leaves_ends_what_was_read_for_him(server):
     with socket.create_connection(("127.0.0.1", server.port)) as connection:
-        body = big_mask()
-        head = (
-            f"POST /api/import/mask?name=m.nii&planes=200 HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
-            f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
-        )
-        connection.sendall(head.encode() + body)
+        send_import(server, connection, "mask?name=m.nii&planes=200", big_mask())
         wait_for(lambda: readers(server))
     wait_for(lambda: not readers(server), seconds=5)
     wait_for(lambda: not list(server.folder.glob("kontur-*")), seconds=5)
@@ -573,11 +577,7 @@ def test_an_import_that_nobody_waits_for_any_more_is_not_applied(server):
     page = server.page()
     body = json.dumps(rings(20, 6, 95_000)).encode()
     with socket.create_connection(("127.0.0.1", server.port)) as connection:
-        head = (
-            f"POST /api/import/contours?name=a.json HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
-            f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
-        )
-        connection.sendall(head.encode() + body)
+        send_import(server, connection, "contours?name=a.json", body)
         wait_for(lambda: readers(server))
         wait_for(lambda: not readers(server))
     while (event := page.receive())["event"] != "status" or event["text"]:
@@ -587,12 +587,7 @@ def test_an_import_that_nobody_waits_for_any_more_is_not_applied(server):
 
 def test_what_a_killed_kontur_leaves_goes_with_the_next(server, tmp_path, image):
     with socket.create_connection(("127.0.0.1", server.port)) as connection:
-        body = big_mask()
-        head = (
-            f"POST /api/import/mask?name=m.nii&planes=200 HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\n"
-            f"Authorization: Bearer {server.token}\r\nContent-Length: {len(body)}\r\n\r\n"
-        )
-        connection.sendall(head.encode() + body)
+        send_import(server, connection, "mask?name=m.nii&planes=200", big_mask())
         wait_for(lambda: readers(server))
         server.stop(signal.SIGKILL)
     (left,) = tmp_path.glob("kontur-*")

@@ -47,8 +47,7 @@ public:
         double distance;
         const Plane* plane;
         const SectionSearch* search;
-        std::vector<bool>
-            shows;  ///< for each outline of the section, whether a probe in it lies over or under the plane's region
+        std::vector<bool> shows;  ///< for each outline of the section, whether it shows a probe in that
     };
 
     /// Those farther than `tolerance` in the direction of the section's normal times `sign`, the nearest first.
@@ -103,16 +102,19 @@ std::optional<double> distance_to_previous(const std::vector<DrawnRegions::Paral
 /// One side of a section's plane, and what the contour set tells about it.
 class Side {
 public:
-    /// `section` is one of the planes', `inside` are its probes; all must outlive the side.
-    Side(const DrawnPlanes& planes, const DrawnRegions& regions, const Section& section, const std::vector<Probe>& inside,
-         double sign)
+    using Parallels = std::vector<DrawnRegions::Parallel>;
+
+    /// `section` is one of the planes', `inside` are its probes, `planes_ahead` and `planes_behind` those parallel to it;
+    /// all must outlive the side.
+    Side(const DrawnPlanes& planes, const Section& section, const std::vector<Probe>& inside, double sign,
+         const Parallels& planes_ahead, const Parallels& planes_behind)
         : section_(section),
           inside_(inside),
           sign_(sign),
           tolerance_(planes.tolerance_mm),
           deepest_(deepest(inside)),
-          ahead_(regions.parallel_to(section, inside, sign, tolerance_)),
-          previous_mm_(distance_to_previous(regions.parallel_to(section, inside, -sign, tolerance_), deepest_)) {
+          ahead_(planes_ahead),
+          previous_mm_(distance_to_previous(planes_behind, deepest_)) {
         for (const Section& other : planes.sections)
             if (!are_parallel(section.plane, other.plane)) consider(other);
         for (const Contour& contour : planes.set.contours)
@@ -212,7 +214,7 @@ private:
     const Section& section_;
     const std::vector<Probe>& inside_;
     double sign_, tolerance_, deepest_;
-    std::vector<DrawnRegions::Parallel> ahead_;
+    const Parallels& ahead_;
     std::optional<double> previous_mm_;
     bool leads_on_ = false;
     double slanted_reach_ = 0;
@@ -309,8 +311,10 @@ Limits find_limits(const DrawnPlanes& planes, int threads) {
         if (!has_open_contour(planes, section.plane))
             leak_probes.append_beside(section, missing_reach(section, planes.sections), limits.leak_probes);
         const std::vector<Probe> inside = probes(section);
+        const auto below = regions.parallel_to(section, inside, -1, planes.tolerance_mm);
+        const auto above = regions.parallel_to(section, inside, 1, planes.tolerance_mm);
         for (const double sign : {-1.0, 1.0}) {
-            const Side side(planes, regions, section, inside, sign);
+            const Side side(planes, section, inside, sign, sign > 0 ? above : below, sign > 0 ? below : above);
             side.append_caps(limits.caps);
             if (side.is_last()) leak_probes.append_beyond(side, inside, limits.leak_probes);
         }

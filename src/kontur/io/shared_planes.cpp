@@ -2,7 +2,9 @@
 #include "kontur/io/shared_planes.h"
 
 #include <algorithm>
-#include <numeric>
+#include <optional>
+
+#include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 namespace {
@@ -51,15 +53,8 @@ Plane plane_for(const Contour& contour, Planes& known, double tolerance) {
 }  // namespace
 
 void assign_planes(std::vector<Contour>& contours, double tolerance_mm) {
-    std::vector<std::size_t> largest_first(contours.size());
-    std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
-    std::vector<double> size(contours.size());
-    std::transform(contours.begin(), contours.end(), size.begin(),
-                   [](const Contour& contour) { return bounding_box(contour.points).diagonal(); });
-    std::stable_sort(largest_first.begin(), largest_first.end(),
-                     [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
     Planes known;
-    for (const std::size_t n : largest_first) contours[n].plane = plane_for(contours[n], known, tolerance_mm);
+    for (const std::size_t n : largest_first(contours)) contours[n].plane = plane_for(contours[n], known, tolerance_mm);
 }
 
 }  // namespace kontur

@@ -85,16 +85,19 @@ bool lies_in(const Contour& contour, const Plane& plane, double tolerance_mm) {
                        [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= tolerance_mm; });
 }
 
-std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm) {
+std::vector<std::size_t> largest_first(const std::vector<Contour>& contours) {
     std::vector<double> size(contours.size());
     std::transform(contours.begin(), contours.end(), size.begin(),
                    [](const Contour& contour) { return bounding_box(contour.points).diagonal(); });
-    std::vector<std::size_t> largest_first(contours.size());
-    std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
-    std::stable_sort(largest_first.begin(), largest_first.end(),
-                     [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+    std::vector<std::size_t> order(contours.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+    return order;
+}
+
+std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm) {
     std::vector<std::size_t> planes, plane_of(contours.size());
-    for (const std::size_t c : largest_first) {
+    for (const std::size_t c : largest_first(contours)) {
         const auto found = std::find_if(planes.begin(), planes.end(), [&](std::size_t other) {
             return lies_in(contours[c], contours[other].plane, tolerance_mm);
         });

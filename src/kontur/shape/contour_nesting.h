@@ -21,6 +21,9 @@ struct Nesting {
 /// are apart.
 inline constexpr double kSamePlane = 3e-4;
 
+/// The contours' indices, those with the largest boxes first: the larger one knows its plane better.
+std::vector<std::size_t> largest_first(const std::vector<Contour>& contours);
+
 /// For each contour whose plane it lies in with all its points within `tolerance_mm`: that of a larger one, else its own.
 std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm);
 

@@ -141,6 +141,7 @@ Facts describe(const ContourSet& set) {
         {"points", point_count(set)},
         {"interior_points", set.interior.size()},
         {"exterior_points", set.exterior.size()},
+        {"surface_points", set.surface.size()},
         {"extent_mm", extent(bounding_box(set))},
         {"problems", contour_problems(set)},
     };

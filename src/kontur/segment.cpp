@@ -27,6 +27,11 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& warnings
     if (changes.holes > 0) warnings.push_back(fmt::format("{} contours inside others became holes", changes.holes));
     if (changes.removed > 0)
         warnings.push_back(fmt::format("{} contours inside the object were left out: they are not holes", changes.removed));
+    if (!changes.stray_holes.empty())
+        warnings.push_back(
+            fmt::format("{} contours are holes where nothing is drawn around them, the first of them "
+                        "contour {}",
+                        changes.stray_holes.size(), changes.stray_holes.front() + 1));
     for (const auto& [a, b] : changes.crossings)
         warnings.push_back(fmt::format("contours {} and {} overlap in part", a + 1, b + 1));
 }
@@ -179,7 +184,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     report.conflicts = fitting.reconcile.conflicts;
     report.corners = fitting.prepare.corners;
     append(report.warnings, prepared.notes);
-    append(report.warnings, missed_clicks(contours, result.function));
+    append(report.warnings, missed_clicks(contours, result.function, 2 * fitting.prepare.click_margin_mm));
     describe_fit(prepared, fitted, fitting.fit, report);
     report.residual = residual(result.function, contours, options.threads);
     describe_crossings(contours, grid, report);

@@ -70,6 +70,18 @@ TEST(SmallestBall, IsStableWhereManyPointsLieOnIt) {
     EXPECT_NEAR(distance(ball.center, {500, -700, 90}), 0, 1e-9);
 }
 
+TEST(SmallestBall, IsTheSameFarFromTheOrigin) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        std::vector<Vec3> points = cloud(seed, 120, {20, 10, 5});
+        const double radius = smallest_ball(points).radius;
+        for (const double away : {1e4, 1e6, 1e8}) {
+            std::vector<Vec3> moved = points;
+            for (Vec3& p : moved) p += away * normalized(Vec3{1, 0.3, -0.7});
+            EXPECT_NEAR(smallest_ball(moved).radius, radius, 1e-9 * radius + 1e-15 * away) << seed << " " << away;
+        }
+    }
+}
+
 TEST(SmallestBall, TurnsWithItsPoints) {
     const std::vector<Vec3> points = cloud(3, 500, {40, 20, 10});
     const Plane frame = make_plane({}, {0.3, -0.5, 0.8});

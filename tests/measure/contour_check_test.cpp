@@ -196,6 +196,24 @@ TEST(ContourCheck, HolesAndOverlaps) {
     EXPECT_NEAR(overlap.position->x, std::sqrt(400 - 25), 1);
 }
 
+TEST(ContourCheck, HolesAloneAndDistantSurfacePointsAreErrors) {
+    ContourSet set = ball();
+    for (Contour& contour : set.contours) contour.hole = true;
+    EXPECT_EQ(only(set, Kind::unusable).text, "all contours are holes (3); at least 1 must be none");
+    set = ball();
+    set.surface = {{{1e6, 0, 0}, {}}};
+    EXPECT_EQ(only(set, Kind::unusable).severity, Severity::error);
+}
+
+TEST(ContourCheck, SurfacePointsOffTheContoursOfTheirPlane) {
+    ContourSet set = ball();
+    const Vec3 on = set.contours[0].points[3];
+    set.surface = {{on, {}}, {set.contours[0].plane.origin, {}}};
+    const Finding found = only(set, Kind::misplaced_point);
+    EXPECT_NE(found.text.find("surface point 2 lies "), std::string::npos) << found.text;
+    EXPECT_GT(*found.value_mm, 10);
+}
+
 TEST(ContourCheck, ContradictionsBeyondTheLimit) {
     const Plane sagittal = make_plane({0, 0, 0}, {1, 0, 0});
     EXPECT_TRUE(check_contour_set(ball_and(test::circle(sagittal, 20, 60))).empty());

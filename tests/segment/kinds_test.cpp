@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "kontur/base/error.h"
 #include "kontur/measure/components.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"
@@ -115,6 +116,26 @@ TEST(Kinds, SinglePointsOnTheSurfacePinIt) {
     EXPECT_GT(dice(result, body), without);
     EXPECT_GT(dice(result, body), 0.985);
     for (const SurfacePoint& p : drawn.surface) EXPECT_LT(std::abs(result.function.value(p.position)), 0.05);
+    EXPECT_TRUE(result.report.warnings.empty()) << result.report.warnings.front();
+}
+
+TEST(Kinds, SinglePointsThatTheSurfaceDoesNotReachAreReported) {
+    const Body body = test::ellipsoid({}, {28, 20, 16});
+    ContourSet drawn = draw_sections(body, test::axial_planes({-6, 0, 6}), 300);
+    drawn.surface = {{{0, 0, 16}, {}}, {{0, 0, 0}, {}}, {{45, 0, 0}, {}}};
+    const Segmentation result = segment(drawn, grid_over(body, 2));
+    EXPECT_TRUE(warns(result.report, "2 of 3 surface points could not be reached, the first of them point 2"));
+    EXPECT_GT(dice(result, body), 0.95) << "the drawn contours keep the surface";
+}
+
+TEST(Kinds, HolesInNothingAreReportedAndHolesAloneRefused) {
+    const Body body = test::ellipsoid({}, {28, 20, 16});
+    ContourSet drawn = draw_sections(body, planes(-10, 10, 5), 100);
+    drawn.contours[0].hole = true;
+    EXPECT_TRUE(warns(segment(drawn, grid_over(body, 4)).report,
+                      "1 contours are holes where nothing is drawn around them, the first of them contour 1"));
+    for (Contour& contour : drawn.contours) contour.hole = true;
+    EXPECT_THROW(segment(drawn, grid_over(body, 4)), Error);
 }
 
 TEST(Kinds, AClickDeepInsideOrFarOutsideChangesNothing) {

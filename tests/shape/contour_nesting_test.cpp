@@ -66,5 +66,16 @@ TEST(FindNesting, NamesContoursThatOverlapInPart) {
     EXPECT_EQ(nesting.crossings, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}}));
 }
 
+TEST(ApplyFillRule, NamesHolesAroundWhichNothingIsDrawn) {
+    ContourSet set;
+    set.contours = {circle(20, 0, 0), circle(4, 1, 0), circle(5, 40, 0), circle(2, 1, 0)};
+    for (const std::size_t c : {1, 2, 3}) set.contours[c].hole = true;
+    for (const FillRule rule : {FillRule::even_odd, FillRule::declared}) {
+        ContourSet filled = set;
+        EXPECT_EQ(apply_fill_rule(filled, rule).stray_holes, (std::vector<std::size_t>{2, 3})) << name(rule);
+        EXPECT_EQ(apply_fill_rule(filled, rule).stray_holes, (std::vector<std::size_t>{2, 3})) << "done again";
+    }
+}
+
 }  // namespace
 }  // namespace kontur

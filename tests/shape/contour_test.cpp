@@ -91,6 +91,25 @@ TEST(CheckContours, SurfacePointsAreFiniteAndTheirDirectionsUnit) {
     EXPECT_EQ(refusal(set), "point 1 of the surface points has a NaN or infinite coordinate");
 }
 
+TEST(CheckContours, RefusesSurfacePointsOfAnotherPlace) {
+    ContourSet set = three_circles();
+    const double size = bounding_box(set).diagonal();
+    const Vec3 center = bounding_box(set).center();
+    set.surface = {{center + Vec3{99 * size, 0, 0}}};
+    EXPECT_EQ(refusal(set), "");
+    set.surface.push_back({center + Vec3{0, 1000 * size, 0}});
+    EXPECT_NE(refusal(set).find("surface point 2 lies "), std::string::npos);
+    EXPECT_NE(refusal(set).find(" mm from the contours, 1e+03 times their size; the limit is 100 times"), std::string::npos);
+}
+
+TEST(CheckContours, RefusesHolesInNothing) {
+    ContourSet set = three_circles();
+    for (Contour& contour : set.contours) contour.hole = true;
+    EXPECT_EQ(refusal(set), "all contours are holes (3); at least 1 must be none");
+    set.contours[1].hole = false;
+    EXPECT_EQ(refusal(set), "");
+}
+
 TEST(CheckContours, NamesThePointThatIsNotFinite) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         for (int axis = 0; axis < 3; ++axis) {

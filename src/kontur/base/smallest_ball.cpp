@@ -80,15 +80,22 @@ Held hold(const std::vector<Vec3>& support, const Vec3& outside) {
 Ball3 smallest_ball(std::span<const Vec3> points) {
     constexpr int kMostPasses = 1000;  // far more than needed: each pass makes the ball grow
     if (points.empty()) return {};
-    Held held{{points[0], 0}, {points[0]}};
+    // From one of the points: far from the origin the centre would be rounded more than the slack allows.
+    const Vec3 origin = points[0];
+    std::vector<Vec3> from_origin(points.size());
+    std::transform(points.begin(), points.end(), from_origin.begin(), [&](const Vec3& p) { return p - origin; });
+    Held held{{{}, 0}, {{}}};
     for (int pass = 0; pass < kMostPasses; ++pass) {
-        const Vec3& farthest = farthest_from(held.ball.center, points);
+        const Vec3& farthest = farthest_from(held.ball.center, from_origin);
         if (contains(held.ball, farthest)) break;
         Held grown = hold(held.support, farthest);
-        if (!(grown.ball.radius > held.ball.radius)) break;  // rounding
+        if (!(grown.ball.radius > held.ball.radius)) {  // rounding
+            held.ball.radius = distance(held.ball.center, farthest);
+            break;
+        }
         held = std::move(grown);
     }
-    return held.ball;
+    return {origin + held.ball.center, held.ball.radius};
 }
 
 }  // namespace kontur

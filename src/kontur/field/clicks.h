@@ -21,7 +21,8 @@ std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm);
 /// exterior one.
 std::vector<std::string> contradictory_clicks(const DrawnPlanes& planes, double margin_mm);
 
-/// The points that did not get their side, one sentence each.
-std::vector<std::string> missed_clicks(const ContourSet& set, const ImplicitFunction& function);
+/// The points that did not get their side, one sentence each, and one on those of the set's surface points that the surface
+/// passes farther from than `reach_mm`.
+std::vector<std::string> missed_clicks(const ContourSet& set, const ImplicitFunction& function, double reach_mm);
 
 }  // namespace kontur

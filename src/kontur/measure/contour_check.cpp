@@ -59,31 +59,24 @@ private:
         return false;
     }
 
-    /// By check_contours, once repeated points are left out.
+    /// By contour_problem, once repeated points are left out.
     bool is_refused() {
         Contour cleaned = contour_;
         cleaned.points = points_;
-        const std::vector<std::string> problems = contour_problems({{}, {cleaned}, {}, {}}, limits_);
-        if (problems.empty()) return false;
+        const std::optional<std::string> problem = contour_problem(cleaned, contour_name(index_), limits_);
+        if (!problem) return false;
         const auto off_plane = [&](const Vec3& p) { return std::abs(contour_.plane.distance_to(p)); };
         const Vec3 worst = *std::max_element(points_.begin(), points_.end(),
                                              [&](const Vec3& a, const Vec3& b) { return off_plane(a) < off_plane(b); });
         const double off = off_plane(worst), width = width_mm(points_);
-        if (problems.front().find("off its plane") != std::string::npos)
+        if (problem->find("off its plane") != std::string::npos)
             add(FindingKind::off_plane, Severity::error, fmt::format("has a point {:.3g} mm off its plane", off), worst,
                 off);
-        else if (problems.front().find("no area") != std::string::npos)
+        else if (problem->find("no area") != std::string::npos)
             add(FindingKind::no_area, Severity::error, fmt::format("has no area: it is {:.2g} mm wide", width),
                 points_.front(), width);
-        else add_other(problems.front());
+        else findings_.push_back({FindingKind::unusable, Severity::error, *problem, index_});
         return true;
-    }
-
-    void add_other(std::string problem) {
-        const std::string_view number = "contour 1";  // counted in a set of this contour alone
-        if (const std::size_t at = problem.find(number); at != std::string::npos)
-            problem.replace(at, number.size(), contour_name(index_));
-        findings_.push_back({FindingKind::unusable, Severity::error, problem, index_});
     }
 
     void find_repeated_points() {

@@ -48,6 +48,7 @@ public:
         find_contradictions();
         find_misplaced(set_.interior, true);
         find_misplaced(set_.exterior, false);
+        find_misplaced_on_surface();
         find_isolated();
         find_gaps();
         if (sections_.size() == 1)
@@ -194,6 +195,23 @@ private:
                 break;
             }
     }
+    /// Surface points that lie off the contours of a drawn plane.
+    void find_misplaced_on_surface() {
+        for (std::size_t i = 0; i < set_.surface.size(); ++i)
+            for (const Section& section : sections_) {
+                const Vec3& p = set_.surface[i].position;
+                const double clearance = section.clearance(section.plane.to_uv(p));
+                if (std::abs(section.plane.distance_to(p)) > 1.5e-3 * diameter_ || clearance <= limit_ || has_open(section))
+                    continue;
+                Finding& finding =
+                    add(FindingKind::misplaced_point, Severity::warning,
+                        fmt::format("surface point {} lies {:.3g} mm from the contours of its plane", i + 1, clearance));
+                finding.position = p;
+                finding.value_mm = clearance;
+                break;
+            }
+    }
+
     bool has_open(const Section& section) const {
         return std::any_of(section.contours.begin(), section.contours.end(),
                            [&](std::size_t c) { return !contour(c).closed; });
@@ -292,16 +310,16 @@ std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCh
             sound.set.contours.push_back(set.contours[c]);
             sound.index.push_back(c);
         }
-    ContourSet without_contours = set;
-    without_contours.contours.clear();
-    const std::vector<std::string> problems = contour_problems(without_contours, options.limits);
-    for (std::size_t i = set.contours.empty() ? 0 : 1; i < problems.size(); ++i)  // the first one: there is no contour
-        findings.push_back({i == 0 ? FindingKind::no_contours : FindingKind::unusable, Severity::error, problems[i]});
+    for (const std::string& problem : set_problems(set))
+        findings.push_back({findings.empty() && set.contours.empty() ? FindingKind::no_contours : FindingKind::unusable,
+                            Severity::error, problem});
     const auto keep_finite = [](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
         std::copy_if(from.begin(), from.end(), std::back_inserter(to), [](const Vec3& p) { return is_finite(p); });
     };
     keep_finite(set.interior, sound.set.interior);
     keep_finite(set.exterior, sound.set.exterior);
+    std::copy_if(set.surface.begin(), set.surface.end(), std::back_inserter(sound.set.surface),
+                 [](const SurfacePoint& p) { return is_finite(p.position); });
     if (!sound.set.contours.empty()) SetCheck(sound, options, findings).run();
     std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
         return std::pair(-static_cast<int>(a.severity), a.contour.value_or(0)) <

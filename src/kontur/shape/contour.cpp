@@ -80,11 +80,34 @@ void check_contour(const Contour& contour, const ContourCheckOptions& options, c
     check_meaning(contour, owner);
 }
 
-void check_surface_point(const SurfacePoint& point, std::size_t number) {
+/// Some contour must have the object on its inside.
+void check_encloses(const std::vector<Contour>& contours) {
+    if (contours.empty()) refuse("there is no contour; at least 1 is needed");
+    if (std::all_of(contours.begin(), contours.end(), [](const Contour& contour) { return contour.hole; }))
+        refuse(fmt::format("all contours are holes ({}); at least 1 must be none", contours.size()));
+}
+
+void check_surface_point(const SurfacePoint& point, std::size_t number, const Box3& contours) {
     check_finite(point.position, number, "the surface points");
+    const double away = distance(point.position, contours.center()), size = contours.diagonal();
+    if (away > kFarthestSurfacePoint * size)
+        refuse(fmt::format(
+            "surface point {} lies {:.3g} mm from the contours, {:.3g} times their size; the limit is {:g} times", number,
+            away, away / size, kFarthestSurfacePoint));
     if (point.outward && !is_unit(*point.outward))
         refuse(
             fmt::format("the outward direction of surface point {} has length {:g}, not 1", number, norm(*point.outward)));
+}
+
+/// The sentence with which a check refuses.
+template <class Check>
+std::optional<std::string> refusal(const Check& check) {
+    try {
+        check();
+        return std::nullopt;
+    } catch (const Error& error) {
+        return error.what();
+    }
 }
 
 bool is_inside(const Grid& grid, const Vec3& index) {
@@ -162,19 +185,31 @@ void check_contours(const ContourSet& set, const ContourCheckOptions& options) {
 
 std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options) {
     std::vector<std::string> problems;
-    const auto collect = [&](const auto& check) {
-        try {
-            check();
-        } catch (const Error& error) {
-            problems.emplace_back(error.what());
-        }
-    };
-    if (set.contours.empty()) problems.emplace_back("there is no contour; at least 1 is needed");
     for (std::size_t i = 0; i < set.contours.size(); ++i)
-        collect([&] { check_contour(set.contours[i], options, fmt::format("contour {}", i + 1)); });
+        if (const auto problem = contour_problem(set.contours[i], fmt::format("contour {}", i + 1), options))
+            problems.push_back(*problem);
+    const std::vector<std::string> others = set_problems(set);
+    problems.insert(problems.end(), others.begin(), others.end());
+    return problems;
+}
+
+std::optional<std::string> contour_problem(const Contour& contour, const std::string& name,
+                                           const ContourCheckOptions& options) {
+    return refusal([&] { check_contour(contour, options, name); });
+}
+
+std::vector<std::string> set_problems(const ContourSet& set) {
+    std::vector<std::string> problems;
+    const auto collect = [&](const auto& check) {
+        if (const auto problem = refusal(check)) problems.push_back(*problem);
+    };
+    collect([&] { check_encloses(set.contours); });
     collect([&] { check_all_finite(set.interior, "the interior points"); });
     collect([&] { check_all_finite(set.exterior, "the exterior points"); });
-    for (std::size_t i = 0; i < set.surface.size(); ++i) collect([&] { check_surface_point(set.surface[i], i + 1); });
+    Box3 box;
+    for (const Contour& contour : set.contours)
+        for (const Vec3& p : contour.points) box.extend(p);
+    for (std::size_t i = 0; i < set.surface.size(); ++i) collect([&] { check_surface_point(set.surface[i], i + 1, box); });
     return problems;
 }
 

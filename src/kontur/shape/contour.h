@@ -84,15 +84,27 @@ struct ContourCheckOptions {
     double line_tolerance_mm = 0.002;  ///< a contour no wider than this is a line (files round to 0.001 mm)
 };
 
+/// Of the contours' box diagonal: a surface point farther away would make lengths that follow from the extent larger than
+/// the contours themselves.
+inline constexpr double kFarthestSurfacePoint = 100;
+
 /// Throws Error(invalid_input), naming the contour (counted from 1), the number and the limit, when the set cannot be
-/// segmented: no contour, a closed contour with fewer than 3 points or an open one with fewer than 2, a NaN or infinite
-/// coordinate, a point off its plane by more than the tolerance, a closed contour whose points lie on one line (zero area),
-/// `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole, a weight out of its range. Interior,
-/// exterior and surface points must be finite, outward directions of length 1.
+/// segmented: no contour, none but holes, a closed contour with fewer than 3 points or an open one with fewer than 2, a NaN
+/// or infinite coordinate, a point off its plane by more than the tolerance, a closed contour whose points lie on one line
+/// (zero area), `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole, a weight out of its range.
+/// Interior, exterior and surface points must be finite, outward directions of length 1, and surface points no farther from
+/// the contours than `kFarthestSurfacePoint` times the diagonal of their box.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
 
 /// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.
 std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options = {});
+
+/// The first of them that a contour by itself is to blame for; `name` says which it is.
+std::optional<std::string> contour_problem(const Contour& contour, const std::string& name,
+                                           const ContourCheckOptions& options = {});
+
+/// Those that no single contour is to blame for.
+std::vector<std::string> set_problems(const ContourSet& set);
 
 /// Number of contour points outside of the grid's voxels (their outer faces belong to the grid).
 std::size_t points_outside(const ContourSet& set, const Grid& grid);

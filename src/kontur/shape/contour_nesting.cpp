@@ -60,17 +60,20 @@ FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
     FillChanges changes;
     changes.crossings = nesting.crossings;
     if (rule == FillRule::even_odd) {
-        for (std::size_t i = 0; i < contours.size(); ++i)
-            if (nesting.depth[i] % 2 == 1 && !contours[i].hole) {
-                contours[i].hole = true;
-                ++changes.holes;
-            }
+        for (std::size_t i = 0; i < contours.size(); ++i) {
+            const bool nested = nesting.depth[i] % 2 == 1;
+            if (!nested && contours[i].hole) changes.stray_holes.push_back(i);
+            if (!nested || contours[i].hole) continue;
+            contours[i].hole = true;
+            ++changes.holes;
+        }
         return changes;
     }
     std::vector<Contour> kept;
     for (std::size_t i = 0; i < contours.size(); ++i) {
         int layers = 0;
         for (const std::size_t around : nesting.enclosing[i]) layers += contours[around].hole ? -1 : 1;
+        if (layers <= 0 && contours[i].hole) changes.stray_holes.push_back(i);
         if (layers <= 0 || contours[i].hole) kept.push_back(contours[i]);
     }
     changes.removed = contours.size() - kept.size();

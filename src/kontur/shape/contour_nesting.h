@@ -43,6 +43,7 @@ struct FillChanges {
     std::size_t holes = 0;    ///< contours that became holes because of where they lie
     std::size_t removed = 0;  ///< contours taken out because they lie inside the object (FillRule::declared)
     std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< as Nesting's, indices before any was taken out
+    std::vector<std::size_t> stray_holes;  ///< declared as holes where their plane shows no object, indices likewise
 };
 
 /// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The tolerance of

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "kontur/phantom/cases.h"
 #include "kontur/segment.h"
@@ -14,12 +15,17 @@ namespace kontur {
 namespace {
 
 struct Drawing {
-    std::string name;
     ContourSet contours;
     Grid grid;
 };
 
-void PrintTo(const Drawing& drawing, std::ostream* out) { *out << drawing.name; }
+/// Made by the test that needs it: the program of all tests starts often.
+struct Drawn {
+    std::string name;
+    std::function<Drawing()> draw;
+};
+
+void PrintTo(const Drawn& drawn, std::ostream* out) { *out << drawn.name; }
 
 ContourSet moved(ContourSet set, const Affine3& turn, const Vec3& shift, double scale) {
     const auto move = [&](const Vec3& p) { return shift + scale * turn.apply(p); };
@@ -50,14 +56,16 @@ Affine3 rotation(const Vec3& normal) {
     return turn;
 }
 
-Drawing of_phantom(const std::string& name, std::int64_t step) {
-    const PhantomCase drawn = phantom_case(name);
-    return {name, drawn.contours, test::coarse(drawn.grid, step)};
+Drawn of_phantom(const std::string& name, std::int64_t step) {
+    return {name, [=] {
+                const PhantomCase drawn = phantom_case(name);
+                return Drawing{drawn.contours, test::coarse(drawn.grid, step)};
+            }};
 }
 
 /// Circles of a ball of 20 mm in parallel planes, with a click inside and one outside.
-Drawing ball(std::vector<double> heights) {
-    Drawing drawing{"ball" + std::to_string(heights.size()), {}, test::grid_about({}, {40, 40, 40}, 1.25)};
+Drawing ball(const std::vector<double>& heights) {
+    Drawing drawing{{}, test::grid_about({}, {40, 40, 40}, 1.25)};
     for (const double z : heights)
         drawing.contours.contours.push_back(test::circle(make_plane({0, 0, z}, {0, 0, 1}), std::sqrt(400 - z * z), 60));
     drawing.contours.interior = {{0, 0, 1}};
@@ -75,10 +83,10 @@ Segmentation moved_and_segmented(const Drawing& drawing, const Affine3& turn, co
     return segment(moved(drawing.contours, turn, shift, scale), moved(drawing.grid, turn, shift, scale));
 }
 
-class Equivariance : public testing::TestWithParam<Drawing> {};
+class Equivariance : public testing::TestWithParam<Drawn> {};
 
 TEST_P(Equivariance, MasksScaleWithTheContoursFromMicrometresToAHundredMetres) {
-    const Drawing& drawing = GetParam();
+    const Drawing drawing = GetParam().draw();
     const Segmentation original = segment(drawing.contours, drawing.grid);
     ASSERT_GT(original.report.mask_voxels, 1000);
     Affine3 axes_exchanged;
@@ -95,7 +103,7 @@ TEST_P(Equivariance, MasksScaleWithTheContoursFromMicrometresToAHundredMetres) {
 }
 
 TEST_P(Equivariance, MasksTurnWithTheContours) {
-    const Drawing& drawing = GetParam();
+    const Drawing drawing = GetParam().draw();
     const Segmentation original = segment(drawing.contours, drawing.grid);
     for (const Vec3& axis : {Vec3{0.3, -0.5, 0.8}, Vec3{-1, 1, 0.2}}) {
         const Segmentation result = moved_and_segmented(drawing, rotation(axis), {70, -200, 900}, 1);
@@ -107,7 +115,11 @@ TEST_P(Equivariance, MasksTurnWithTheContours) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drawings, Equivariance,
-                         testing::Values(ball({-12, 0, 9}), ball({3}), of_phantom("metastasis_parallel7", 3),
+                         testing::Values(Drawn{"ball3",
+                                               [] {
+                                                   return ball({-12, 0, 9});
+                                               }},
+                                         Drawn{"ball1", [] { return ball({3}); }}, of_phantom("metastasis_parallel7", 3),
                                          of_phantom("kidney_radial6_hand", 2), of_phantom("vertebra_parallel11_hand", 3),
                                          of_phantom("liver_oblique10_hand", 6)),
                          [](const auto& info) { return info.param.name; });

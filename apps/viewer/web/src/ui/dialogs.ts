@@ -52,7 +52,9 @@ export interface ExportServices {
 }
 
 /** What a user may believe to be in the file, and is not. */
-function missing({ sketch, hasUnsaved }: Editor): HTMLElement[] {
+function missing({ drawing }: Editor): HTMLElement[] {
+  const { sketch } = drawing;
+  const { hasUnsaved } = drawing.outbox;
   if (!sketch && !hasUnsaved) return [];
   const what = hasUnsaved ? "A contour that you closed is not saved" : "The contour that you are drawing is not closed";
   return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];

@@ -9,7 +9,7 @@ import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session
 import { Socket, type ConnectionState } from "./net/socket";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
-import type { SavedSketch } from "./tools/sketch";
+import type { SavedSketch, Sketch } from "./tools/sketch";
 import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
@@ -25,7 +25,7 @@ interface SavedPage {
   structure: number;
   hintSeen: boolean;
   sketch?: SavedSketch;
-  unsaved?: SavedSketch[]; // contours that were closed, and that the server had not taken yet
+  unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
 }
 
 const SAVE_PAGE_MS = 400;
@@ -72,7 +72,7 @@ export class App {
       screenOf: (view) => this.views.get(view)?.screen() ?? null,
       failed,
       tell: (text) => this.notices.show("info", text),
-      notSaved: (why) => this.tellNotSaved(why),
+      notSaved: (sketch, why) => this.tellNotSaved(sketch, why),
     });
     const shared = { navigation: this.navigation, project: this.project, editor: this.editor, http: this.http, failed };
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
@@ -228,9 +228,9 @@ export class App {
     this.status.setSaved(this.connection, isSending ? Math.max(this.unsaved, 1) : this.unsaved, hasUnsaved || this.editWasLost);
   }
 
-  private tellNotSaved(why: string): void {
+  private tellNotSaved(sketch: Sketch, why: string): void {
     this.closeUnsavedNotice();
-    const stays = "The contour that you closed is not saved. It stays on its slice: Enter tries again, Esc gives it up.";
+    const stays = `${sketch.title} is not saved. It stays on its slice: Enter tries again, Esc gives it up.`;
     this.closeUnsavedNotice = this.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescue()].join(" "));
     this.tellSaved();
   }

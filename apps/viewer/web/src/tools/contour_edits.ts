@@ -27,7 +27,7 @@ export class ContourEdits {
     private readonly services: EditorServices,
   ) {}
 
-  /** Carries out a call that changes the project, after the closed contours that are on their way. */
+  /** Carries out a call that changes the project, after the sketches that are on their way. */
   make(name: string, args: Record<string, unknown>): void {
     const { drawing, project, services } = this;
     if (drawing.outbox.isSending) return drawing.outbox.afterSending(() => this.make(name, args));
@@ -68,6 +68,7 @@ export class ContourEdits {
   }
 
   redraw(screen: Screen, step_mm: number, pointer: Point2, hit: ContourHit | null): Gesture | null {
+    if (this.drawing.holdsUnsaved()) return null;
     const id = hit?.contour ?? this.project.selection?.contour;
     const contour = id === undefined ? undefined : this.project.contour(id);
     if (!contour || !inView(contour, screen, step_mm)) {
@@ -83,7 +84,7 @@ export class ContourEdits {
       },
       end: () => {
         this.drawing.showHand([]);
-        if (hand.length > 2) this.make("contour.redraw", { id: contour.id, path: hand });
+        if (hand.length > 2) this.drawing.redraw(contour, hand);
       },
       cancel: () => this.drawing.showHand([]),
     };

@@ -5,7 +5,7 @@ import type { Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Project } from "../model/project";
 import { Latest } from "../net/latest";
-import type { PathResult, StretchKind } from "../net/protocol";
+import type { Contour, PathResult, StretchKind } from "../net/protocol";
 import type { EditorServices } from "./editor";
 import { CLICK_PIXELS, type Gesture } from "./gesture";
 import { Outbox } from "./outbox";
@@ -14,7 +14,7 @@ import { Sketch } from "./sketch";
 const CLOSE_PIXELS = 11;
 const HAND_STEP_PIXELS = 1.5;
 
-/** The contour that is being drawn: its points and lines, its own undo and redo, and its closing. */
+/** The contour that is being drawn, or a piece of one that is not saved: its points and lines, its own undo and redo, and its closing. */
 export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
   sketch: Sketch | null = null;
   /** The sketch's line as the server made it, and the line on to the pointer. */
@@ -47,10 +47,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
 
   /** `kind` is that of a line from a point that is clicked. */
   press(screen: Screen, step_mm: number, pointer: Point2, kind: StretchKind): Gesture | null {
-    if (this.sketch?.isClosed) {
-      this.services.tell("The contour that you drew is not saved. Enter tries again, Esc gives it up.");
-      return null;
-    }
+    if (this.holdsUnsaved()) return null;
     if (this.sketch && !this.sketch.liesIn(planeOf(screen), step_mm / 2)) {
       this.services.tell("The contour you began lies in another plane. Enter closes it, Esc leaves it.");
       return null;
@@ -77,6 +74,13 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
       },
       cancel: () => this.showHand([]),
     };
+  }
+
+  /** What is finished has to be saved or given up before the next is begun; says so. */
+  holdsUnsaved(): boolean {
+    if (!this.sketch?.isClosed) return false;
+    this.services.tell(`${this.sketch.title} is not saved. Enter tries again, Esc gives it up.`);
+    return true;
   }
 
   showHand(line: Vec3[]): void {
@@ -179,17 +183,22 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
 
   // Beginning and end
 
-  /** Makes a contour of the sketch. */
+  /** Redraws a piece of a contour by this stroke. */
+  redraw(contour: Contour, stroke: readonly Vec3[]): void {
+    this.send(Sketch.redrawing(contour, stroke));
+  }
+
+  /** Makes a contour of the sketch, or tries again to redraw the piece. */
   close(): void {
     const sketch = this.sketch;
     if (!sketch) return;
     if (!sketch.canClose) return this.services.tell("A contour needs at least three points.");
-    const line = sketch.isClosed || this.placedLine.length < 2 ? sketch.closedLine() : [...this.placedLine, sketch.first!];
+    const line = sketch.isClosed || this.placedLine.length < 2 ? sketch.finishedLine() : [...this.placedLine, sketch.first!];
     this.clear();
     this.send(sketch, line);
   }
 
-  private send(sketch: Sketch, line = sketch.closedLine()): void {
+  private send(sketch: Sketch, line = sketch.finishedLine()): void {
     this.leftSketch = null;
     this.outbox.add(sketch, line);
     this.changed();
@@ -241,13 +250,14 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
 
   /** What undo and redo do to the sketch, or to the one that was left last; null: they are the project's. */
   get undoLabel(): string | null {
-    if (this.sketch) return "Place a point";
-    return this.leftSketch?.by === "leaving" ? "Leave the contour" : null;
+    if (this.sketch) return this.sketch.lastStep;
+    if (this.leftSketch?.by !== "leaving") return null;
+    return this.leftSketch.sketch.redraws === undefined ? "Leave the contour" : "Leave the piece";
   }
 
   get redoLabel(): string | null {
-    if (this.sketch) return this.sketch.canRestore ? "Place a point" : null;
-    return this.leftSketch?.by === "undo" ? "Place a point" : null;
+    if (this.sketch) return this.sketch.canRestore ? this.sketch.lastStep : null;
+    return this.leftSketch?.by === "undo" ? this.leftSketch.sketch.lastStep : null;
   }
 
   /** False where there is nothing of this kind to undo. */

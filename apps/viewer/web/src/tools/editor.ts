@@ -9,6 +9,7 @@ import { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import { hitContour, type ContourHit, type LineHit } from "./hit";
 import { PlaneLines } from "./plane_lines";
+import type { Sketch } from "./sketch";
 
 export type ToolName = "edit" | "freehand" | "spline" | "wire" | "redraw" | "move";
 
@@ -20,8 +21,8 @@ export interface EditorServices {
   screenOf(view: ViewName): Screen | null;
   failed(error: unknown): void;
   tell(text: string): void;
-  /** A closed contour that the server did not take, which stays. */
-  notSaved(why: string): void;
+  /** What the user has finished, and the server did not take: it stays. */
+  notSaved(sketch: Sketch, why: string): void;
 }
 
 export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
@@ -59,7 +60,8 @@ export class Editor extends Emitter<"tool" | "hover"> {
   }
 
   private takeToolOfSketch(): void {
-    this.tool = TOOL_OF_KIND[this.drawing.sketch!.kind];
+    const { redraws, kind } = this.drawing.sketch!;
+    this.tool = redraws === undefined ? TOOL_OF_KIND[kind] : "redraw";
     this.emit("tool");
   }
 

@@ -7,7 +7,7 @@ import type { Drawing } from "./drawing";
 import type { EditorServices } from "./editor";
 import { Sketch, type SavedSketch } from "./sketch";
 
-/** Closed sketches, until the server has them. What it does not take goes back to the drawing, one after the other. */
+/** Sketches that are finished (closed contours, redrawn pieces) until the server has them. What it does not take goes back to the drawing, one after the other. */
 export class Outbox {
   private readonly sending = new Map<Sketch, Vec3[]>(); // with their lines
   private readonly waiting: Sketch[] = []; // not taken by the server, and not shown yet
@@ -21,7 +21,7 @@ export class Outbox {
     project.on(["contours"], () => this.forgetSaved());
   }
 
-  /** Whether a closed contour is not saved, and waits for the user to try again. */
+  /** Whether something finished is not saved, and waits for the user to try again. */
   get hasUnsaved(): boolean {
     return this.drawing.sketch?.isUnsaved === true || this.waiting.length > 0;
   }
@@ -30,15 +30,15 @@ export class Outbox {
     return this.sending.size > 0;
   }
 
-  /** Carries out what belongs behind the closed contours that are on their way. */
+  /** Carries out what belongs behind the sketches that are on their way. */
   afterSending(act: () => void): void {
     if (this.isSending) void this.sent.then(act);
     else act();
   }
 
-  /** The lines of closed contours that are not there yet, for as long as that takes. */
+  /** The lines of sketches that the project does not have yet, for as long as that takes. */
   lines(): { sketch: Sketch; line: Vec3[] }[] {
-    return [...this.sending, ...this.waiting.map((sketch): [Sketch, Vec3[]] => [sketch, sketch.closedLine()])].map(([sketch, line]) => ({ sketch, line }));
+    return [...this.sending, ...this.waiting.map((sketch): [Sketch, Vec3[]] => [sketch, sketch.finishedLine()])].map(([sketch, line]) => ({ sketch, line }));
   }
 
   /** What a next visit has to bring back beside the sketch. */
@@ -52,7 +52,7 @@ export class Outbox {
     const current = sketch && Sketch.from(sketch);
     if (current && !this.isSaved(current)) this.drawing.resume(current);
     this.showNext();
-    if (this.hasUnsaved) this.services.notSaved("Before this page was opened the connection to kontur was lost, or it could not save.");
+    if (this.hasUnsaved) this.services.notSaved(this.drawing.sketch ?? this.waiting[0]!, "Before this page was opened the connection to kontur was lost, or it could not save.");
   }
 
   /** `line` is what is seen of the sketch meanwhile. */
@@ -68,7 +68,7 @@ export class Outbox {
 
   private async send(sketch: Sketch): Promise<void> {
     try {
-      const contour = await this.addContour(sketch);
+      const contour = await (sketch.redraws === undefined ? this.addContour(sketch) : this.redraw(sketch));
       this.sending.delete(sketch);
       if (!this.drawing.sketch) this.project.select({ contour: contour.id, point: null });
     } catch (error) {
@@ -91,12 +91,16 @@ export class Outbox {
     return contour;
   }
 
+  private async redraw(sketch: Sketch): Promise<Contour> {
+    return (await this.services.call<{ contour: Contour }>("contour.redraw", { id: sketch.redraws, path: sketch.line() })).contour;
+  }
+
   private async addStructure(): Promise<number> {
     const { structure } = await this.services.call<{ structure: { id: number } }>("structure.add");
     return structure.id;
   }
 
-  /** Holds on to what the user has closed. A stroke that can never be a contour is only put aside. */
+  /** Holds on to what the user has finished. A stroke that can never be a contour, or a piece of this one, is only put aside. */
   private keep(sketch: Sketch, error: unknown): void {
     if (error instanceof ServerError && error.kind === "invalid_input" && sketch.isClosed && sketch.points.length === 1) {
       this.drawing.putAside(sketch);
@@ -105,14 +109,14 @@ export class Outbox {
     sketch.isUnsaved = true;
     this.waiting.unshift(sketch);
     this.forgetSaved();
-    if (this.waiting.includes(sketch)) this.services.notSaved(error instanceof Error ? error.message : String(error));
+    if (this.waiting.includes(sketch)) this.services.notSaved(sketch, error instanceof Error ? error.message : String(error));
   }
 
   private isSaved(sketch: Sketch): boolean {
     return [...this.project.contours.values()].some((contour) => sketch.became(contour));
   }
 
-  /** The reply may be lost of a contour that was saved: then it must not be offered once more. */
+  /** The reply may be lost of a sketch that was saved: then it must not be offered once more. */
   private forgetSaved(): void {
     const waiting = this.waiting.filter((sketch) => !this.isSaved(sketch));
     const shown = this.drawing.sketch;
@@ -122,6 +126,6 @@ export class Outbox {
     if (isShownSaved) this.drawing.clear();
     this.showNext();
     this.drawing.changed();
-    this.services.tell("The contour had been saved before the connection was lost.");
+    this.services.tell("What you drew last had been saved before the connection was lost.");
   }
 }

@@ -110,12 +110,12 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
       calls.push({ name, args: structuredClone(args) }); // the sketch goes on
       if (server.refusal) return Promise.reject(server.refusal);
       const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));
-      return Promise.resolve({ control, points: control.map((point) => point.at), contour: square(9) } as never);
+      return Promise.resolve({ control, points: control.map((point) => point.at), contour: square((args["id"] as number) ?? 9) } as never);
     },
     screenOf: () => screen,
     failed: (error) => (server.refusal ? complaints.push(String(error)) : assert.fail(String(error))),
     tell: (text) => complaints.push(text),
-    notSaved: (why) => complaints.push(why),
+    notSaved: (_, why) => complaints.push(why),
   });
   editor.choose(tool);
   const press = (p: Point2, modifiers = {}): Gesture | null => editor.press("axial", screen, p, { ctrl: false, shift: false, ...modifiers });
@@ -413,6 +413,110 @@ test("while the next contour is drawn one that was not saved waits, and then com
   assert.equal(drawing.sketch, first);
   drawing.leave();
   assert.ok(!outbox.hasUnsaved, "the user gave it up");
+});
+
+/** What the server makes of a square by a stroke: it replaces the last side, thinned, and backwards if it was drawn so. */
+function redrawnBy(path: Vec3[], backwards = false): Contour {
+  const { points, control } = square(5);
+  const stroke = [path[0]!, ...path.slice(1, -1).filter((_, i) => i % 2 === 0), path.at(-1)!];
+  return square(5, { points: [...points, ...(backwards ? stroke.reverse() : stroke)], control: control.map((point, i) => (i < 3 ? point : { ...point, kind: "free" })) });
+}
+
+const STROKE: Point2[] = [[180, 215], [172, 210], [168, 205], [166, 200], [168, 195], [172, 190], [180, 185]];
+
+test("a redrawn piece that the server does not take stays, whatever tool comes next, until it does", async () => {
+  const { editor, drawing, outbox, drag, edits, settled, server, complaints } = editing("redraw");
+  server.refusal = DISK_FULL;
+  drag(...STROKE);
+  await settled();
+  assert.deepEqual(complaints, [DISK_FULL.message]);
+  assert.ok(outbox.hasUnsaved);
+  assert.deepEqual(drawing.placedLine, edits()[0]!.args["path"], "it is seen, as it was drawn");
+  drag(...STROKE);
+  assert.match(complaints.at(-1)!, /Enter tries again/);
+  editor.choose("edit");
+  editor.choose("wire");
+  server.refusal = null;
+  drawing.close();
+  await settled();
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
+  const [first, second] = edits();
+  assert.equal(edits().length, 2);
+  assert.equal(second!.name, "contour.redraw");
+  assert.deepEqual(first!.args, second!.args);
+});
+
+test("a redrawn piece that is given up comes back by undo, one that is undone by redo", async () => {
+  const { editor, drawing, outbox, drag, settled, server } = editing("redraw");
+  server.refusal = DISK_FULL;
+  drag(...STROKE);
+  await settled();
+  const stroke = drawing.sketch!;
+  assert.equal(drawing.undoLabel, "Redraw a part");
+  drawing.undo();
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
+  assert.equal(drawing.redoLabel, "Redraw a part");
+  editor.choose("edit");
+  drawing.redo();
+  assert.equal(editor.tool, "redraw");
+  assert.equal(drawing.sketch, stroke);
+  drawing.leave();
+  assert.equal(drawing.undoLabel, "Leave the piece");
+  drawing.undo();
+  assert.equal(drawing.sketch, stroke);
+});
+
+test("a redrawn piece that was saved before its reply was lost is not offered once more", async () => {
+  for (const backwards of [false, true]) {
+    const { drawing, outbox, project, drag, edits, settled, server } = editing("redraw");
+    server.refusal = LOST;
+    drag(...STROKE);
+    await settled();
+    const path = edits()[0]!.args["path"] as Vec3[];
+    project.start(session({ contours: [square(5), { ...redrawnBy(path), id: 6 }] }));
+    project.start(session({ contours: [redrawnBy(path.map(([x, y, z]) => [x + 0.1, y, z]))] }));
+    assert.ok(outbox.hasUnsaved, "only other strokes were saved");
+    project.start(session({ contours: [redrawnBy(path, backwards)] }));
+    assert.equal(drawing.sketch, null);
+    assert.ok(!outbox.hasUnsaved);
+  }
+});
+
+test("a next visit brings back a redrawn piece that was not saved, and not one that was", async () => {
+  const { outbox, drag, edits, settled, server } = editing("redraw");
+  server.refusal = LOST;
+  drag(...STROKE);
+  const unsaved = JSON.parse(JSON.stringify(outbox.saved())) as ReturnType<typeof outbox.saved>;
+  await settled();
+  const path = edits()[0]!.args["path"] as Vec3[];
+  const later = editing("edit");
+  later.outbox.restore(undefined, unsaved);
+  assert.ok(later.outbox.hasUnsaved);
+  later.drawing.close();
+  await later.settled();
+  assert.deepEqual(later.edits(), [{ name: "contour.redraw", args: { id: 5, path } }]);
+  const other = editing("edit", [redrawnBy(path)]);
+  other.outbox.restore(undefined, unsaved);
+  assert.ok(!other.outbox.hasUnsaved);
+});
+
+test("a stroke beside the contour's plane is redrawn in that plane", async () => {
+  const { drag, edits, settled } = editing("redraw", [square(5, { plane: { ...plane, origin: [0, 0, 0.5] }, points: square(5).points.map(([x, y]) => [x, y, 0.5]) })]);
+  drag(...STROKE);
+  await settled();
+  assert.deepEqual((edits()[0]!.args["path"] as Vec3[]).map((p) => p[2]), STROKE.map(() => 0.5));
+});
+
+test("a stroke that redraws nothing is put aside with a word", async () => {
+  const { drawing, outbox, drag, settled, server, complaints } = editing("redraw");
+  server.refusal = new ServerError("invalid_input", "the new part of a contour starts and ends at the same place of it", true);
+  drag(...STROKE);
+  await settled();
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
+  assert.equal(complaints.length, 1);
 });
 
 test("a next visit brings back what was not saved, and not what was", async () => {

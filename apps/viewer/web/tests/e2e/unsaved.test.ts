@@ -34,6 +34,7 @@ beforeEach(async () => {
 cleanUp(folder, () => [browser, server]);
 
 const saved = (state: "saved" | "lost" | "unsaved") => viewer.page.waitForSelector(`[data-test=saved][data-state=${state}]`);
+const silent = (words: string) => viewer.page.locator("[data-test=saved][data-state=silent]", { hasText: words }).waitFor();
 const notice = (words: string) => viewer.page.locator(".notice", { hasText: words });
 const hasSketch = async () => (await viewer.page.locator("[data-test=undo]").getAttribute("title"))!.includes("Place a point");
 
@@ -188,6 +189,64 @@ describe("a piece that was redrawn", () => {
     await notice("had been saved").waitFor();
     assert.ok(isCut());
     await isThereOnce();
+  });
+});
+
+describe("a kontur that is suspended", () => {
+  test("is said not to answer while an edit waits, and when it goes on has the edit once", async () => {
+    const { page } = viewer;
+    await clickSpline();
+    server.suspend();
+    await page.keyboard.press("Enter");
+    await silent("your last edit waits for it");
+    assert.equal(await viewer.contours(), 0);
+    server.resume();
+    await viewer.waitForContours(1);
+    await saved("saved");
+    assert.ok(!(await hasSketch()));
+    await viewer.waitForStep("undo", "Draw a contour");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForContours(0);
+    await page.waitForSelector("[data-test=undo]:disabled");
+    assert.deepEqual(viewer.complaints, []);
+  });
+
+  test("is said not to answer while nothing is done; what is done then waits for it, too", async () => {
+    const { page } = viewer;
+    await drawByHand();
+    await viewer.waitForStep("undo", "Draw a contour");
+    await saved("saved");
+    const before = await viewer.slice("axial");
+    server.suspend();
+    await silent("the page waits for it");
+    await redraw();
+    await silent("your last edit waits for it");
+    await page.mouse.wheel(0, 120);
+    server.resume();
+    await saved("saved");
+    await viewer.slicesShown();
+    assert.notEqual(await viewer.slice("axial"), before);
+    assert.equal(await page.locator(".notice").count(), 0);
+    await viewer.waitForStep("undo", "Redraw a part");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForStep("undo", "Draw a contour");
+    assert.deepEqual(viewer.complaints, []);
+  });
+
+  test("and then killed leaves the contour that was closed meanwhile on its slice", async () => {
+    const { page } = viewer;
+    await clickSpline();
+    server.suspend();
+    await page.keyboard.press("Enter");
+    await silent("your last edit waits for it");
+    await server.end("SIGKILL");
+    await saved("lost");
+    await notice("The contour that you closed is not saved").waitFor();
+    await restart();
+    await saved("unsaved");
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(1);
+    await saved("saved");
   });
 });
 

@@ -65,6 +65,7 @@ export class App {
       event: (event) => this.receive(event),
       connection: (state) => this.connected(state),
       unsaved: (count, acknowledged) => this.countUnsaved(count, acknowledged),
+      knock: () => this.http.knock(),
     });
     const failed = (error: unknown) => this.failed(error);
     this.editor = new Editor(this.navigation, this.project, {

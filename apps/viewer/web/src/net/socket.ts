@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ServerError } from "./http";
+import { Latest } from "./latest";
 import type { ServerEvent } from "./protocol";
 
 interface Pending {
@@ -18,11 +19,13 @@ export interface SocketHandlers {
   connection(state: ConnectionState): void;
   /** How many edits the server has not yet acknowledged, and whether it has just acknowledged one. */
   unsaved(count: number, acknowledged: boolean): void;
+  /** Asks, not over this connection, whether the server answers anything at all. */
+  knock(): Promise<void>;
 }
 
 const RETRY_MS = 1000;
 const TICK_MS = 2500;
-const TICKS_UNTIL_SILENT = 4; // the first one asks for a sign of life
+const TICKS_UNTIL_SILENT = 4; // in which signs of life are asked for
 const READING_CALLS = new Set(["path", "value", "ping", "page.save", "draft.drop"]);
 
 /**
@@ -36,7 +39,12 @@ export class Socket {
   private greeted = false;
   /** Ticks since anything came. They count what the clock does not: a laptop that sleeps, or a tab that is held back, has fewer. */
   private quietTicks = 0;
-  private isAskedForLife = false;
+  private readonly pings = new Latest<void>(() => this.call("ping"));
+  /** Calls are answered in order: while one takes long no ping is, but the server is there. */
+  private readonly knocks = new Latest<void>(async () => {
+    await this.handlers.knock();
+    this.hear();
+  });
 
   constructor(
     private readonly token: string,
@@ -85,13 +93,11 @@ export class Socket {
   private tick(): void {
     if (!this.greeted) return;
     if (++this.quietTicks === TICKS_UNTIL_SILENT) this.handlers.connection("silent");
-    if (this.isAskedForLife) return;
-    this.isAskedForLife = true;
-    const asked = () => (this.isAskedForLife = false);
-    this.call("ping").then(asked, asked);
+    if (!this.pings.busy) this.pings.send();
+    if (this.quietTicks > 1 && !this.knocks.busy) this.knocks.send();
   }
 
-  /** Whatever comes is a sign of life: events, too, while the server computes. */
+  /** Whatever comes is a sign of life. */
   private hear(): void {
     const wasSilent = this.quietTicks >= TICKS_UNTIL_SILENT;
     this.quietTicks = 0;

@@ -250,6 +250,22 @@ describe("a kontur that is suspended", () => {
   });
 });
 
+test("a kontur that takes long over a call is not said not to answer", async () => {
+  const { page } = viewer;
+  let isBusy = false;
+  await page.routeWebSocket("**/api/socket", (socket) => {
+    const beyond = socket.connectToServer();
+    beyond.onMessage((message) => isBusy || socket.send(message));
+  });
+  await page.reload();
+  await viewer.ready();
+  isBusy = true;
+  await drawByHand();
+  for (let i = 0; i < 4; ++i) await page.waitForResponse("**/icon.svg"); // each asked for 5 s after the one before
+  assert.equal(await page.getAttribute("body", "data-connection"), "open");
+  assert.equal(await page.getAttribute("[data-test=saved]", "data-state"), "saving");
+});
+
 describe("without a connection", () => {
   test("an edit that kontur had not confirmed is said to be perhaps lost, until one is saved", async () => {
     const { page } = viewer;

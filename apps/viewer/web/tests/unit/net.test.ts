@@ -87,7 +87,7 @@ interface Timers {
 }
 
 /** A socket in a page whose clock the test turns, and what it tells. */
-function connecting(context: TestContext): { socket: Socket; told: string[]; timers: Timers } {
+function connecting(context: TestContext, knock = () => new Promise<void>(() => undefined)): { socket: Socket; told: string[]; timers: Timers } {
   const { setTimeout, setInterval } = globalThis;
   context.after(() => Object.assign(globalThis, { setTimeout, setInterval }));
   const intervals: (() => void)[] = [];
@@ -105,6 +105,7 @@ function connecting(context: TestContext): { socket: Socket; told: string[]; tim
     event: ({ event }) => told.push(event),
     connection: (state) => told.push(state),
     unsaved: (count, acknowledged) => told.push(`${count}${acknowledged ? " acknowledged" : ""}`),
+    knock,
   });
   return { socket, told, timers: { tick: () => intervals.forEach((act) => act()) } };
 }
@@ -150,6 +151,26 @@ test("a connection over which nothing comes for 10 s is silent until something d
   assert.equal(await edit, "done");
   assert.deepEqual(told, ["open", "0 acknowledged"]);
   assert.deepEqual(last.sent.slice(9).map(({ call }) => call), ["undo", "ping"]);
+});
+
+test("a server that takes long over a call, and answers otherwise, is not silent", async (context) => {
+  const knocks: (() => void)[] = [];
+  const { socket, told, timers } = connecting(context, () => new Promise((answer) => knocks.push(answer)));
+  socket.open();
+  FakeWebSocket.last.tell(session());
+  void socket.call("undo");
+  for (let i = 0; i < 9; ++i) {
+    for (let n = 0; n < 3; ++n) timers.tick();
+    assert.equal(knocks.length, 1, "one at a time");
+    knocks.pop()!();
+    await settled();
+  }
+  assert.ok(!told.includes("silent"));
+  for (let n = 0; n < 4; ++n) timers.tick();
+  assert.ok(told.includes("silent"));
+  knocks.pop()!();
+  await settled();
+  assert.equal(told.at(-1), "open");
 });
 
 test("events are a sign of life while a call takes long", (context) => {

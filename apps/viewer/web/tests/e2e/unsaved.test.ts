@@ -261,7 +261,7 @@ test("a kontur that takes long over a call is not said not to answer", async () 
   await viewer.ready();
   isBusy = true;
   await drawByHand();
-  for (let i = 0; i < 4; ++i) await page.waitForResponse("**/icon.svg"); // each asked for 5 s after the one before
+  for (let i = 0; i < 3; ++i) await page.waitForResponse("**/icon.svg"); // each asked for 5 s after the one before
   assert.equal(await page.getAttribute("body", "data-connection"), "open");
   assert.equal(await page.getAttribute("[data-test=saved]", "data-state"), "saving");
 });

@@ -9,7 +9,7 @@ import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session
 import { Socket, type ConnectionState } from "./net/socket";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
-import type { SavedSketch } from "./tools/sketch";
+import type { SavedSketch, Sketch } from "./tools/sketch";
 import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
@@ -25,7 +25,7 @@ interface SavedPage {
   structure: number;
   hintSeen: boolean;
   sketch?: SavedSketch;
-  unsaved?: SavedSketch[]; // contours that were closed, and that the server had not taken yet
+  unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
 }
 
 const SAVE_PAGE_MS = 400;
@@ -65,6 +65,7 @@ export class App {
       event: (event) => this.receive(event),
       connection: (state) => this.connected(state),
       unsaved: (count, acknowledged) => this.countUnsaved(count, acknowledged),
+      knock: () => this.http.knock(),
     });
     const failed = (error: unknown) => this.failed(error);
     this.editor = new Editor(this.navigation, this.project, {
@@ -72,7 +73,7 @@ export class App {
       screenOf: (view) => this.views.get(view)?.screen() ?? null,
       failed,
       tell: (text) => this.notices.show("info", text),
-      notSaved: (why) => this.tellNotSaved(why),
+      notSaved: (sketch, why) => this.tellNotSaved(sketch, why),
     });
     const shared = { navigation: this.navigation, project: this.project, editor: this.editor, http: this.http, failed };
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
@@ -88,11 +89,11 @@ export class App {
     });
     const panel = new Panel({
       ...shared,
-      call: (name, args = {}) => this.editor.edit(name, args),
+      call: (name, args = {}) => this.editor.edits.make(name, args),
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),
-      copySelected: (steps) => void this.editor.copySelected(this.active, steps),
+      copySelected: (steps) => void this.editor.edits.copySelected(this.active, steps),
     });
     this.keyboard = new Keyboard({
       app: this,
@@ -127,10 +128,12 @@ export class App {
     project.on(["structures"], () => this.surface.restyle());
     project.on(["surfaces"], () => this.surface.surfacesChanged());
     project.on(["structures"], () => this.savePageSoon());
-    editor.on(["tool", "sketch", "hover"], each((view) => view.paint()));
-    editor.on(["tool", "sketch"], () => this.tellHint());
-    editor.on(["points"], () => this.savePageSoon());
-    editor.on(["points"], () => this.tellSaved());
+    editor.on(["tool", "hover"], each((view) => view.paint()));
+    editor.on(["tool"], () => this.tellHint());
+    editor.drawing.on(["sketch"], each((view) => view.paint()));
+    editor.drawing.on(["sketch"], () => this.tellHint());
+    editor.drawing.on(["points"], () => this.savePageSoon());
+    editor.drawing.on(["points"], () => this.tellSaved());
     project.on(["selection"], () => this.tellHint());
     for (const [name, view] of this.views) {
       this.inputs.push(
@@ -185,7 +188,7 @@ export class App {
     this.surface.forgetRevisions();
     this.project.start(session);
     if (isFirst && page?.structure) this.project.activate(page.structure);
-    if (isFirst) this.editor.restore(page?.sketch, page?.unsaved ?? []);
+    if (isFirst) this.editor.drawing.outbox.restore(page?.sketch, page?.unsaved ?? []);
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
     this.hintSeen ||= page?.hintSeen ?? false;
@@ -210,7 +213,7 @@ export class App {
       ? `The connection to kontur is lost. What was saved is in ${project}. While kontur runs this page connects again by itself; if kontur has ended, open ${project} with it again, at the address that it prints then.`
       : "No kontur answers at this address. If it was started again, use the address that it printed last.";
     this.closeWhenConnected.push(this.notices.show("error", text));
-    if (this.unsaved > 0 && !this.editor.isAdding)
+    if (this.unsaved > 0 && !this.editor.drawing.outbox.isSending)
       this.notices.show("error", "The connection was lost before kontur had confirmed your last edit: it may not be saved. Look for it when the page is connected again.");
   }
 
@@ -221,14 +224,14 @@ export class App {
   }
 
   private tellSaved(): void {
-    const { hasUnsaved, isAdding } = this.editor;
-    if (!hasUnsaved && !isAdding) this.closeUnsavedNotice();
-    this.status.setSaved(this.connection, isAdding ? Math.max(this.unsaved, 1) : this.unsaved, hasUnsaved || this.editWasLost);
+    const { hasUnsaved, isSending } = this.editor.drawing.outbox;
+    if (!hasUnsaved && !isSending) this.closeUnsavedNotice();
+    this.status.setSaved(this.connection, isSending ? Math.max(this.unsaved, 1) : this.unsaved, hasUnsaved || this.editWasLost);
   }
 
-  private tellNotSaved(why: string): void {
+  private tellNotSaved(sketch: Sketch, why: string): void {
     this.closeUnsavedNotice();
-    const stays = "The contour that you closed is not saved. It stays on its slice: Enter tries again, Esc gives it up.";
+    const stays = `${sketch.title} is not saved. It stays on its slice: Enter tries again, Esc gives it up.`;
     this.closeUnsavedNotice = this.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescue()].join(" "));
     this.tellSaved();
   }
@@ -252,11 +255,13 @@ export class App {
   }
 
   undo(): void {
-    this.editor.afterAdding(() => this.editor.undo() || this.editor.edit("undo", {}));
+    const { drawing, edits } = this.editor;
+    drawing.outbox.afterSending(() => drawing.undo() || edits.make("undo", {}));
   }
 
   redo(): void {
-    this.editor.afterAdding(() => this.editor.redo() || this.editor.edit("redo", {}));
+    const { drawing, edits } = this.editor;
+    drawing.outbox.afterSending(() => drawing.redo() || edits.make("redo", {}));
   }
 
   /** A new structure is for what is drawn next. */
@@ -338,7 +343,7 @@ export class App {
   /** Esc: first what the pointer does, then the sketch, then the tool, then the selection. */
   private leave(): void {
     if (this.inputs.some((input) => input.cancel())) return;
-    if (this.editor.sketch) return this.editor.leaveSketch();
+    if (this.editor.drawing.sketch) return this.editor.drawing.leave();
     if (this.editor.tool !== "edit") return this.editor.choose("edit");
     this.project.select(null);
   }
@@ -382,8 +387,8 @@ export class App {
   /** Asks before work is left that no next visit would bring back. */
   private guardClosing(): void {
     window.addEventListener("beforeunload", (event) => {
-      const { hasUnsaved, isAdding, sketch } = this.editor;
-      if (this.unsaved > 0 || isAdding || hasUnsaved || (sketch && this.connection !== "open")) event.preventDefault();
+      const { outbox, sketch } = this.editor.drawing;
+      if (this.unsaved > 0 || outbox.isSending || outbox.hasUnsaved || (sketch && this.connection !== "open")) event.preventDefault();
     });
     window.addEventListener("pagehide", () => this.saveTimer && this.savePage());
   }
@@ -400,9 +405,10 @@ export class App {
     const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen };
     let room = LONGEST_SAVED_SKETCHES;
     const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
-    const sketch = this.editor.sketch?.saved();
+    const { drawing } = this.editor;
+    const sketch = drawing.sketch?.saved();
     if (sketch && fits(sketch)) state.sketch = sketch;
-    const unsaved = this.editor.savedUnsaved().filter(fits);
+    const unsaved = drawing.outbox.saved().filter(fits);
     if (unsaved.length > 0) state.unsaved = unsaved;
     this.socket.call("page.save", { state }).catch(() => undefined); // the next change saves again
   }

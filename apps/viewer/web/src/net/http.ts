@@ -51,6 +51,11 @@ export class Http {
     return (await reply.json()) as { structures: number[] };
   }
 
+  /** Settles when the server answers: for a file of the page it needs neither the project nor much time. */
+  async knock(): Promise<void> {
+    await fetch("/icon.svg", { cache: "no-store" });
+  }
+
   private post(path: string, body: BodyInit): Promise<Response> {
     return this.request(path, { method: "POST", body });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ServerError } from "./http";
+import { Latest } from "./latest";
 import type { ServerEvent } from "./protocol";
 
 interface Pending {
@@ -7,30 +8,50 @@ interface Pending {
   reject: (error: Error) => void;
 }
 
-export type ConnectionState = "connecting" | "open" | "lost";
+export type ConnectionState = "connecting" | "open" | "silent" | "lost";
 
 export interface SocketHandlers {
   event(event: ServerEvent): void;
-  /** "open" when the session event has come; "lost" is told while edits under way still count as unsaved. */
+  /**
+   * "open" when the session event has come; "silent" when the connection stands, but nothing comes over it any more, until
+   * something does ("open" again); "lost" is told while edits under way still count as unsaved.
+   */
   connection(state: ConnectionState): void;
   /** How many edits the server has not yet acknowledged, and whether it has just acknowledged one. */
   unsaved(count: number, acknowledged: boolean): void;
+  /** Asks, not over this connection, whether the server answers anything at all. */
+  knock(): Promise<void>;
 }
 
 const RETRY_MS = 1000;
+const TICK_MS = 2500;
+const TICKS_UNTIL_SILENT = 4; // in which signs of life are asked for
 const READING_CALLS = new Set(["path", "value", "ping", "page.save", "draft.drop"]);
 
-/** Calls and events over one WebSocket, which is opened again when it is lost. */
+/**
+ * Calls and events over one WebSocket, which is opened again when it is lost. One that is silent is kept: should the server go
+ * on (it was suspended, or a tunnel hung), it carries out once what it was sent, and nobody need guess which edits had arrived.
+ */
 export class Socket {
   private socket: WebSocket | null = null;
   private readonly pending = new Map<number, Pending & { edits: boolean }>();
   private nextSeq = 1;
   private greeted = false;
+  /** Ticks since anything came. They count what the clock does not: a laptop that sleeps, or a tab that is held back, has fewer. */
+  private quietTicks = 0;
+  private readonly pings = new Latest<void>(() => this.call("ping"));
+  /** Calls are answered in order: while one takes long no ping is, but the server is there. */
+  private readonly knocks = new Latest<void>(async () => {
+    await this.handlers.knock();
+    this.hear();
+  });
 
   constructor(
     private readonly token: string,
     private readonly handlers: SocketHandlers,
-  ) {}
+  ) {
+    setInterval(() => this.tick(), TICK_MS);
+  }
 
   open(): void {
     this.handlers.connection("connecting");
@@ -55,6 +76,7 @@ export class Socket {
   }
 
   private receive(message: Record<string, unknown>): void {
+    this.hear();
     if (typeof message["event"] === "string") {
       if (message["event"] === "session") this.greet();
       return this.handlers.event(message as unknown as ServerEvent);
@@ -68,6 +90,20 @@ export class Socket {
     if (pending.edits) this.tellUnsaved(!error);
   }
 
+  private tick(): void {
+    if (!this.greeted) return;
+    if (++this.quietTicks === TICKS_UNTIL_SILENT) this.handlers.connection("silent");
+    if (!this.pings.busy) this.pings.send();
+    if (this.quietTicks > 1 && !this.knocks.busy) this.knocks.send();
+  }
+
+  /** Whatever comes is a sign of life. */
+  private hear(): void {
+    const wasSilent = this.quietTicks >= TICKS_UNTIL_SILENT;
+    this.quietTicks = 0;
+    if (wasSilent) this.handlers.connection("open");
+  }
+
   private greet(): void {
     this.greeted = true;
     this.handlers.connection("open");
@@ -75,6 +111,7 @@ export class Socket {
 
   private lose(): void {
     this.greeted = false;
+    this.quietTicks = 0;
     this.handlers.connection("lost");
     const lost = [...this.pending.values()];
     this.pending.clear();

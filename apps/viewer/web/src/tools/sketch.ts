@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { coincide, type Plane } from "../geometry/plane";
+import { coincide, projected, type Plane } from "../geometry/plane";
 import { sub, length, type Vec3 } from "../geometry/vec";
 import type { Contour, ControlPoint, SketchPoint, StretchKind } from "../net/protocol";
 
@@ -10,6 +10,7 @@ export interface SavedSketch {
   kind: StretchKind;
   points: SketchPoint[];
   isUnsaved?: boolean;
+  redraws?: number;
 }
 
 const SAVED_DIGITS = 9;
@@ -18,10 +19,13 @@ const SAME_PLACE_MM = 1e-5; // what is saved is rounded
 const rounded = (p: Vec3): Vec3 => p.map((value) => Number(value.toPrecision(SAVED_DIGITS))) as unknown as Vec3;
 const isSamePlace = (p: Vec3, q: Vec3): boolean => length(sub(p, q)) < SAME_PLACE_MM;
 
-/** A contour while it is drawn: control points, each with how the line from it goes on. */
+/**
+ * A contour while it is drawn: control points, each with how the line from it goes on. Or a stroke that replaces a piece of
+ * the contour `redraws`: one point, from which the hand went on to the stroke's other end.
+ */
 export class Sketch {
   points: SketchPoint[] = [];
-  /** Closed by the user, but not taken by the server. */
+  /** Finished by the user, but not taken by the server. */
   isUnsaved = false;
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
@@ -29,13 +33,24 @@ export class Sketch {
     readonly plane: Plane,
     public structure: number,
     public kind: StretchKind,
+    readonly redraws?: number,
   ) {}
+
+  /** What a user knows it by. */
+  get title(): string {
+    return this.redraws === undefined ? "The contour that you closed" : "The piece that you redrew";
+  }
+
+  /** What removing the last point takes back. */
+  get lastStep(): string {
+    return this.redraws === undefined ? "Place a point" : "Redraw a part";
+  }
 
   get isEmpty(): boolean {
     return this.points.length === 0;
   }
 
-  /** Whether the hand has drawn the line back to the first point. */
+  /** Whether the hand has drawn the line back to the first point, or all of the stroke that redraws a piece. */
   get isClosed(): boolean {
     return this.last?.path !== undefined;
   }
@@ -86,6 +101,14 @@ export class Sketch {
     return sketch;
   }
 
+  /** The stroke by which the hand redrew a piece of this contour. */
+  static redrawing({ id, plane, structure }: Contour, path: readonly Vec3[]): Sketch {
+    const sketch = new Sketch(plane, structure, "free", id);
+    const [at, ...rest] = path.map((p) => projected(plane, p)); // as the server will: the view may lie half a slice beside it
+    sketch.points = [{ at: at!, kind: "free", path: rest }];
+    return sketch;
+  }
+
   get canRestore(): boolean {
     return this.undone.length > 0;
   }
@@ -97,7 +120,7 @@ export class Sketch {
 
   removeLast(): void {
     this.undone.push(this.points.map((point) => ({ ...point })));
-    if (!this.isClosed) this.points.pop();
+    if (!this.isClosed || this.redraws !== undefined) this.points.pop();
     const last = this.last;
     if (!last) return;
     delete last.path;
@@ -105,13 +128,13 @@ export class Sketch {
   }
 
   saved(): SavedSketch {
-    const { plane, structure, kind, isUnsaved } = this;
+    const { plane, structure, kind, isUnsaved, redraws } = this;
     const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
-    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }) };
+    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }), ...(redraws !== undefined && { redraws }) };
   }
 
-  static from({ plane, structure, kind, points, isUnsaved = false }: SavedSketch): Sketch {
-    const sketch = new Sketch(plane, structure, kind);
+  static from({ plane, structure, kind, points, isUnsaved = false, redraws }: SavedSketch): Sketch {
+    const sketch = new Sketch(plane, structure, kind, redraws);
     sketch.points = points;
     sketch.isUnsaved = isUnsaved;
     return sketch;
@@ -120,20 +143,35 @@ export class Sketch {
   /** The line as far as it is known without the server: straight where splines and wires would run. */
   line(): Vec3[] {
     const line = this.points.flatMap(({ at, path = [] }) => [at, ...path]);
-    return this.isClosed ? [...line, this.first!] : line;
+    return this.isClosed && this.redraws === undefined ? [...line, this.first!] : line;
   }
 
-  closedLine(): Vec3[] {
+  /** The whole line of what the user has finished. */
+  finishedLine(): Vec3[] {
     return this.isClosed || this.isEmpty ? this.line() : [...this.line(), this.first!];
   }
 
   /** Whether the server made this contour of the sketch: the same control points, and between them points of the same hand. */
-  became({ control, points }: Contour): boolean {
+  became(contour: Contour): boolean {
+    if (this.redraws !== undefined) return this.isPieceOf(contour);
+    const { control, points } = contour;
     if (control.length !== this.points.length) return false;
     return this.points.every(({ at, kind, path }, i) => {
       const { at: place, kind: kindThere, index } = control[i]!;
       if (kind !== kindThere || !isSamePlace(at, place)) return false;
       return !path || points.slice(index + 1, control[i + 1]?.index).every((p) => path.some((q) => isSamePlace(p, q)));
+    });
+  }
+
+  /** Whether one of the contour's stretches is this stroke, of which the server keeps the ends and some points between them. */
+  private isPieceOf({ id, control, points }: Contour): boolean {
+    if (id !== this.redraws) return false;
+    const stroke = this.line();
+    const isIn = (line: readonly Vec3[], p: Vec3) => line.some((q) => isSamePlace(p, q));
+    return control.some(({ index }, i) => {
+      const end = control[i + 1]?.index ?? points.length;
+      const stretch = [...points.slice(index, end), points[end % points.length]!];
+      return isIn(stretch, stroke[0]!) && isIn(stretch, stroke.at(-1)!) && stretch.slice(1, -1).every((p) => isIn(stroke, p));
     });
   }
 

@@ -3,7 +3,8 @@ import { toWorld, type Point2 } from "../geometry/screen";
 import { sub } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { SliceView } from "../view/slice_view";
-import type { Editor, Gesture } from "./editor";
+import type { Editor } from "./editor";
+import type { Gesture } from "./gesture";
 
 export interface InputServices {
   navigation: Navigation;

@@ -52,9 +52,11 @@ export interface ExportServices {
 }
 
 /** What a user may believe to be in the file, and is not. */
-function missing({ sketch, hasUnsaved }: Editor): HTMLElement[] {
+function missing({ drawing }: Editor): HTMLElement[] {
+  const { sketch } = drawing;
+  const { hasUnsaved } = drawing.outbox;
   if (!sketch && !hasUnsaved) return [];
-  const what = hasUnsaved ? "A contour that you closed is not saved" : "The contour that you are drawing is not closed";
+  const what = hasUnsaved ? "Something that you drew is not saved" : "The contour that you are drawing is not closed";
   return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];
 }
 

@@ -4,8 +4,9 @@ import type { Editor } from "../tools/editor";
 
 /** What can be done next, for the status line. */
 export function hintFor(editor: Editor, project: Project): string {
-  if (editor.sketch?.isUnsaved) return "This contour is not saved · Enter tries again · Esc gives it up";
-  if (editor.sketch) return editor.sketch.canClose ? "Click the first point, double click or press Enter to close · Backspace removes a point" : "Click on, or drag to draw by hand · Ctrl + Z takes a point back · Esc leaves";
+  const { sketch } = editor.drawing;
+  if (sketch?.isUnsaved || sketch?.redraws !== undefined) return `${sketch.title} is not saved · Enter tries again · Esc gives it up`;
+  if (sketch) return sketch.canClose ? "Click the first point, double click or press Enter to close · Backspace removes a point" : "Click on, or drag to draw by hand · Ctrl + Z takes a point back · Esc leaves";
   switch (editor.tool) {
     case "wire":
       return "Click along the edge; the line snaps to it · drag to draw by hand";

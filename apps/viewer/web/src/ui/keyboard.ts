@@ -29,7 +29,7 @@ export class Keyboard {
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
     const presses = event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ");
-    if (presses && !this.services.app.editor.sketch) return;
+    if (presses && !this.services.app.editor.drawing.sketch) return;
     const handled = event.ctrlKey || event.metaKey ? this.withControl(event) : this.plain(event);
     if (handled) event.preventDefault();
   }
@@ -59,25 +59,26 @@ export class Keyboard {
   private action(key: string, event: KeyboardEvent): boolean {
     const { app } = this.services;
     const { editor, navigation } = app;
+    const { drawing, edits } = editor;
     switch (key) {
       case " ":
         this.spaceHeld = true;
         return true;
       case "Enter":
-        editor.close();
+        drawing.close();
         return true;
       case "Escape":
         this.services.leave();
         return true;
       case "Backspace":
-        if (editor.sketch) editor.removeLastPoint();
-        else editor.deleteSelected();
+        if (drawing.sketch) drawing.removeLastPoint();
+        else edits.deleteSelected();
         return true;
       case "Delete":
-        editor.deleteSelected();
+        edits.deleteSelected();
         return true;
       case "c":
-        void editor.copySelected(app.active, event.shiftKey ? -1 : 1);
+        void edits.copySelected(app.active, event.shiftKey ? -1 : 1);
         return true;
       case "h":
         this.toggleHole();
@@ -112,7 +113,7 @@ export class Keyboard {
   private toggleHole(): void {
     const { editor, project } = this.services.app;
     const contour = project.selectedContour;
-    if (contour) editor.edit("contour.set", { id: contour.id, hole: !contour.hole });
+    if (contour) editor.edits.make("contour.set", { id: contour.id, hole: !contour.hole });
   }
 }
 

@@ -157,7 +157,7 @@ export class Panel {
       el("span", {}, "Copy to"),
       button({ icon: ICONS.copyDown, label: "next", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", onclick: () => copySelected(1) }),
       button({ icon: ICONS.copyUp, label: "previous", title: "Copy to the previous slice (Shift+C)", class: "tool", onclick: () => copySelected(-1) }),
-      button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", onclick: () => editor.deleteSelected() }),
+      button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", onclick: () => editor.edits.deleteSelected() }),
       el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       structure,
     );

@@ -45,8 +45,10 @@ export class StatusBar {
 
   /** `isMissing`: something that the user did is not in the project, nor on its way there. */
   setSaved(connection: ConnectionState, unsaved: number, isMissing: boolean): void {
-    const state = connection !== "open" ? "lost" : unsaved > 0 ? "saving" : isMissing ? "unsaved" : "saved";
-    const texts = { lost: isMissing ? "Not connected, not all is saved" : "Not connected", saving: "Saving…", unsaved: "Not all is saved", saved: `Saved in ${this.project}` };
+    const isConnected = connection === "open" || connection === "silent";
+    const state = !isConnected ? "lost" : connection === "silent" ? "silent" : unsaved > 0 ? "saving" : isMissing ? "unsaved" : "saved";
+    const waits = unsaved > 0 ? "your last edit waits for it" : isMissing ? "not all is saved" : "the page waits for it";
+    const texts = { silent: `kontur does not answer: ${waits}`, lost: isMissing ? "Not connected, not all is saved" : "Not connected", saving: "Saving…", unsaved: "Not all is saved", saved: `Saved in ${this.project}` };
     this.saved.textContent = texts[state];
     this.saved.dataset["state"] = state;
   }

@@ -81,7 +81,8 @@ export class Toolbar {
         button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", onclick: services.openHelp }),
       ),
     );
-    editor.on(["tool", "points"], () => this.update());
+    editor.on(["tool"], () => this.update());
+    editor.drawing.on(["points"], () => this.update());
     navigation.on(["layout", "window"], () => this.update());
     services.project.on(["history"], () => this.update());
   }
@@ -102,8 +103,9 @@ export class Toolbar {
     for (const [tool, element] of this.tools) press(element, tool === editor.tool);
     for (const [layout, element] of this.layouts) press(element, layout === navigation.layout);
     const { undo, redo } = project.history;
-    describe(this.undo, editor.undoLabel ?? undo, "Undo", "Ctrl+Z");
-    describe(this.redo, editor.redoLabel ?? (editor.sketch ? null : redo), "Redo", "Ctrl+Shift+Z");
+    const { drawing } = editor;
+    describe(this.undo, drawing.undoLabel ?? undo, "Undo", "Ctrl+Z");
+    describe(this.redo, drawing.redoLabel ?? (drawing.sketch ? null : redo), "Redo", "Ctrl+Shift+Z");
     press(this.link, navigation.linked);
     const { center, width } = navigation.window;
     if (document.activeElement !== this.center) this.center.value = short(center);

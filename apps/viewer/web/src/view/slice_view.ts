@@ -332,7 +332,7 @@ export class SliceView {
     const { editor, navigation } = this.services;
     const crosshair = toScreen(screen, navigation.crosshair);
     const hover = editor.hover && "line" in editor.hover && editor.hover.view === this.name ? editor.hover.line : null;
-    for (const line of editor.lines(this.name, screen)) {
+    for (const line of editor.planeLines.seenIn(this.name, screen)) {
       const strong = hover !== null && (hover.on === "crosshair" || hover.view === line.view);
       painter.planeLine(line, crosshair, { strong, handles: editor.tool === "edit" && Math.min(screen.width, screen.height) > 230, faint: editor.tool !== "edit" });
     }
@@ -355,17 +355,18 @@ export class SliceView {
   }
 
   private paintSketch(painter: OverlayPainter, screen: Screen): void {
-    const { project, editor, navigation } = this.services;
+    const { project, navigation } = this.services;
+    const { drawing } = this.services.editor;
     const color = project.activeStructure?.color ?? "#e8b04a";
     const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
-    const { sketch } = editor;
+    const { sketch } = drawing;
     if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
-      const placed = editor.placedLine.length > 1 ? editor.placedLine : sketch.line();
-      painter.sketch(placed, editor.rubberLine, sketch.points.map((point) => point.at), color, editor.pointerCloses);
+      const placed = drawing.placedLine.length > 1 ? drawing.placedLine : sketch.line();
+      painter.sketch(placed, drawing.rubberLine, sketch.points.map((point) => point.at), color, drawing.pointerCloses);
     }
-    for (const { sketch: closed, line } of editor.closedLines())
+    for (const { sketch: closed, line } of drawing.outbox.lines())
       if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
-    if (near(editor.handLine[0]) && near(editor.handLine.at(-1))) painter.hand(editor.handLine, color);
+    if (near(drawing.handLine[0]) && near(drawing.handLine.at(-1))) painter.hand(drawing.handLine, color);
   }
 
   /** The point of the plane under the pointer. */

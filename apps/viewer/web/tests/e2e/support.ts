@@ -106,7 +106,17 @@ export class Server {
     if (this.process.exitCode !== null || this.process.signalCode !== null) return Promise.resolve();
     const ended = new Promise<void>((resolve) => this.process.once("exit", () => resolve()));
     this.process.kill(signal);
+    this.resume(); // a suspended one would end only then
     return ended;
+  }
+
+  /** It does nothing any more, but its connections stay open. */
+  suspend(): void {
+    this.process.kill("SIGSTOP");
+  }
+
+  resume(): void {
+    this.process.kill("SIGCONT");
   }
 }
 

@@ -34,6 +34,7 @@ beforeEach(async () => {
 cleanUp(folder, () => [browser, server]);
 
 const saved = (state: "saved" | "lost" | "unsaved") => viewer.page.waitForSelector(`[data-test=saved][data-state=${state}]`);
+const silent = (words: string) => viewer.page.locator("[data-test=saved][data-state=silent]", { hasText: words }).waitFor();
 const notice = (words: string) => viewer.page.locator(".notice", { hasText: words });
 const hasSketch = async () => (await viewer.page.locator("[data-test=undo]").getAttribute("title"))!.includes("Place a point");
 
@@ -47,6 +48,31 @@ async function clickSpline(): Promise<void> {
 async function drawByHand(): Promise<void> {
   await viewer.page.keyboard.press("f");
   await viewer.drag("axial", circle(await viewer.pixels("axial", BALL_RADIUS_MM), 36));
+}
+
+/** Redraws the right side of the circle that was drawn, from line to line. */
+async function redraw(): Promise<void> {
+  await viewer.page.keyboard.press("r");
+  const radius = await viewer.pixels("axial", BALL_RADIUS_MM);
+  await viewer.drag("axial", Array.from({ length: 13 }, (_, i) => [radius * (1 + 0.3 * Math.sin((Math.PI * i) / 12)) * Math.cos((i - 6) / 10), radius * Math.sin((i - 6) / 10)]));
+}
+
+/** Loads the page again, with a connection that is lost in place of the first reply to this call. */
+async function cutReplyTo(call: string): Promise<() => boolean> {
+  let isCut = false;
+  await viewer.page.routeWebSocket("**/api/socket", (socket) => {
+    const beyond = socket.connectToServer();
+    socket.onMessage((message) => {
+      if (!isCut && String(message).includes(call)) {
+        beyond.onMessage((reply) => String(reply).includes("result") && void socket.close()); // what comes before is kept back, too
+        isCut = true;
+      }
+      beyond.send(message);
+    });
+  });
+  await viewer.page.reload();
+  await viewer.ready();
+  return () => isCut;
 }
 
 /** No file may grow any longer, or all may. */
@@ -102,27 +128,142 @@ describe("a contour that was closed", () => {
 
   test("is there once if it was saved and only the reply was lost", async () => {
     const { page } = viewer;
-    let isCut = false;
-    await page.routeWebSocket("**/api/socket", (socket) => {
-      const beyond = socket.connectToServer();
-      socket.onMessage((message) => {
-        if (!isCut && String(message).includes("contour.add")) {
-          beyond.onMessage((reply) => String(reply).includes("result") && void socket.close()); // what comes before is kept back, too
-          isCut = true;
-        }
-        beyond.send(message);
-      });
-    });
-    await page.reload();
-    await viewer.ready();
+    const isCut = await cutReplyTo("contour.add");
     await clickSpline();
     await page.keyboard.press("Enter");
     await notice("had been saved").waitFor();
-    assert.ok(isCut);
+    assert.ok(isCut());
     assert.equal(await viewer.contours(), 1);
     assert.ok(!(await hasSketch()));
     await saved("saved");
   });
+});
+
+describe("a piece that was redrawn", () => {
+  /** The project's history, which undo leads back through, has the piece once. */
+  async function isThereOnce(): Promise<void> {
+    await saved("saved");
+    await viewer.waitForStep("undo", "Redraw a part");
+    assert.equal(await viewer.contours(), 1);
+    await viewer.page.keyboard.press("Control+z");
+    await viewer.waitForStep("undo", "Draw a contour");
+  }
+
+  test("stays while the disk is full, and is saved once by Enter when it is not", { skip: !canFillDisk && "there is no prlimit" }, async () => {
+    const { page } = viewer;
+    await drawByHand();
+    await viewer.waitForStep("undo", "Draw a contour");
+    fillDisk(true);
+    await redraw();
+    await notice("The piece that you redrew is not saved").waitFor();
+    await saved("unsaved");
+    await page.keyboard.press("v"); // takes leave of what is only begun
+    await page.click("[data-test=export]");
+    await page.locator("[data-test=export-missing]").waitFor();
+    await page.keyboard.press("Escape");
+    fillDisk(false);
+    await page.keyboard.press("Enter");
+    await isThereOnce();
+    assert.equal(await notice("is not saved").count(), 0);
+  });
+
+  test("stays when kontur was killed, and is saved once by Enter when it is back", async () => {
+    const { page } = viewer;
+    await drawByHand();
+    await viewer.waitForStep("undo", "Draw a contour");
+    await server.end("SIGKILL");
+    await saved("lost");
+    await redraw();
+    await notice(`--port ${server.port} --token ${server.token}`).waitFor();
+    await restart();
+    await saved("unsaved");
+    await page.keyboard.press("Enter");
+    await isThereOnce();
+  });
+
+  test("is there once if it was saved and only the reply was lost", async () => {
+    const isCut = await cutReplyTo("contour.redraw");
+    await drawByHand();
+    await viewer.waitForStep("undo", "Draw a contour");
+    await redraw();
+    await notice("had been saved").waitFor();
+    assert.ok(isCut());
+    await isThereOnce();
+  });
+});
+
+describe("a kontur that is suspended", () => {
+  test("is said not to answer while an edit waits, and when it goes on has the edit once", async () => {
+    const { page } = viewer;
+    await clickSpline();
+    server.suspend();
+    await page.keyboard.press("Enter");
+    await silent("your last edit waits for it");
+    assert.equal(await viewer.contours(), 0);
+    server.resume();
+    await viewer.waitForContours(1);
+    await saved("saved");
+    assert.ok(!(await hasSketch()));
+    await viewer.waitForStep("undo", "Draw a contour");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForContours(0);
+    await page.waitForSelector("[data-test=undo]:disabled");
+    assert.deepEqual(viewer.complaints, []);
+  });
+
+  test("is said not to answer while nothing is done; what is done then waits for it, too", async () => {
+    const { page } = viewer;
+    await drawByHand();
+    await viewer.waitForStep("undo", "Draw a contour");
+    await saved("saved");
+    const before = await viewer.slice("axial");
+    server.suspend();
+    await silent("the page waits for it");
+    await redraw();
+    await silent("your last edit waits for it");
+    await page.mouse.wheel(0, 120);
+    server.resume();
+    await saved("saved");
+    await viewer.slicesShown();
+    assert.notEqual(await viewer.slice("axial"), before);
+    assert.equal(await page.locator(".notice").count(), 0);
+    await viewer.waitForStep("undo", "Redraw a part");
+    await page.keyboard.press("Control+z");
+    await viewer.waitForStep("undo", "Draw a contour");
+    assert.deepEqual(viewer.complaints, []);
+  });
+
+  test("and then killed leaves the contour that was closed meanwhile on its slice", async () => {
+    const { page } = viewer;
+    await clickSpline();
+    server.suspend();
+    await page.keyboard.press("Enter");
+    await silent("your last edit waits for it");
+    await server.end("SIGKILL");
+    await saved("lost");
+    await notice("The contour that you closed is not saved").waitFor();
+    await restart();
+    await saved("unsaved");
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(1);
+    await saved("saved");
+  });
+});
+
+test("a kontur that takes long over a call is not said not to answer", async () => {
+  const { page } = viewer;
+  let isBusy = false;
+  await page.routeWebSocket("**/api/socket", (socket) => {
+    const beyond = socket.connectToServer();
+    beyond.onMessage((message) => isBusy || socket.send(message));
+  });
+  await page.reload();
+  await viewer.ready();
+  isBusy = true;
+  await drawByHand();
+  for (let i = 0; i < 3; ++i) await page.waitForResponse("**/icon.svg"); // each asked for 5 s after the one before
+  assert.equal(await page.getAttribute("body", "data-connection"), "open");
+  assert.equal(await page.getAttribute("[data-test=saved]", "data-state"), "saving");
 });
 
 describe("without a connection", () => {

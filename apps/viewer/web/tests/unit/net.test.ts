@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { test } from "node:test";
+import { test, type TestContext } from "node:test";
 import { BinaryReply } from "../../src/net/binary";
 import type { ServerError } from "../../src/net/http";
 import { Latest } from "../../src/net/latest";
@@ -72,34 +72,134 @@ class FakeWebSocket {
     this.sent.push(JSON.parse(text) as { seq: number; call: string });
   }
 
+  answer(seq = this.sent.at(-1)!.seq): void {
+    this.tell({ seq, result: {} });
+  }
+
   tell(message: object): void {
     this.onmessage({ data: JSON.stringify(message) });
   }
 }
 
-test("of a connection's calls none is sent before the session is known, and lost edits are told as such", async (context) => {
-  const { setTimeout } = globalThis;
-  context.after(() => Object.assign(globalThis, { setTimeout }));
-  Object.assign(globalThis, { WebSocket: FakeWebSocket, location: { host: "127.0.0.1:1" }, setTimeout: () => 0 });
+interface Timers {
+  /** Lets the page's intervals come once. */
+  tick(): void;
+}
+
+/** A socket in a page whose clock the test turns, and what it tells. */
+function connecting(context: TestContext, knock = () => new Promise<void>(() => undefined)): { socket: Socket; told: string[]; timers: Timers } {
+  const { setTimeout, setInterval } = globalThis;
+  context.after(() => Object.assign(globalThis, { setTimeout, setInterval }));
+  const intervals: (() => void)[] = [];
+  Object.assign(globalThis, {
+    WebSocket: FakeWebSocket,
+    location: { host: "127.0.0.1:1" },
+    setTimeout: () => 0,
+    setInterval: (act: () => void, ms: number) => {
+      assert.equal(ms, 2500);
+      intervals.push(act);
+    },
+  });
   const told: string[] = [];
   const socket = new Socket("token", {
     event: ({ event }) => told.push(event),
     connection: (state) => told.push(state),
     unsaved: (count, acknowledged) => told.push(`${count}${acknowledged ? " acknowledged" : ""}`),
+    knock,
   });
-  const failure = (call: Promise<unknown>): Promise<string> => call.then(() => "done", ({ kind, edits }: ServerError) => `${kind}${edits ? ", an edit" : ""}`);
+  return { socket, told, timers: { tick: () => intervals.forEach((act) => act()) } };
+}
+
+const failure = (call: Promise<unknown>): Promise<string> => call.then(() => "done", ({ kind, edits }: ServerError) => `${kind}${edits ? ", an edit" : ""}`);
+
+test("of a connection's calls none is sent before the session is known, and lost edits are told as such", async (context) => {
+  const { socket, told } = connecting(context);
   socket.open();
   assert.equal(await failure(socket.call("undo")), "offline, an edit");
   assert.equal(await failure(socket.call("value")), "offline");
   assert.equal(FakeWebSocket.last.sent.length, 0);
   FakeWebSocket.last.tell(session());
   const first = failure(socket.call("undo"));
-  FakeWebSocket.last.tell({ seq: FakeWebSocket.last.sent.at(-1)!.seq, result: {} });
+  FakeWebSocket.last.answer();
   assert.equal(await first, "done");
   const under_way = [socket.call("undo"), socket.call("contour.pull", { draft: true })].map(failure);
   FakeWebSocket.last.onclose();
   assert.deepEqual(await Promise.all(under_way), ["lost, an edit", "lost"]);
   assert.deepEqual(told, ["connecting", "open", "session", "1", "0 acknowledged", "1", "lost", "0"]);
+});
+
+test("a connection over which nothing comes for 10 s is silent until something does, and its edits are sent once", async (context) => {
+  const { socket, told, timers } = connecting(context);
+  socket.open();
+  for (let i = 0; i < 9; ++i) timers.tick();
+  assert.deepEqual(told.splice(0), ["connecting"], "nobody has answered yet");
+  const { last } = FakeWebSocket;
+  last.tell(session());
+  for (let i = 0; i < 9; ++i) {
+    timers.tick();
+    last.answer();
+    await settled();
+  }
+  assert.equal(last.sent.length, 9);
+  assert.deepEqual(told.splice(0), ["open", "session"]);
+  const edit = failure(socket.call("undo"));
+  for (let i = 0; i < 3; ++i) timers.tick();
+  assert.deepEqual(told.splice(0), ["1"]);
+  for (let i = 0; i < 9; ++i) timers.tick();
+  assert.deepEqual(told.splice(0), ["silent"]);
+  last.answer(last.sent[9]!.seq);
+  assert.equal(await edit, "done");
+  assert.deepEqual(told, ["open", "0 acknowledged"]);
+  assert.deepEqual(last.sent.slice(9).map(({ call }) => call), ["undo", "ping"]);
+});
+
+test("a server that takes long over a call, and answers otherwise, is not silent", async (context) => {
+  const knocks: (() => void)[] = [];
+  const { socket, told, timers } = connecting(context, () => new Promise((answer) => knocks.push(answer)));
+  socket.open();
+  FakeWebSocket.last.tell(session());
+  void socket.call("undo");
+  for (let i = 0; i < 9; ++i) {
+    for (let n = 0; n < 3; ++n) timers.tick();
+    assert.equal(knocks.length, 1, "one at a time");
+    knocks.pop()!();
+    await settled();
+  }
+  assert.ok(!told.includes("silent"));
+  for (let n = 0; n < 4; ++n) timers.tick();
+  assert.ok(told.includes("silent"));
+  knocks.pop()!();
+  await settled();
+  assert.equal(told.at(-1), "open");
+});
+
+test("events are a sign of life while a call takes long", (context) => {
+  const { socket, told, timers } = connecting(context);
+  socket.open();
+  FakeWebSocket.last.tell(session());
+  void socket.call("undo");
+  for (let i = 0; i < 9; ++i) {
+    timers.tick();
+    timers.tick();
+    timers.tick();
+    FakeWebSocket.last.tell({ event: "status", text: "Computing", fraction: i / 9 });
+  }
+  assert.ok(!told.includes("silent"));
+});
+
+test("a silent connection that is lost is opened again, and silent only after as long", async (context) => {
+  const { socket, told, timers } = connecting(context);
+  socket.open();
+  FakeWebSocket.last.tell(session());
+  const edit = failure(socket.call("undo"));
+  for (let i = 0; i < 4; ++i) timers.tick();
+  FakeWebSocket.last.onclose();
+  assert.equal(await edit, "lost, an edit");
+  socket.open();
+  FakeWebSocket.last.tell(session());
+  for (let i = 0; i < 3; ++i) timers.tick();
+  assert.deepEqual(told, ["connecting", "open", "session", "1", "silent", "lost", "0", "connecting", "open", "session"]);
+  assert.deepEqual(FakeWebSocket.last.sent.map(({ call }) => call), ["ping"], "the edit is not repeated");
 });
 
 function reply(header: object, size: number): { buffer: ArrayBuffer; start: number } {

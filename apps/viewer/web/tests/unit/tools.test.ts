@@ -6,7 +6,8 @@ import type { Vec3 } from "../../src/geometry/vec";
 import { Project } from "../../src/model/project";
 import { ServerError } from "../../src/net/http";
 import type { Contour, SketchPoint } from "../../src/net/protocol";
-import { Editor, type Gesture, type ToolName } from "../../src/tools/editor";
+import { Editor, type ToolName } from "../../src/tools/editor";
+import type { Gesture } from "../../src/tools/gesture";
 import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
 import { Sketch } from "../../src/tools/sketch";
 import { AXIAL, CORONAL, near, SAGITTAL, session, SKEW, square, started } from "./support";
@@ -109,12 +110,12 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
       calls.push({ name, args: structuredClone(args) }); // the sketch goes on
       if (server.refusal) return Promise.reject(server.refusal);
       const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));
-      return Promise.resolve({ control, points: control.map((point) => point.at), contour: square(9) } as never);
+      return Promise.resolve({ control, points: control.map((point) => point.at), contour: square((args["id"] as number) ?? 9) } as never);
     },
     screenOf: () => screen,
     failed: (error) => (server.refusal ? complaints.push(String(error)) : assert.fail(String(error))),
     tell: (text) => complaints.push(text),
-    notSaved: (why) => complaints.push(why),
+    notSaved: (_, why) => complaints.push(why),
   });
   editor.choose(tool);
   const press = (p: Point2, modifiers = {}): Gesture | null => editor.press("axial", screen, p, { ctrl: false, shift: false, ...modifiers });
@@ -125,7 +126,8 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
   };
   const settled = () => new Promise((resolve) => setImmediate(resolve));
   const edits = () => calls.filter(({ name, args }) => name !== "path" && args["draft"] !== true);
-  return { editor, project, navigation, calls, press, drag, settled, edits, server, complaints };
+  const { drawing } = editor;
+  return { editor, drawing, outbox: drawing.outbox, project, navigation, calls, press, drag, settled, edits, server, complaints };
 }
 
 const round = (count: number, radius: number): Point2[] =>
@@ -142,45 +144,45 @@ test("the freehand tool makes a contour when the button is released", async () =
 });
 
 test("clicks place points of the tool's kind, and a click on the first point closes", async () => {
-  const { editor, drag, edits, settled } = editing("wire", []);
+  const { drawing, drag, edits, settled } = editing("wire", []);
   for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
   await settled();
-  assert.equal(editor.sketch!.points.length, 3);
+  assert.equal(drawing.sketch!.points.length, 3);
   drag([103, 98]);
   await settled();
-  assert.equal(editor.sketch, null);
+  assert.equal(drawing.sketch, null);
   const control = edits()[0]!.args["control"] as SketchPoint[];
   assert.deepEqual(control.map((point) => point.kind), ["wire", "wire", "wire"]);
 });
 
 test("points on an edge lie there, however fast the contour is closed", async () => {
-  const { editor, drag, edits, settled } = editing("wire", [], ([x, y, z]) => [5 * Math.round(x / 5), 5 * Math.round(y / 5), z]);
+  const { drawing, drag, edits, settled } = editing("wire", [], ([x, y, z]) => [5 * Math.round(x / 5), 5 * Math.round(y / 5), z]);
   for (const p of [[103, 98], [304, 102], [297, 303]] as Point2[]) drag(p);
-  editor.close();
+  drawing.close();
   await settled();
   const control = edits()[0]!.args["control"] as SketchPoint[];
   assert.deepEqual(control.map((point) => point.at), [[-50, -50, 0], [50, -50, 0], [50, 50, 0]]);
 });
 
 test("a hand-drawn stretch in between keeps the contour open, and a second tool continues it", async () => {
-  const { editor, drag, edits, settled } = editing("wire", []);
+  const { editor, drawing, drag, edits, settled } = editing("wire", []);
   drag([100, 100]);
   drag([100, 100], [150, 90], [200, 80], [250, 90], [300, 100]);
   editor.choose("spline");
   drag([300, 300]);
-  editor.close();
+  drawing.close();
   await settled();
   const control = edits()[0]!.args["control"] as SketchPoint[];
   assert.deepEqual(control.map((point) => point.kind), ["free", "spline", "spline"]);
 });
 
 test("two points do not make a contour", async () => {
-  const { editor, drag, edits, settled } = editing("spline", []);
+  const { drawing, drag, edits, settled } = editing("spline", []);
   drag([100, 100]);
   drag([200, 100]);
-  editor.close();
+  drawing.close();
   await settled();
-  assert.equal(editor.sketch!.points.length, 2);
+  assert.equal(drawing.sketch!.points.length, 2);
   assert.deepEqual(edits(), []);
 });
 
@@ -215,8 +217,8 @@ test("a click on a contour selects it and changes nothing; Ctrl + click inserts 
 test("Del deletes the selected point, then the contour", () => {
   const { editor, drag, edits } = editing("edit");
   drag([180, 180]);
-  editor.deleteSelected();
-  editor.deleteSelected();
+  editor.edits.deleteSelected();
+  editor.edits.deleteSelected();
   assert.deepEqual(edits().map(({ name, args }) => [name, args["index"] ?? args["ids"]]), [["contour.delete_point", 0], ["contour.remove", [5]]]);
 });
 
@@ -246,7 +248,7 @@ test("the next slice lies onward, whichever way the contour looks", async () => 
     const drawn = square(5);
     const { editor, project, edits } = editing("edit", [{ ...drawn, plane: { ...drawn.plane, normal } }]);
     project.select({ contour: 5, point: null });
-    void editor.copySelected("axial", 1);
+    void editor.edits.copySelected("axial", 1);
     assert.deepEqual(edits().map(({ name, args }) => [name, args["offset_mm"]]), [["contour.copy", offset_mm]]);
   }
 });
@@ -258,13 +260,13 @@ test("a click on a plane's line moves the crosshair there", () => {
 });
 
 test("a drawing tool mends the selected contour, and draws over others", async () => {
-  const { editor, project, drag, edits, settled } = editing("wire", [square(5), square(6, { points: square(6).points.map(([x, y, z]) => [2 * x, 2 * y, z]) })]);
+  const { drawing, project, drag, edits, settled } = editing("wire", [square(5), square(6, { points: square(6).points.map(([x, y, z]) => [2 * x, 2 * y, z]) })]);
   project.select({ contour: 5, point: null });
   drag([180, 180], [170, 170]);
   await settled();
   assert.deepEqual(edits().map((call) => call.name), ["contour.move_point"]);
   drag([200, 160]);
-  assert.equal(editor.sketch!.points.length, 1);
+  assert.equal(drawing.sketch!.points.length, 1);
 });
 
 test("turning a line turns that plane by the pointer's angle about the crosshair", () => {
@@ -275,45 +277,45 @@ test("turning a line turns that plane by the pointer's angle about the crosshair
 });
 
 test("a sketch goes on in its own plane only", () => {
-  const { editor, drag } = editing("wire", []);
+  const { editor, drawing, drag } = editing("wire", []);
   drag([100, 100]);
   const elsewhere: Screen = { ...screen, axes: SKEW };
   assert.equal(editor.press("oblique", elsewhere, [50, 50], { ctrl: false, shift: false }), null);
-  assert.equal(editor.sketch!.points.length, 1);
+  assert.equal(drawing.sketch!.points.length, 1);
 });
 
 test("points of a sketch undo and redo, down to none and back", () => {
-  const { editor, drag } = editing("wire", []);
+  const { drawing, drag } = editing("wire", []);
   const places: Point2[] = [[100, 100], [200, 100], [300, 100]];
   for (const place of places) drag(place);
-  const drawn = editor.sketch!.points.map((point) => point.at);
-  for (let i = 0; i < 3; ++i) assert.ok(editor.undo());
-  assert.equal(editor.sketch, null);
-  assert.equal(editor.undo(), false, "the project's history comes next");
-  assert.equal(editor.redoLabel, "Place a point");
-  for (let i = 0; i < 3; ++i) assert.ok(editor.redo());
-  assert.deepEqual(editor.sketch!.points.map((point) => point.at), drawn);
-  assert.ok(editor.redo(), "a sketch keeps redo to itself");
+  const drawn = drawing.sketch!.points.map((point) => point.at);
+  for (let i = 0; i < 3; ++i) assert.ok(drawing.undo());
+  assert.equal(drawing.sketch, null);
+  assert.equal(drawing.undo(), false, "the project's history comes next");
+  assert.equal(drawing.redoLabel, "Place a point");
+  for (let i = 0; i < 3; ++i) assert.ok(drawing.redo());
+  assert.deepEqual(drawing.sketch!.points.map((point) => point.at), drawn);
+  assert.ok(drawing.redo(), "a sketch keeps redo to itself");
   drag([320, 120]);
-  editor.undo();
+  drawing.undo();
   drag([330, 130]);
-  assert.equal(editor.redoLabel, null, "a new point drops what was undone");
+  assert.equal(drawing.redoLabel, null, "a new point drops what was undone");
 });
 
 test("a sketch that was left comes back by undo, with its tool, until something else is done", async () => {
-  const { editor, drag, settled } = editing("spline", []);
+  const { editor, drawing, drag, settled } = editing("spline", []);
   drag([100, 100]);
   drag([200, 100]);
   editor.choose("edit");
-  assert.equal(editor.sketch, null);
-  assert.equal(editor.undoLabel, "Leave the contour");
-  assert.ok(editor.undo());
+  assert.equal(drawing.sketch, null);
+  assert.equal(drawing.undoLabel, "Leave the contour");
+  assert.ok(drawing.undo());
   assert.equal(editor.tool, "spline");
-  assert.equal(editor.sketch!.points.length, 2);
-  editor.leaveSketch();
-  editor.edit("structure.add", {});
+  assert.equal(drawing.sketch!.points.length, 2);
+  drawing.leave();
+  editor.edits.make("structure.add", {});
   await settled();
-  assert.equal(editor.undo(), false);
+  assert.equal(drawing.undo(), false);
 });
 
 const DISK_FULL = new ServerError("io", "cannot write the project: the disk is full", true);
@@ -331,21 +333,21 @@ function madeOf(id: number, call: Call): Contour {
 }
 
 test("a closed contour that the server does not take stays, whatever tool comes next, until it does", async () => {
-  const { editor, drag, edits, settled, server, complaints } = editing("spline", []);
+  const { editor, drawing, outbox, drag, edits, settled, server, complaints } = editing("spline", []);
   for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
-  const drawn = editor.sketch!.points.map((point) => point.at);
+  const drawn = drawing.sketch!.points.map((point) => point.at);
   server.refusal = DISK_FULL;
-  editor.close();
+  drawing.close();
   await settled();
   assert.deepEqual(complaints, [DISK_FULL.message]);
   editor.choose("edit");
-  assert.ok(editor.hasUnsaved);
-  assert.deepEqual(editor.sketch!.points.map((point) => point.at), drawn);
+  assert.ok(outbox.hasUnsaved);
+  assert.deepEqual(drawing.sketch!.points.map((point) => point.at), drawn);
   server.refusal = null;
-  editor.close();
+  drawing.close();
   await settled();
-  assert.equal(editor.sketch, null);
-  assert.ok(!editor.hasUnsaved);
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
   const [first, second] = edits();
   assert.equal(edits().length, 2);
   assert.deepEqual(first!.args, second!.args);
@@ -353,20 +355,20 @@ test("a closed contour that the server does not take stays, whatever tool comes 
 
 test("a line by hand that the server does not take stays closed, as it was drawn", async () => {
   for (const begun of [false, true]) {
-    const { editor, drag, edits, settled, server } = editing(begun ? "wire" : "freehand", []);
+    const { drawing, drag, edits, settled, server } = editing(begun ? "wire" : "freehand", []);
     if (begun) for (const p of [[100, 100], [300, 100]] as Point2[]) drag(p);
     server.refusal = DISK_FULL;
     if (begun) drag([300, 100], [300, 200], [300, 300], [250, 250], [200, 200], [100, 100]);
     else drag(...round(40, 90));
     await settled();
-    assert.ok(editor.sketch!.isClosed);
-    assert.ok(editor.placedLine.length > 4, "it is seen");
-    assert.deepEqual(editor.placedLine[0], editor.placedLine.at(-1));
-    const drawn = structuredClone(editor.sketch!.points);
+    assert.ok(drawing.sketch!.isClosed);
+    assert.ok(drawing.placedLine.length > 4, "it is seen");
+    assert.deepEqual(drawing.placedLine[0], drawing.placedLine.at(-1));
+    const drawn = structuredClone(drawing.sketch!.points);
     const tries = edits().length;
     drag([50, 50], [60, 60], [70, 70]);
     server.refusal = null;
-    editor.close();
+    drawing.close();
     await settled();
     assert.deepEqual(edits().slice(tries).map(({ name, args }) => [name, args["control"]]), [["contour.add", drawn]]);
   }
@@ -374,81 +376,185 @@ test("a line by hand that the server does not take stays closed, as it was drawn
 
 test("a contour that was saved before its reply was lost is not offered once more", async () => {
   for (const tool of ["freehand", "spline"] as const) {
-    const { editor, project, drag, edits, settled, server } = editing(tool, []);
+    const { drawing, outbox, project, drag, edits, settled, server } = editing(tool, []);
     server.refusal = LOST;
     if (tool === "freehand") drag(...round(40, 90));
     else for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
-    editor.close();
+    drawing.close();
     await settled();
-    assert.ok(editor.hasUnsaved);
+    assert.ok(outbox.hasUnsaved);
     project.start(session({ contours: [square(5)] }));
-    assert.ok(editor.hasUnsaved, "another contour is there");
+    assert.ok(outbox.hasUnsaved, "another contour is there");
     project.start(session({ contours: [square(5), madeOf(6, edits()[0]!)] }));
-    assert.equal(editor.sketch, null);
-    assert.ok(!editor.hasUnsaved);
+    assert.equal(drawing.sketch, null);
+    assert.ok(!outbox.hasUnsaved);
   }
 });
 
 test("while the next contour is drawn one that was not saved waits, and then comes back", async () => {
-  const { editor, drag, settled, server } = editing("spline", []);
+  const { drawing, outbox, drag, settled, server } = editing("spline", []);
   for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
-  const first = editor.sketch!;
+  const first = drawing.sketch!;
   const line0 = first.first;
   server.refusal = DISK_FULL;
-  editor.close();
+  drawing.close();
   drag([120, 120]);
-  const second = editor.sketch!;
+  const second = drawing.sketch!;
   await settled();
-  assert.equal(editor.sketch, second);
-  assert.ok(editor.hasUnsaved);
-  assert.deepEqual(editor.savedUnsaved().map((saved) => saved.points), [first.saved().points]);
-  assert.deepEqual(editor.closedLines().map(({ line }) => [line.length, line[0]]), [[4, line0]], "and is seen");
+  assert.equal(drawing.sketch, second);
+  assert.ok(outbox.hasUnsaved);
+  assert.deepEqual(outbox.saved().map((saved) => saved.points), [first.saved().points]);
+  assert.deepEqual(outbox.lines().map(({ line }) => [line.length, line[0]]), [[4, line0]], "and is seen");
   drag([320, 120]);
   drag([320, 320]);
   server.refusal = null;
-  editor.close();
+  drawing.close();
   await settled();
-  assert.equal(editor.sketch, first);
-  editor.leaveSketch();
-  assert.ok(!editor.hasUnsaved, "the user gave it up");
+  assert.equal(drawing.sketch, first);
+  drawing.leave();
+  assert.ok(!outbox.hasUnsaved, "the user gave it up");
+});
+
+/** What the server makes of a square by a stroke: it replaces the last side, thinned, and backwards if it was drawn so. */
+function redrawnBy(path: Vec3[], backwards = false): Contour {
+  const { points, control } = square(5);
+  const stroke = [path[0]!, ...path.slice(1, -1).filter((_, i) => i % 2 === 0), path.at(-1)!];
+  return square(5, { points: [...points, ...(backwards ? stroke.reverse() : stroke)], control: control.map((point, i) => (i < 3 ? point : { ...point, kind: "free" })) });
+}
+
+const STROKE: Point2[] = [[180, 215], [172, 210], [168, 205], [166, 200], [168, 195], [172, 190], [180, 185]];
+
+test("a redrawn piece that the server does not take stays, whatever tool comes next, until it does", async () => {
+  const { editor, drawing, outbox, drag, edits, settled, server, complaints } = editing("redraw");
+  server.refusal = DISK_FULL;
+  drag(...STROKE);
+  await settled();
+  assert.deepEqual(complaints, [DISK_FULL.message]);
+  assert.ok(outbox.hasUnsaved);
+  assert.deepEqual(drawing.placedLine, edits()[0]!.args["path"], "it is seen, as it was drawn");
+  drag(...STROKE);
+  assert.match(complaints.at(-1)!, /Enter tries again/);
+  editor.choose("edit");
+  editor.choose("wire");
+  server.refusal = null;
+  drawing.close();
+  await settled();
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
+  const [first, second] = edits();
+  assert.equal(edits().length, 2);
+  assert.equal(second!.name, "contour.redraw");
+  assert.deepEqual(first!.args, second!.args);
+});
+
+test("a redrawn piece that is given up comes back by undo, one that is undone by redo", async () => {
+  const { editor, drawing, outbox, drag, settled, server } = editing("redraw");
+  server.refusal = DISK_FULL;
+  drag(...STROKE);
+  await settled();
+  const stroke = drawing.sketch!;
+  assert.equal(drawing.undoLabel, "Redraw a part");
+  drawing.undo();
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
+  assert.equal(drawing.redoLabel, "Redraw a part");
+  editor.choose("edit");
+  drawing.redo();
+  assert.equal(editor.tool, "redraw");
+  assert.equal(drawing.sketch, stroke);
+  drawing.leave();
+  assert.equal(drawing.undoLabel, "Leave the piece");
+  drawing.undo();
+  assert.equal(drawing.sketch, stroke);
+});
+
+test("a redrawn piece that was saved before its reply was lost is not offered once more", async () => {
+  for (const backwards of [false, true]) {
+    const { drawing, outbox, project, drag, edits, settled, server } = editing("redraw");
+    server.refusal = LOST;
+    drag(...STROKE);
+    await settled();
+    const path = edits()[0]!.args["path"] as Vec3[];
+    project.start(session({ contours: [square(5), { ...redrawnBy(path), id: 6 }] }));
+    project.start(session({ contours: [redrawnBy(path.map(([x, y, z]) => [x + 0.1, y, z]))] }));
+    assert.ok(outbox.hasUnsaved, "only other strokes were saved");
+    project.start(session({ contours: [redrawnBy(path, backwards)] }));
+    assert.equal(drawing.sketch, null);
+    assert.ok(!outbox.hasUnsaved);
+  }
+});
+
+test("a next visit brings back a redrawn piece that was not saved, and not one that was", async () => {
+  const { outbox, drag, edits, settled, server } = editing("redraw");
+  server.refusal = LOST;
+  drag(...STROKE);
+  const unsaved = JSON.parse(JSON.stringify(outbox.saved())) as ReturnType<typeof outbox.saved>;
+  await settled();
+  const path = edits()[0]!.args["path"] as Vec3[];
+  const later = editing("edit");
+  later.outbox.restore(undefined, unsaved);
+  assert.ok(later.outbox.hasUnsaved);
+  later.drawing.close();
+  await later.settled();
+  assert.deepEqual(later.edits(), [{ name: "contour.redraw", args: { id: 5, path } }]);
+  const other = editing("edit", [redrawnBy(path)]);
+  other.outbox.restore(undefined, unsaved);
+  assert.ok(!other.outbox.hasUnsaved);
+});
+
+test("a stroke beside the contour's plane is redrawn in that plane", async () => {
+  const { drag, edits, settled } = editing("redraw", [square(5, { plane: { ...plane, origin: [0, 0, 0.5] }, points: square(5).points.map(([x, y]) => [x, y, 0.5]) })]);
+  drag(...STROKE);
+  await settled();
+  assert.deepEqual((edits()[0]!.args["path"] as Vec3[]).map((p) => p[2]), STROKE.map(() => 0.5));
+});
+
+test("a stroke that redraws nothing is put aside with a word", async () => {
+  const { drawing, outbox, drag, settled, server, complaints } = editing("redraw");
+  server.refusal = new ServerError("invalid_input", "the new part of a contour starts and ends at the same place of it", true);
+  drag(...STROKE);
+  await settled();
+  assert.equal(drawing.sketch, null);
+  assert.ok(!outbox.hasUnsaved);
+  assert.equal(complaints.length, 1);
 });
 
 test("a next visit brings back what was not saved, and not what was", async () => {
-  const { editor: before, drag, edits, settled, server } = editing("spline", []);
+  const { drawing: before, drag, edits, settled, server } = editing("spline", []);
   for (const p of [[100.123456789, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
   server.refusal = LOST;
   before.close();
-  const unsaved = before.savedUnsaved();
+  const unsaved = before.outbox.saved();
   await settled();
-  const { editor, complaints } = editing("edit", []);
-  editor.restore(undefined, unsaved);
-  assert.equal(editor.sketch!.points.length, 3);
-  assert.ok(editor.hasUnsaved);
+  const { drawing, outbox, complaints } = editing("edit", []);
+  outbox.restore(undefined, unsaved);
+  assert.equal(drawing.sketch!.points.length, 3);
+  assert.ok(outbox.hasUnsaved);
   assert.equal(complaints.length, 1);
-  const other = editing("edit", [madeOf(6, edits()[0]!)]).editor;
-  other.restore({ ...unsaved[0]!, isUnsaved: false }, unsaved);
+  const other = editing("edit", [madeOf(6, edits()[0]!)]).drawing;
+  other.outbox.restore({ ...unsaved[0]!, isUnsaved: false }, unsaved);
   assert.equal(other.sketch, null);
-  assert.ok(!other.hasUnsaved);
+  assert.ok(!other.outbox.hasUnsaved);
 });
 
 test("a stroke that is no contour is put aside with a word", async () => {
-  const { editor, drag, settled, server, complaints } = editing("freehand", []);
+  const { drawing, drag, settled, server, complaints } = editing("freehand", []);
   server.refusal = new ServerError("invalid_input", "a contour needs at least three points that do not lie on one line", true);
   drag([100, 100], [110, 110], [120, 120]);
   await settled();
-  assert.equal(editor.sketch, null);
+  assert.equal(drawing.sketch, null);
   assert.equal(complaints.length, 1);
-  assert.equal(editor.undoLabel, "Leave the contour");
+  assert.equal(drawing.undoLabel, "Leave the contour");
 });
 
 test("an edit waits for the contour that was closed before it", async () => {
-  const { editor, drag, edits, settled } = editing("wire", []);
+  const { editor, drawing, outbox, drag, edits, settled } = editing("wire", []);
   for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
-  editor.close();
-  assert.equal(editor.closedLines().length, 1, "it is seen meanwhile");
-  editor.edit("undo", {});
+  drawing.close();
+  assert.equal(outbox.lines().length, 1, "it is seen meanwhile");
+  editor.edits.make("undo", {});
   await settled();
-  assert.equal(editor.closedLines().length, 0);
+  assert.equal(outbox.lines().length, 0);
   assert.deepEqual(edits().map((call) => call.name), ["contour.add", "undo"]);
 });
 

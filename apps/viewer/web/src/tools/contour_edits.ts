@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+import { heightOver } from "../geometry/plane";
+import { gap, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { dot, scale, sub, type Vec3 } from "../geometry/vec";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import { Latest } from "../net/latest";
+import type { Contour, ViewName } from "../net/protocol";
+import type { Drawing } from "./drawing";
+import type { EditorServices } from "./editor";
+import { DRAG_PIXELS, type Gesture, type Modifiers } from "./gesture";
+import { inView, type ContourHit } from "./hit";
+
+interface Edit {
+  name: string;
+  args: Record<string, unknown>;
+}
+
+/** Changes contours that are there, by gestures and by commands. */
+export class ContourEdits {
+  private readonly drafts = new Latest<Edit>((edit) => this.askDraft(edit));
+
+  constructor(
+    private readonly navigation: Navigation,
+    private readonly project: Project,
+    private readonly drawing: Drawing,
+    private readonly services: EditorServices,
+  ) {}
+
+  /** Carries out a call that changes the project, after the sketches that are on their way. */
+  make(name: string, args: Record<string, unknown>): void {
+    const { drawing, project, services } = this;
+    if (drawing.outbox.isSending) return drawing.outbox.afterSending(() => this.make(name, args));
+    drawing.forgetLeft();
+    services.call(name, args).catch((error: unknown) => {
+      project.refused();
+      services.failed(error);
+    });
+  }
+
+  press(screen: Screen, pointer: Point2, hit: ContourHit, modifiers: Modifiers): Gesture | null {
+    if (modifiers.ctrl) {
+      this.make("contour.insert_point", { id: hit.contour, at: hit.at });
+      this.project.select({ contour: hit.contour, point: null });
+      return null;
+    }
+    this.project.select({ contour: hit.contour, point: hit.on === "point" ? hit.index : null });
+    if (modifiers.shift) return this.move(screen, pointer, hit.contour);
+    const mm_per_pixel = screen.mm_per_pixel;
+    if (hit.on === "point")
+      return this.draftGesture(pointer, (at) => ({
+        name: "contour.move_point",
+        args: { id: hit.contour, index: hit.index, to: toWorld(screen, at), mm_per_pixel },
+      }));
+    return this.draftGesture(pointer, (at) => ({
+      name: "contour.pull",
+      args: { id: hit.contour, from: hit.at, to: toWorld(screen, at) },
+    }));
+  }
+
+  move(screen: Screen, pointer: Point2, contour: number): Gesture {
+    this.project.select({ contour, point: null });
+    const start = toWorld(screen, pointer);
+    return this.draftGesture(pointer, (at) => ({
+      name: "contour.translate",
+      args: { id: contour, by: sub(toWorld(screen, at), start) },
+    }));
+  }
+
+  redraw(screen: Screen, step_mm: number, pointer: Point2, hit: ContourHit | null): Gesture | null {
+    if (this.drawing.holdsUnsaved()) return null;
+    const id = hit?.contour ?? this.project.selection?.contour;
+    const contour = id === undefined ? undefined : this.project.contour(id);
+    if (!contour || !inView(contour, screen, step_mm)) {
+      this.services.tell("Begin on the line of the contour that you want to redraw.");
+      return null;
+    }
+    this.project.select({ contour: contour.id, point: null });
+    const hand: Vec3[] = [toWorld(screen, pointer)];
+    return {
+      move: (at) => {
+        hand.push(toWorld(screen, at));
+        this.drawing.showHand(hand);
+      },
+      end: () => {
+        this.drawing.showHand([]);
+        if (hand.length > 2) this.drawing.redraw(contour, hand);
+      },
+      cancel: () => this.drawing.showHand([]),
+    };
+  }
+
+  /** The surface follows the pointer by drafts; the release makes the edit. */
+  private draftGesture(start: Point2, editAt: (pointer: Point2) => Edit): Gesture {
+    let isDrag = false;
+    return {
+      move: (at) => {
+        isDrag ||= gap(at, start) > DRAG_PIXELS;
+        if (isDrag) this.drafts.send(editAt(at));
+      },
+      end: (at) => {
+        this.drafts.drop();
+        if (!isDrag) return;
+        const { name, args } = editAt(at);
+        this.make(name, args);
+      },
+      cancel: () => this.dropDraft(),
+    };
+  }
+
+  private async askDraft({ name, args }: Edit): Promise<void> {
+    try {
+      const { contour } = await this.services.call<{ contour: Contour }>(name, { ...args, draft: true });
+      this.project.draft = contour;
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+
+  private dropDraft(): void {
+    this.drafts.drop();
+    void this.drafts.idle().then(() => {
+      this.project.draft = null;
+      this.services.call("draft.drop").catch(this.services.failed);
+    });
+  }
+
+  /** The selected point, or else the selected contour. */
+  deleteSelected(): void {
+    const selection = this.project.selection;
+    if (!selection) return;
+    if (selection.point === null) return this.make("contour.remove", { ids: [selection.contour] });
+    this.make("contour.delete_point", { id: selection.contour, index: selection.point });
+    this.project.select({ contour: selection.contour, point: null });
+  }
+
+  /** Lays a copy of the selected contour `steps` slices further along its normal, and shows it. */
+  async copySelected(view: ViewName, steps: number): Promise<void> {
+    const contour = this.project.selectedContour;
+    if (!contour) return this.services.tell("Select a contour first: click its line, or its row in the list.");
+    try {
+      const onward = Math.sign(dot(contour.plane.normal, this.navigation.direction(view))) || 1;
+      const offset_mm = steps * onward * this.navigation.step(view);
+      const copy = await this.services.call<{ contour: Contour }>("contour.copy", { id: contour.id, offset_mm });
+      this.project.select({ contour: copy.contour.id, point: null });
+      this.navigation.setCrosshair(sub(this.navigation.crosshair, scale(contour.plane.normal, heightOver(copy.contour.plane, this.navigation.crosshair))));
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+}

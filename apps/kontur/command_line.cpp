@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include "commands.h"
 #include "kontur/base/error.h"
@@ -34,6 +35,7 @@ struct Binder {
         sub->footer("Example:\n  " + example);
         sub->parse_complete_callback([&target = invocation, command = command] {
             target.command = [command](Console& console) { run(*command, console); };
+            if constexpr (std::is_same_v<Command, SegmentCommand>) target.check = [command] { check_words(*command); };
         });
     }
 
@@ -338,6 +340,18 @@ void add_open(CLI::App& app, Invocation& invocation) {
 }
 
 }  // namespace
+
+std::vector<OptionName> options_of_segment() {
+    CLI::App app;
+    Invocation invocation;
+    add_segment(app, invocation);
+    const CLI::App* segment = app.get_subcommand("segment");
+    std::vector<OptionName> options;
+    for (const CLI::Option* option : segment->get_options())
+        if (option != segment->get_help_ptr())
+            for (const std::string& name : option->get_lnames()) options.push_back({name, option->get_expected_max() == 0});
+    return options;
+}
 
 Invocation parse_command_line(int argc, const char* const* argv) {
     Invocation invocation;

@@ -40,6 +40,8 @@ struct SegmentCommand {
     SegmentOptions options;
 };
 void run(const SegmentCommand& command, Console& console);
+/// What can be refused by the words alone, without a look at any file.
+void check_words(const SegmentCommand& command);
 
 /// 3D Slicer's command-line module: speaks its language on stdout, with the file names that it passes.
 struct SlicerCommand {

@@ -75,6 +75,18 @@ CLI::Validator between(double least, double most) {
             ""};
 }
 
+/// Of 64 bits without a sign, which the option's type by itself would read into a negative one.
+CLI::Validator whole_number() {
+    return {[](const std::string& word) {
+                std::uint64_t value = 0;
+                const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+                if (failure == std::errc() && end == word.data() + word.size()) return std::string();
+                return fmt::format("is {}, but must be a whole number from 0 to {}", word,
+                                   std::numeric_limits<std::uint64_t>::max());
+            },
+            ""};
+}
+
 CLI::Option* add_threads(CLI::App& sub, int& threads, const std::string& help = "Threads; 0: as many as the machine has") {
     constexpr double kMostThreads = 4096;
     return sub.add_option("--threads", threads, help)
@@ -185,7 +197,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
         bind.option("--spacing-mm", c.spacing_mm, "MM[,MM,MM]", "Without --image: size of the mask's voxels");
     spacing->delimiter(',')->allow_extra_args(false)->excludes(image);
     bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
-    bind.option("--output", c.output, "FILE",
+    bind.option("-o,--output", c.output, "FILE",
                 "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha or, with a DICOM --image, .dcm (SEG)")
         ->required();
     bind.option("--rtstruct", c.rtstruct, "FILE", "Contours on the slices of a DICOM --image to write, as RTSTRUCT: .dcm");
@@ -251,7 +263,7 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     where->add_option("--planes", c.planes, "Contour file whose planes cut, whatever contours it holds")->type_name("FILE");
     where->add_option("--image", c.image.path, "Image or DICOM folder whose slices cut")->type_name("FILE");
     where->require_option(1);
-    bind.option("--output", c.output, "FILE",
+    bind.option("-o,--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();
     bind.option("--name", c.name, "NAME", "The structure's name");
@@ -273,9 +285,11 @@ void add_compare(CLI::App& app, Invocation& invocation) {
     bind.word("A", c.a, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
     bind.word("B", c.b, "Another one on the same grid");
     bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
+    bind.option("--label-b", c.label_b, "N", "That of B, where it is another one [--label]");
     bind.flag("--json", c.json, "Print JSON");
     add_threads(*bind.sub, c.options.threads);
     add_read_options(*bind.sub, c.read);
+    bind.option("--frame-b", c.frame_b, "N", "That of B, where it is another one [--frame]");
 }
 
 void add_inspect(CLI::App& app, Invocation& invocation) {
@@ -284,7 +298,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
                                 "kontur inspect ct.nii.gz contours.json liver.stl dicom_folder/");
     InspectCommand& c = *bind.command;
     bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
-    bind.flag("--check", c.check, "List everything wrong or doubtful in contours, with its place");
+    bind.flag("--check", c.check, "List everything wrong or doubtful in contours, with its place; each file by itself");
     bind.flag("--json", c.json, "Print JSON");
     add_read_options(*bind.sub, c.read);
     add_series_options(*bind.sub, c.read.dicom);
@@ -315,7 +329,7 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
     bind.option("--scan", c.scans, "NAME", "Write only this scan, such as liver; again for more [all]")
         ->allow_extra_args(false);
     bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
-    bind.defaulted("--seed", c.options.seed, "N", "Of the noise");
+    bind.defaulted("--seed", c.options.seed, "N", "Of the noise")->check(whole_number());
     add_threads(*bind.sub, c.options.threads);
     bind.quiet();
 }

@@ -99,6 +99,7 @@ struct CompareCommand {
     std::filesystem::path a, b;
     std::optional<std::int64_t> label;
     ReadImageOptions read;
+    std::optional<std::int64_t> label_b, frame_b;  ///< where b's are others
     CompareOptions options;
     bool json = false;
 };

@@ -4,13 +4,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <iterator>
 #include <list>
+#include <map>
+#include <optional>
+#include <span>
 #include <thread>
+#include <utility>
 
 #include "cases.h"
 #include "child_process.h"
+#include "claim.h"
 #include "command_line.h"
 #include "commands.h"
 #include "facts.h"
@@ -34,13 +40,14 @@ std::string content_of(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+bool succeeded(const Facts& entry) { return entry.is_object() && entry.value("exit_code", -1) == 0; }
+
 /// What became of each case, one file each, so that several machines can write them at the same time. A file appears
 /// whole after the case's outputs did.
 class Journal {
 public:
-    Journal(const Cohort& cohort, const fs::path& table, const fs::path& folder)
-        : cohort_(cohort),
-          base_(table.has_parent_path() ? table.parent_path() : fs::path(".")),
+    Journal(const fs::path& table, const fs::path& folder)
+        : base_(table.has_parent_path() ? table.parent_path() : fs::path(".")),
           folder_(folder.empty() ? base_ / (table.stem().string() + ".journal") : folder) {
         std::error_code failure;
         fs::create_directories(folder_, failure);
@@ -49,41 +56,55 @@ public:
     }
 
     const fs::path& base() const { return base_; }
-    fs::path file(const Case& one, const char* extension) const {
-        return folder_ / fmt::format("{:05}{}", one.number, extension);
-    }
+    const fs::path& folder() const { return folder_; }
+    fs::path file(const Case& one, const char* extension) const { return folder_ / (file_stem(one) + extension); }
 
-    std::string made_from(const Case& one) const { return fingerprint(one, cohort_, base_); }
+    std::string made_from(const Case& one) const { return fingerprint(one, base_); }
 
-    /// null: nothing is known about the case as it is now.
-    Facts entry(const Case& one) const {
+    /// null: nothing is known about the case as it is now, or outputs of it are gone.
+    Facts entry(const Case& one, const std::string& made_from) const {
         Facts found = Facts::parse(content_of(file(one, ".json")), nullptr, /*allow_exceptions=*/false);
-        if (!found.is_object() || found.value("made_from", "") != made_from(one)) return nullptr;
-        return found;
-    }
-
-    bool is_done(const Case& one) const {
-        const Facts found = entry(one);
+        if (!found.is_object() || found.value("made_from", "") != made_from) return nullptr;
         const auto exists = [&](const fs::path& output) { return fs::exists(base_ / output); };
-        return found.is_object() && found.value("exit_code", -1) == 0 &&
-               std::all_of(one.outputs.begin(), one.outputs.end(), exists);
+        if (succeeded(found) && !std::all_of(one.outputs.begin(), one.outputs.end(), exists)) return nullptr;
+        return found;
     }
 
     void write(const Case& one, const Facts& facts) const { write_file_atomically(file(one, ".json"), to_json_text(facts)); }
 
 private:
-    const Cohort& cohort_;
     fs::path base_, folder_;
+};
+
+/// A row and what became of it.
+struct Entry {
+    const Case* one;
+    Facts found;             ///< as in the journal; null: nothing that holds for the case as it is now
+    bool elsewhere = false;  ///< another process makes it
+
+    bool is_done() const { return succeeded(found); }
+    const char* state() const {
+        if (elsewhere) return "running";
+        if (!found.is_object()) return "open";
+        return is_done() ? "done" : "failed";
+    }
 };
 
 /// A case in progress.
 struct Running {
-    const Case* one;
+    Entry* entry;
+    Claim claim;
     std::string made_from;
     fs::path report;
     Clock::time_point start;
     ChildProcess process;
 };
+
+std::string counted(std::size_t count, const char* thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+std::size_t warning_count(const Facts& facts) { return facts.contains("warnings") ? facts["warnings"].size() : 0; }
 
 /// The sentence behind "kontur: error: " that a failed command ends with.
 std::string error_in(const fs::path& log, int exit_code) {
@@ -102,51 +123,53 @@ public:
         : command_(command),
           console_(console),
           cohort_(read_cases(command.table)),
-          cases_(cohort_.cases),
-          journal_(cohort_, command.table, command.journal) {
+          journal_(command.table, command.journal),
+          jobs_(command.jobs > 0 ? command.jobs : 1) {
         if (!command.summary.empty()) check_apart(command.summary, cohort_);
-        if (command.row > 0) keep_row();
-        jobs_ = command.jobs > 0 ? command.jobs : 1;
-        for (const Case& one : cases_)
-            if (command.collect || journal_.is_done(one)) ++before_;
-            else waiting_.push_back(&one);
+        for (const Case& one : chosen()) entries_.push_back({&one, journal_.entry(one, journal_.made_from(one))});
+        if (command.collect) return;
+        for (Entry& entry : entries_)
+            if (!entry.is_done()) waiting_.push_back(&entry);
+        for (const Entry* entry : waiting_) check_outputs(*entry->one, command.table);
+        to_do_ = waiting_.size();
     }
 
     void work() {
         try {
             make_all();
+            // What another process was making is done by now, perhaps, or that process has ended before it was.
+            waiting_ = std::exchange(elsewhere_, {});
+            make_all();
         } catch (const Error& error) {
             if (error.kind() != ErrorKind::cancelled) throw;
+            const auto done = std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.is_done(); });
             throw EndedEarly(fmt::format("interrupted; {} of {} cases are done, and the same command goes on from there",
-                                         before_ + finished_ - failed_, cases_.size()),
+                                         done, entries_.size()),
                              exit_code(ErrorKind::cancelled));
         }
     }
 
     /// One entry for each case, those of earlier runs included.
     Facts summary() const {
+        std::map<std::string, int> count;
         Facts list = Facts::array();
-        int done = 0, failed = 0;
-        for (const Case& one : cases_) {
-            Facts facts = {{"row", one.number}, {"case", one.name}};
-            const Facts found = journal_.entry(one);
-            if (!found.is_object()) facts["state"] = "open";
-            else {
-                const bool good = found.value("exit_code", -1) == 0;
-                ++(good ? done : failed);
-                facts["state"] = good ? "done" : "failed";
-                facts.update(found);
+        for (const Entry& entry : entries_) {
+            ++count[entry.state()];
+            Facts facts = {{"row", entry.one->number}, {"case", entry.one->name}, {"state", entry.state()}};
+            if (entry.found.is_object()) {
+                facts.update(entry.found);
                 facts.erase("made_from");
+                facts["log"] = journal_.file(*entry.one, ".log").string();
             }
             list.push_back(std::move(facts));
         }
-        return {{"version", KONTUR_VERSION},
-                {"table", command_.table.string()},
-                {"done", done},
-                {"failed", failed},
-                {"open", static_cast<int>(cases_.size()) - done - failed},
-                {"cases", list}};
+        Facts all = {{"version", KONTUR_VERSION}, {"table", command_.table.string()}};
+        for (const char* state : {"done", "failed", "open", "running"}) all[state] = count[state];
+        all["cases"] = list;
+        return all;
     }
+
+    const fs::path& journal() const { return journal_.folder(); }
 
 private:
     void make_all() {
@@ -159,22 +182,44 @@ private:
         }
     }
 
-    void keep_row() {
-        if (static_cast<std::size_t>(command_.row) > cases_.size())
-            throw Error(ErrorKind::invalid_input, fmt::format("{} has {} rows; there is no row {}", command_.table.string(),
-                                                              cases_.size(), command_.row));
-        cases_ = {cases_[static_cast<std::size_t>(command_.row) - 1]};
+    /// All cases or the row that was asked for.
+    std::span<const Case> chosen() const {
+        const std::span<const Case> all(cohort_.cases);
+        if (command_.row == 0) return all;
+        const auto row = static_cast<std::size_t>(command_.row);
+        if (row > all.size())
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} has {} rows; there is no row {}", command_.table.string(), all.size(), row));
+        return all.subspan(row - 1, 1);
     }
 
     void start_next() {
-        const Case& one = *waiting_.front();
-        waiting_.erase(waiting_.begin());
+        Entry& entry = *waiting_.front();
+        waiting_.pop_front();
+        const Case& one = *entry.one;
+        std::optional<Claim> claim = Claim::on(journal_.file(one, ".log"));
+        entry.elsewhere = !claim;
+        if (!claim) {
+            entry.found = nullptr;
+            return elsewhere_.push_back(&entry);
+        }
+        if (!claim->excludes_others()) warn_of_missing_locks();
+        const std::string made_from = journal_.made_from(one);
+        entry.found = journal_.entry(one, made_from);
+        if (entry.is_done()) return;  // by another process, after this one had looked
+
         std::vector<std::string> more;
         fs::path report = one.report.empty() ? journal_.file(one, ".report.json") : journal_.base() / one.report;
         if (one.report.empty()) more.push_back("--report=" + report.string());
         if (!one.has_threads) more.push_back(fmt::format("--threads={}", threads()));
-        running_.push_back({&one, journal_.made_from(one), report, Clock::now(),
+        running_.push_back({&entry, std::move(*claim), made_from, report, Clock::now(),
                             ChildProcess(words_of(one, more), journal_.base(), journal_.file(one, ".log"))});
+    }
+
+    void warn_of_missing_locks() {
+        if (!std::exchange(has_warned_, true))
+            console_.warn(fmt::format("files in {} cannot be locked: another batch on this table would make the same cases",
+                                      journal_.folder().string()));
     }
 
     int threads() const { return command_.threads > 0 ? command_.threads : std::max(1, thread_count(0) / jobs_); }
@@ -192,32 +237,38 @@ private:
     }
 
     void finish(const Running& ended, int exit_code) {
+        const Case& one = *ended.entry->one;
         const double seconds = seconds_since(ended.start);
         Facts facts = {{"exit_code", exit_code}, {"seconds", seconds}};
-        if (exit_code != 0) facts["error"] = error_in(journal_.file(*ended.one, ".log"), exit_code);
+        if (exit_code != 0) facts["error"] = error_in(journal_.file(one, ".log"), exit_code);
         else if (const Facts report = Facts::parse(content_of(ended.report), nullptr, false); report.is_object())
             for (const char* key : {"mask", "residual_mm", "warnings"})
                 if (report.contains(key)) facts[key] = report[key];
         facts["made_from"] = ended.made_from;
-        journal_.write(*ended.one, facts);
-        if (ended.one->report.empty()) fs::remove(ended.report);
+        journal_.write(one, facts);
+        if (one.report.empty()) fs::remove(ended.report);
         ++finished_;
         failed_ += exit_code != 0;
         busy_seconds_ += seconds;
-        console_.print(exit_code == 0
-                           ? fmt::format("{}: {:.2f} ml, {:.1f} s\n", ended.one->name,
-                                         facts.contains("mask") ? facts["mask"].value("volume_ml", 0.0) : 0.0, seconds)
-                           : fmt::format("{}: FAILED, {}\n", ended.one->name, facts["error"].get<std::string>()));
+        console_.print(line_about(one, facts));
         std::fflush(stdout);  // for who follows a log
+        ended.entry->found = std::move(facts);
     }
 
-    double fraction() const {
-        const auto to_do = static_cast<double>(cases_.size() - before_);
-        return to_do > 0 ? static_cast<double>(finished_) / to_do : 1;
+    static std::string line_about(const Case& one, const Facts& facts) {
+        if (!succeeded(facts)) return fmt::format("{}: FAILED, {}\n", one.name, facts["error"].get<std::string>());
+        const double volume_ml = facts.contains("mask") ? facts["mask"].value("volume_ml", 0.0) : 0.0;
+        const std::size_t warnings = warning_count(facts);
+        return fmt::format("{}: {:.2f} ml, {:.1f} s{}\n", one.name, volume_ml, facts["seconds"].get<double>(),
+                           warnings > 0 ? ", " + counted(warnings, "warning") : "");
     }
+
+    std::size_t unfinished() const { return waiting_.size() + elsewhere_.size() + running_.size(); }
+
+    double fraction() const { return to_do_ > 0 ? 1 - static_cast<double>(unfinished()) / static_cast<double>(to_do_) : 1; }
 
     std::string status() const {
-        std::string text = fmt::format("{} of {} cases", before_ + finished_, cases_.size());
+        std::string text = fmt::format("{} of {} cases", entries_.size() - unfinished(), entries_.size());
         if (failed_ > 0) text += fmt::format(", {} failed", failed_);
         if (finished_ == 0) return text;
         const double mean = busy_seconds_ / static_cast<double>(finished_);
@@ -229,31 +280,50 @@ private:
     const BatchCommand& command_;
     Console& console_;
     const Cohort cohort_;
-    std::vector<Case> cases_;  ///< those to be made
     Journal journal_;
-    std::vector<const Case*> waiting_;
+    int jobs_;
+    std::vector<Entry> entries_;
+    std::deque<Entry*> waiting_, elsewhere_;
     std::list<Running> running_;
-    int jobs_ = 1;
-    std::size_t before_ = 0, finished_ = 0, failed_ = 0;
+    std::size_t to_do_ = 0, finished_ = 0, failed_ = 0;
     double busy_seconds_ = 0;
+    bool has_warned_ = false;
 };
+
+std::string totals_of(const Facts& summary) {
+    std::string text = fmt::format("{} done, {} failed, {} open", summary["done"].get<int>(), summary["failed"].get<int>(),
+                                   summary["open"].get<int>());
+    if (const int running = summary["running"].get<int>(); running > 0)
+        text += fmt::format(", {} being made by another process", running);
+    return text + "\n";
+}
 
 std::string table_of(const Facts& summary) {
     std::size_t width = 4;
     for (const Facts& one : summary["cases"]) width = std::max(width, one["case"].get<std::string>().size());
-    std::string text = fmt::format("{:<{}}  {:<6}  {:>10}  {:>10}  {:>8}\n", "case", width, "state", "ml", "max mm", "s");
+    std::string text = fmt::format("{:<{}}  {:<7}  {:>10}  {:>10}  {:>8}  {:>8}\n", "case", width, "state", "ml", "max mm",
+                                   "s", "warnings");
     for (const Facts& one : summary["cases"]) {
         const auto cell = [&](const char* group, const char* key) {
             return one.contains(group) ? fmt::format("{:.3f}", one[group].value(key, 0.0)) : std::string("-");
         };
-        text += fmt::format("{:<{}}  {:<6}  {:>10}  {:>10}  {:>8.1f}", one["case"].get<std::string>(), width,
+        text += fmt::format("{:<{}}  {:<7}  {:>10}  {:>10}  {:>8.1f}  {:>8}", one["case"].get<std::string>(), width,
                             one["state"].get<std::string>(), cell("mask", "volume_ml"), cell("residual_mm", "max"),
-                            one.value("seconds", 0.0));
+                            one.value("seconds", 0.0), one.contains("warnings") ? fmt::to_string(warning_count(one)) : "-");
         if (one.contains("error")) text += fmt::format("  {}", one["error"].get<std::string>());
         text += '\n';
     }
-    return text + fmt::format("{} done, {} failed, {} open\n", summary["done"].get<int>(), summary["failed"].get<int>(),
-                              summary["open"].get<int>());
+    return text + totals_of(summary);
+}
+
+/// Where the cases' warnings can be read; "" where there are none.
+std::string warnings_line(const Facts& summary, const BatchCommand& command, const fs::path& journal) {
+    std::size_t count = 0;
+    for (const Facts& one : summary["cases"]) count += warning_count(one);
+    if (count == 0) return "";
+    return fmt::format(
+        "read the {} in {}\n", count == 1 ? "warning" : fmt::format("{} warnings", count),
+        command.summary.empty() ? fmt::format("the .log files of {}", journal.string()) : command.summary.string());
 }
 
 }  // namespace
@@ -265,11 +335,13 @@ void run(const BatchCommand& command, Console& console) {
     batch.work();
     const Facts summary = batch.summary();
     if (!command.summary.empty()) write_file_atomically(command.summary, to_json_text(summary));
-    console.print(fmt::format("\n{}", table_of(summary)));
-    const int failed = summary["failed"].get<int>(), open = summary["open"].get<int>();
-    if (failed + open == 0) return;
-    throw EndedEarly(fmt::format("{} of {} cases failed{}", failed, summary["cases"].size(),
-                                 open > 0 ? fmt::format(", {} were not made", open) : ""),
+    console.print(fmt::format("\n{}{}", table_of(summary), warnings_line(summary, command, batch.journal())));
+    const int failed = summary["failed"].get<int>(), open = summary["open"].get<int>(),
+              running = summary["running"].get<int>();
+    if (failed + open + running == 0) return;
+    throw EndedEarly(fmt::format("{} of {} cases failed{}{}", failed, summary["cases"].size(),
+                                 open > 0 ? fmt::format(", {} were not made", open) : "",
+                                 running > 0 ? fmt::format(", {} being made by another process", running) : ""),
                      kCasesFailedExitCode);
 }
 

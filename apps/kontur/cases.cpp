@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 
@@ -21,56 +23,85 @@ namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse(const std::string& sentence) { throw Error(ErrorKind::invalid_input, sentence); }
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+/// The parts without the blanks around them; empty ones are left out.
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     for (std::size_t start = 0; start <= text.size();) {
         const std::size_t end = std::min(text.find(separator, start), text.size());
-        if (end > start) parts.push_back(text.substr(start, end - start));
+        if (std::string part = trimmed(text.substr(start, end - start)); !part.empty()) parts.push_back(std::move(part));
         start = end + 1;
     }
     return parts;
 }
 
+/// Of UTF-8: no character begins here.
+bool is_inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Columns may be written with underscores.
-std::string option_of(std::string column) {
-    std::replace(column.begin(), column.end(), '_', '-');
-    return column;
+/// What each column means; its name may have capitals and underscores.
+std::vector<OptionName> meaning_of(const std::vector<std::string>& columns) {
+    std::vector<OptionName> known{{"case"}, {"contours"}}, found;
+    std::ranges::move(options_of_segment(), std::back_inserter(known));
+    const auto find = [](const std::vector<OptionName>& options, const std::string& name) {
+        return std::ranges::find(options, name, &OptionName::name);
+    };
+    for (const std::string& column : columns) {
+        std::string name = lower_case(column);
+        std::ranges::replace(name, '_', '-');
+        const auto option = find(known, name);
+        if (option == known.end())
+            refuse(fmt::format("the column '{}' is neither case nor contours nor an option of kontur segment", column));
+        if (find(found, name) != found.end()) refuse(fmt::format("the column '{}' is a second one for {}", column, name));
+        found.push_back(*option);
+    }
+    for (const char* needed : {"contours", "output"})
+        if (find(found, needed) == found.end()) refuse(fmt::format("there is no column '{}'", needed));
+    return found;
 }
 
-void add_option(Case& one, const std::string& option, const std::string& value) {
-    if (is_one_of(option, {"allow-missing-geometry", "date", "quiet"})) {
-        if (is_one_of(value, {"1", "true", "yes"})) one.options.push_back("--" + option);
-        else if (!is_one_of(value, {"0", "false", "no"}))
-            throw Error(ErrorKind::invalid_input, fmt::format("{} is yes or no, not {}", option, value));
+void add_option(Case& one, const OptionName& option, const std::string& value) {
+    if (option.is_flag) {
+        const std::string answer = lower_case(value);
+        if (is_one_of(answer, {"1", "true", "yes"})) one.options.push_back("--" + option.name);
+        else if (!is_one_of(answer, {"0", "false", "no"}))
+            refuse(fmt::format("{} is yes or no, not {}", option.name, value));
         return;
     }
-    one.options.push_back(fmt::format("--{}={}", option, value));
-    if (option == "image") one.inputs.emplace_back(value);
-    if (is_one_of(option, {"output", "rtstruct", "mesh", "picture", "report"})) one.outputs.emplace_back(value);
-    if (option == "report") one.report = value;
-    one.has_threads |= option == "threads";
+    one.options.push_back(fmt::format("--{}={}", option.name, value));
+    if (option.name == "image") one.inputs.emplace_back(value);
+    if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "report"})) one.outputs.emplace_back(value);
+    if (option.name == "output") one.output = value;
+    if (option.name == "report") one.report = value;
+    one.has_threads |= option.name == "threads";
 }
 
 /// The row as words; `segment` itself judges them.
-Case read_row(const std::vector<std::string>& columns, const std::vector<std::string>& cells, std::size_t number) {
+Case read_row(const std::vector<OptionName>& columns, const std::vector<std::string>& cells) {
     Case one;
-    one.number = number;
-    one.name = std::to_string(number);
     for (std::size_t n = 0; n < columns.size(); ++n) {
-        const std::string option = option_of(columns[n]);
         if (cells[n].empty()) continue;
-        if (option == "case") one.name = cells[n];
-        else if (option == "contours")
-            for (const std::string& file : split(cells[n], ';')) {
-                one.contours.push_back(file);
-                one.inputs.emplace_back(file);
-            }
-        else add_option(one, option, cells[n]);
+        if (columns[n].name == "case") one.name = cells[n];
+        else if (columns[n].name == "contours") one.contours = split(cells[n], ';');
+        else add_option(one, columns[n], cells[n]);
     }
+    if (one.contours.empty()) refuse("the cell below 'contours' is empty");
+    if (one.output.empty()) refuse("the cell below 'output' is empty");
+    one.inputs.insert(one.inputs.end(), one.contours.begin(), one.contours.end());
     return one;
 }
 
@@ -79,8 +110,8 @@ void check(const Case& one) {
     std::vector<const char*> argv{"kontur"};
     for (const std::string& word : words) argv.push_back(word.c_str());
     const Invocation invocation = parse_command_line(static_cast<int>(argv.size()), argv.data());
-    if (!invocation.command)
-        throw Error(ErrorKind::invalid_input, invocation.exit_code != 0 ? invocation.text : "is no call of segment");
+    if (!invocation.command) refuse(invocation.exit_code != 0 ? invocation.text : "is no call of segment");
+    invocation.check();
 }
 
 using Lines = std::map<fs::path, std::size_t>;
@@ -100,20 +131,22 @@ std::optional<std::size_t> line_that_reads(const fs::path& place, const Lines& i
     return std::nullopt;
 }
 
-void note_outputs(const Case& one, const fs::path& folder, std::size_t line, Lines& outputs) {
-    for (const fs::path& output : one.outputs)
-        if (const auto [known, is_new] = outputs.emplace(destination(folder / output), line); !is_new)
-            throw Error(ErrorKind::invalid_input,
-                        fmt::format("{} is already an output of line {}", output.string(), known->second));
+void note_outputs(const Case& one, const fs::path& table, std::size_t line, Lines& outputs) {
+    for (const fs::path& output : one.outputs) {
+        const fs::path place = destination(table.parent_path() / output);
+        if (place == destination(table)) refuse(fmt::format("{} would replace the table", output.string()));
+        if (const auto [known, is_new] = outputs.emplace(place, line); !is_new)
+            refuse(fmt::format("{} is already an output of line {}", output.string(), known->second));
+    }
 }
 
-/// Calls `action` for each case and its line; errors name both.
-void for_each_row(const fs::path& table, const CsvTable& csv, const std::function<void(std::size_t, std::size_t)>& action) {
-    for (std::size_t n = 0; n < csv.rows.size(); ++n) try {
-            action(n, csv.lines[n]);
-        } catch (const Error& error) {
-            throw error.with_context(fmt::format("{}: line {}", table.string(), csv.lines[n]));
-        }
+/// Errors of `action` name the line.
+void at_line(const fs::path& table, std::size_t line, const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        throw error.with_context(fmt::format("{}: line {}", table.string(), line));
+    }
 }
 
 std::string size_and_time(const fs::path& file) {
@@ -160,41 +193,55 @@ std::vector<std::string> words_of(const Case& one, const std::vector<std::string
 Cohort read_cases(const fs::path& table) {
     const CsvTable csv = read_csv(table);
     const fs::path folder = table.parent_path();
+    std::vector<OptionName> columns;
+    at_line(table, 1, [&] { columns = meaning_of(csv.columns); });
     Cohort cohort;
-    for_each_row(table, csv, [&](std::size_t n, std::size_t line) {
-        const Case& one = cohort.cases.emplace_back(read_row(csv.columns, csv.rows[n], n + 1));
-        check(one);
-        note_inputs(one, folder, line, cohort.inputs);
-        note_outputs(one, folder, line, cohort.outputs);
-    });
-    for_each_row(table, csv, [&](std::size_t n, std::size_t) {
-        for (const fs::path& output : cohort.cases[n].outputs)
-            if (const auto line = line_that_reads(destination(folder / output), cohort.inputs))
-                throw Error(ErrorKind::invalid_input,
-                            fmt::format("{} would replace an input of line {}", output.string(), *line));
-    });
-    if (cohort.cases.empty()) throw Error(ErrorKind::invalid_input, table.string() + " has no rows");
+    std::map<std::string, std::size_t> names;
+    for (std::size_t n = 0; n < csv.rows.size(); ++n)
+        at_line(table, csv.lines[n], [&, line = csv.lines[n]] {
+            Case& one = cohort.cases.emplace_back(read_row(columns, csv.rows[n]));
+            one.number = n + 1;
+            one.line = line;
+            if (one.name.empty()) one.name = std::to_string(one.number);
+            if (const auto [known, is_new] = names.emplace(one.name, line); !is_new)
+                refuse(fmt::format("the case '{}' is already that of line {}", one.name, known->second));
+            check(one);
+            note_inputs(one, folder, line, cohort.inputs);
+            note_outputs(one, table, line, cohort.outputs);
+        });
+    for (const Case& one : cohort.cases)
+        at_line(table, one.line, [&] {
+            for (const fs::path& output : one.outputs)
+                if (const auto line = line_that_reads(destination(folder / output), cohort.inputs))
+                    refuse(fmt::format("{} would replace an input of line {}", output.string(), *line));
+        });
+    if (cohort.cases.empty()) refuse(table.string() + " has no rows");
     return cohort;
 }
 
-void check_apart(const fs::path& target, const Cohort& cohort) {
-    const auto refuse = [&](const char* what, std::size_t line) {
-        throw Error(ErrorKind::invalid_input, fmt::format("{} would replace an {} of line {}", target.string(), what, line));
-    };
-    const fs::path place = destination(target);
-    if (const auto line = line_that_reads(place, cohort.inputs)) refuse("input", *line);
-    if (const auto found = cohort.outputs.find(place); found != cohort.outputs.end()) refuse("output", found->second);
+void check_outputs(const Case& one, const fs::path& table) {
+    at_line(table, one.line, [&] {
+        for (const fs::path& output : one.outputs) check_output(table.parent_path() / output, {});
+    });
 }
 
-std::string fingerprint(const Case& one, const Cohort& cohort, const fs::path& folder) {
+void check_apart(const fs::path& target, const Cohort& cohort) {
+    const auto replaces = [&](const char* what, std::size_t line) {
+        refuse(fmt::format("{} would replace an {} of line {}", target.string(), what, line));
+    };
+    const fs::path place = destination(target);
+    if (const auto line = line_that_reads(place, cohort.inputs)) replaces("input", *line);
+    if (const auto found = cohort.outputs.find(place); found != cohort.outputs.end()) replaces("output", found->second);
+}
+
+std::string fingerprint(const Case& one, const fs::path& folder) {
     std::string text = fmt::format("{}", KONTUR_VERSION);
     for (const std::string& word : words_of(one)) text.append(1, '\n').append(word);
     for (const fs::path& input : one.inputs) {
         const fs::path path = folder / input;
         if (const fs::path series = series_folder(path); !series.empty()) {
-            const fs::path place = destination(series);
-            const auto is_read = [&](const fs::path& file) { return !cohort.outputs.contains(place / file.filename()); };
-            text.append(1, '\n').append(folder_state(place, is_read));
+            // Whatever else is put there, a mask in DICOM or a folder with results, changes no case.
+            text.append(1, '\n').append(folder_state(series, is_dicom_slice));
             continue;
         }
         text.append(1, '\n').append(size_and_time(path));
@@ -205,6 +252,18 @@ std::string fingerprint(const Case& one, const Cohort& cohort, const fs::path& f
         if (!header.empty()) text.append(1, ' ').append(folder_state(path.parent_path(), is_named));
     }
     return text;
+}
+
+std::string file_stem(const Case& one) {
+    constexpr std::size_t kMostBytes = 40, kDigits = 12;
+    std::string stem = one.output.filename().string();
+    std::size_t length = std::min({stem.find('.', 1), kMostBytes, stem.size()});
+    while (length > 0 && length < stem.size() && is_inside_character(stem[length])) --length;
+    stem.resize(length);
+    // Outputs of other folders may have the same name.
+    Sha256 hash;
+    hash.update(std::as_bytes(std::span(one.output.native())));
+    return stem + "-" + hash.hex().substr(0, kDigits);
 }
 
 }  // namespace kontur::app

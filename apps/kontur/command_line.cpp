@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include "commands.h"
 #include "kontur/base/error.h"
@@ -34,6 +35,7 @@ struct Binder {
         sub->footer("Example:\n  " + example);
         sub->parse_complete_callback([&target = invocation, command = command] {
             target.command = [command](Console& console) { run(*command, console); };
+            if constexpr (std::is_same_v<Command, SegmentCommand>) target.check = [command] { check_words(*command); };
         });
     }
 
@@ -69,6 +71,18 @@ CLI::Validator between(double least, double most) {
                 const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
                 if (failure == std::errc::invalid_argument || (value >= least && value <= most)) return std::string();
                 return fmt::format("is {}, but must be from {} to {}", word, least, most);
+            },
+            ""};
+}
+
+/// Of 64 bits without a sign, which the option's type by itself would read into a negative one.
+CLI::Validator whole_number() {
+    return {[](const std::string& word) {
+                std::uint64_t value = 0;
+                const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+                if (failure == std::errc() && end == word.data() + word.size()) return std::string();
+                return fmt::format("is {}, but must be a whole number from 0 to {}", word,
+                                   std::numeric_limits<std::uint64_t>::max());
             },
             ""};
 }
@@ -183,7 +197,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
         bind.option("--spacing-mm", c.spacing_mm, "MM[,MM,MM]", "Without --image: size of the mask's voxels");
     spacing->delimiter(',')->allow_extra_args(false)->excludes(image);
     bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
-    bind.option("--output", c.output, "FILE",
+    bind.option("-o,--output", c.output, "FILE",
                 "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha or, with a DICOM --image, .dcm (SEG)")
         ->required();
     bind.option("--rtstruct", c.rtstruct, "FILE", "Contours on the slices of a DICOM --image to write, as RTSTRUCT: .dcm");
@@ -249,7 +263,7 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     where->add_option("--planes", c.planes, "Contour file whose planes cut, whatever contours it holds")->type_name("FILE");
     where->add_option("--image", c.image.path, "Image or DICOM folder whose slices cut")->type_name("FILE");
     where->require_option(1);
-    bind.option("--output", c.output, "FILE",
+    bind.option("-o,--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();
     bind.option("--name", c.name, "NAME", "The structure's name");
@@ -271,9 +285,11 @@ void add_compare(CLI::App& app, Invocation& invocation) {
     bind.word("A", c.a, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
     bind.word("B", c.b, "Another one on the same grid");
     bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
+    bind.option("--label-b", c.label_b, "N", "That of B, where it is another one [--label]");
     bind.flag("--json", c.json, "Print JSON");
     add_threads(*bind.sub, c.options.threads);
     add_read_options(*bind.sub, c.read);
+    bind.option("--frame-b", c.frame_b, "N", "That of B, where it is another one [--frame]");
 }
 
 void add_inspect(CLI::App& app, Invocation& invocation) {
@@ -282,7 +298,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
                                 "kontur inspect ct.nii.gz contours.json liver.stl dicom_folder/");
     InspectCommand& c = *bind.command;
     bind.word("FILE", c.files, "Images, DICOM folders, contours, structure sets, meshes");
-    bind.flag("--check", c.check, "List everything wrong or doubtful in contours, with its place");
+    bind.flag("--check", c.check, "List everything wrong or doubtful in contours, with its place; each file by itself");
     bind.flag("--json", c.json, "Print JSON");
     add_read_options(*bind.sub, c.read);
     add_series_options(*bind.sub, c.read.dicom);
@@ -313,7 +329,7 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
     bind.option("--scan", c.scans, "NAME", "Write only this scan, such as liver; again for more [all]")
         ->allow_extra_args(false);
     bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
-    bind.defaulted("--seed", c.options.seed, "N", "Of the noise");
+    bind.defaulted("--seed", c.options.seed, "N", "Of the noise")->check(whole_number());
     add_threads(*bind.sub, c.options.threads);
     bind.quiet();
 }
@@ -338,6 +354,18 @@ void add_open(CLI::App& app, Invocation& invocation) {
 }
 
 }  // namespace
+
+std::vector<OptionName> options_of_segment() {
+    CLI::App app;
+    Invocation invocation;
+    add_segment(app, invocation);
+    const CLI::App* segment = app.get_subcommand("segment");
+    std::vector<OptionName> options;
+    for (const CLI::Option* option : segment->get_options())
+        if (option != segment->get_help_ptr())
+            for (const std::string& name : option->get_lnames()) options.push_back({name, option->get_expected_max() == 0});
+    return options;
+}
 
 Invocation parse_command_line(int argc, const char* const* argv) {
     Invocation invocation;

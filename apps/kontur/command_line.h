@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "console.h"
 
@@ -21,8 +22,18 @@ struct Invocation {
     int exit_code = 0;                      ///< of `text`
     bool quiet = false;                     ///< for the Console
     std::function<void(Console&)> command;  ///< empty: show `text` instead
+    std::function<void()> check;            ///< of segment: check_words(); else empty
 };
 
 Invocation parse_command_line(int argc, const char* const* argv);
+
+/// An option without its dashes.
+struct OptionName {
+    std::string name;
+    bool is_flag = false;  ///< it takes no value
+};
+
+/// All that `segment` has.
+std::vector<OptionName> options_of_segment();
 
 }  // namespace kontur::app

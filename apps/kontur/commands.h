@@ -40,6 +40,8 @@ struct SegmentCommand {
     SegmentOptions options;
 };
 void run(const SegmentCommand& command, Console& console);
+/// What can be refused by the words alone, without a look at any file.
+void check_words(const SegmentCommand& command);
 
 /// 3D Slicer's command-line module: speaks its language on stdout, with the file names that it passes.
 struct SlicerCommand {
@@ -97,6 +99,7 @@ struct CompareCommand {
     std::filesystem::path a, b;
     std::optional<std::int64_t> label;
     ReadImageOptions read;
+    std::optional<std::int64_t> label_b, frame_b;  ///< where b's are others
     CompareOptions options;
     bool json = false;
 };

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
 #include "commands.h"
 #include "facts.h"
+#include "kontur/base/error.h"
 
 namespace kontur::app {
 namespace {
@@ -23,14 +29,39 @@ Facts describe(const Comparison& comparison) {
     return facts;
 }
 
+struct Side {
+    Mask mask;
+    std::optional<std::int64_t> label;  ///< of its file; unset: the mask is empty
+};
+
+Side read_side(const std::filesystem::path& path, const std::optional<std::int64_t>& label, const ReadImageOptions& read,
+               const Progress& progress) {
+    if (label) return {read_mask(path, label, read, progress), label};
+    const Image image = read_image(path, read, progress);
+    try {
+        if (const auto labels = count_labels(image, 1); !labels.empty())
+            return {select_nonzero(image), labels.begin()->first};
+    } catch (const Error&) {  // several labels or none, which read_mask refuses with their list
+    }
+    return {read_mask(path, {}, read, progress), {}};
+}
+
+Facts label_of(const Side& side) { return side.label ? Facts(*side.label) : Facts(nullptr); }
+
 }  // namespace
 
 void run(const CompareCommand& command, Console& console) {
     const Progress progress = console.progress();
     const ReadImageOptions read = console.noting(command.read);
-    const Mask a = read_mask(command.a, command.label, read, progress);
-    const Mask b = read_mask(command.b, command.label, read, progress);
-    const Facts facts = describe(compare(a, b, command.options, progress));
+    ReadImageOptions read_b = read;
+    if (command.frame_b) read_b.frame = command.frame_b;
+    const Side a = read_side(command.a, command.label, read, progress);
+    const Side b = read_side(command.b, command.label_b ? command.label_b : command.label, read_b, progress);
+    if (a.label && b.label && a.label != b.label)
+        console.note(std::array{fmt::format("label {} of {} is compared with label {} of {}", *a.label, command.a.string(),
+                                            *b.label, command.b.string())});
+    Facts facts = {{"label_a", label_of(a)}, {"label_b", label_of(b)}};
+    facts.update(describe(compare(a.mask, b.mask, command.options, progress)));
     console.print(command.json ? to_json_text(facts) : to_text(facts));
 }
 

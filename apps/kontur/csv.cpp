@@ -92,6 +92,11 @@ std::string content_of(const std::filesystem::path& path) {
 }
 
 void check_columns(const std::vector<std::string>& columns) {
+    // What spreadsheets write where the comma is the decimal mark.
+    if (columns.size() == 1)
+        if (const std::size_t at = columns.front().find_first_of(";\t"); at != std::string::npos)
+            throw corrupt(1, fmt::format("{} separate the columns; save the table with commas",
+                                         columns.front()[at] == ';' ? "semicolons" : "tabs"));
     std::set<std::string> seen;
     for (const std::string& column : columns) {
         if (column.empty()) throw corrupt(1, "a column has no name");
@@ -105,7 +110,8 @@ CsvTable parse(std::string text) {
     table.columns = scanner.row().value_or(std::vector<std::string>{});
     check_columns(table.columns);
     for (std::size_t line = scanner.line(); auto row = scanner.row(); line = scanner.line()) {
-        if (row->size() == 1 && row->front().empty()) continue;
+        // Spreadsheets write rows that were once filled.
+        if (std::all_of(row->begin(), row->end(), [](const std::string& cell) { return cell.empty(); })) continue;
         if (row->size() != table.columns.size())
             throw corrupt(line, fmt::format("{} cells stand below {} columns", row->size(), table.columns.size()));
         table.rows.push_back(std::move(*row));

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "kontur/base/error.h"
 
@@ -67,17 +70,24 @@ const char* sample_type(const Image& image) {
     return kNames[image.samples.index()];
 }
 
+/// Of the finite values, as among numbers NaN has no place in the order.
 struct Range {
     double min = 0, max = 0;
+    std::size_t finite = 0;
 };
 
-Range value_range(const Image& image) {
-    return std::visit(
-        [](const auto& values) {
-            const auto [min, max] = std::minmax_element(values.begin(), values.end());
-            return Range{static_cast<double>(*min), static_cast<double>(*max)};
-        },
-        image.samples);
+template <class Value>
+Range range_of(const std::vector<Value>& values) {
+    Value min = std::numeric_limits<Value>::max(), max = std::numeric_limits<Value>::lowest();
+    std::size_t finite = 0;
+    for (const Value value : values) {
+        if constexpr (std::is_floating_point_v<Value>)
+            if (!std::isfinite(value)) continue;
+        min = std::min(min, value);
+        max = std::max(max, value);
+        ++finite;
+    }
+    return {static_cast<double>(min), static_cast<double>(max), finite};
 }
 
 /// Labels with their size; an empty list for an image that is no label map.
@@ -123,10 +133,12 @@ Facts describe(const Grid& grid) {
 
 Facts describe(const Image& image) {
     Facts facts = describe(image.grid);
-    const Range range = value_range(image);
+    const Range range = std::visit([](const auto& values) { return range_of(values); }, image.samples);
+    const std::size_t count = std::visit([](const auto& values) { return values.size(); }, image.samples);
     facts["samples"] = sample_type(image);
-    facts["min"] = number(range.min);
-    facts["max"] = number(range.max);
+    facts["min"] = range.finite > 0 ? number(range.min) : nullptr;
+    facts["max"] = range.finite > 0 ? number(range.max) : nullptr;
+    if (range.finite < count) facts["not_finite"] = count - range.finite;
     facts["labels"] = labels(image);
     return facts;
 }
@@ -149,6 +161,9 @@ Facts describe(const ContourSet& set) {
 
 Facts describe(const TriangleMesh& mesh) {
     const MeshTopology shape = topology(mesh);
+    // Of other meshes the sum depends on where the origin lies.
+    const bool encloses = shape.closed && shape.oriented;
+    const double volume_ml = signed_volume_mm3(mesh) / 1000;
     return {
         {"points", mesh.points.size()},
         {"triangles", mesh.triangles.size()},
@@ -156,7 +171,8 @@ Facts describe(const TriangleMesh& mesh) {
         {"oriented", shape.oriented},
         {"euler", shape.euler},
         {"components", shape.components},
-        {"volume_ml", signed_volume_mm3(mesh) / 1000},
+        {"volume_ml", encloses ? number(std::abs(volume_ml)) : nullptr},
+        {"faces_inwards", encloses ? Facts(volume_ml < 0) : nullptr},
         {"extent_mm", extent(bounding_box(mesh.points))},
     };
 }

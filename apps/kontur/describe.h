@@ -13,13 +13,15 @@ namespace kontur::app {
 /// them and sheared against each other, and whether they are left-handed.
 Facts describe(const Grid& grid);
 
-/// The grid, sample type, value range, and for a label map the voxels and ml of each label.
+/// The grid, sample type, range of the finite values, how many are not finite where some are, and for a label map the voxels
+/// and ml of each label.
 Facts describe(const Image& image);
 
 /// Planes, contours, points, holes, extent in mm, and the problems that would keep the set from being segmented.
 Facts describe(const ContourSet& set);
 
-/// Points, triangles, closedness, orientation, Euler number, components and enclosed volume.
+/// Points, triangles, closedness, orientation, Euler number, components and, of a closed and oriented one, the enclosed
+/// volume and whether its faces look inwards.
 Facts describe(const TriangleMesh& mesh);
 
 }  // namespace kontur::app

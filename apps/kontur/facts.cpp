@@ -58,6 +58,8 @@ std::string to_text(const Facts& facts) {
 
 std::string to_json_text(const Facts& facts) { return facts.dump(2, ' ', false, Facts::error_handler_t::replace) + "\n"; }
 
-Facts number(double value) { return std::isfinite(value) ? Facts(value) : Facts(fmt::format("{}", value)); }
+Facts number(double value) {
+    return std::isfinite(value) ? Facts(value + 0.0) : Facts(fmt::format("{}", value));  // -0.0 + 0.0 is 0.0
+}
 
 }  // namespace kontur::app

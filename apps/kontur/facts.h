@@ -16,7 +16,7 @@ std::string to_text(const Facts& facts);
 /// JSON of several lines, with a line break at its end. Names of files that are no UTF-8 get replacement characters.
 std::string to_json_text(const Facts& facts);
 
-/// A number as JSON where JSON has it; NaN and infinity as text.
+/// A number as JSON where JSON has it; NaN and infinity as text. No zero has a sign.
 Facts number(double value);
 
 }  // namespace kontur::app

@@ -30,28 +30,13 @@ void check_extension(const fs::path& path, std::string_view extension) {
         throw Error(ErrorKind::unsupported, fmt::format("{} does not end with {}", path.string(), extension));
 }
 
-/// Whatever can be refused before any work is done.
-void check(const SegmentCommand& command) {
-    check_output_kind(command.output, FileKind::image);
+/// Whatever else can be refused before any work is done.
+void check_files(const SegmentCommand& command) {
     check_dicom_images(command.output, command.image.path);
-    check_holes(command.holes, !command.rtstruct.empty());
-    if (!command.rtstruct.empty()) {
-        check_extension(command.rtstruct, ".dcm");
-        check_dicom_images(command.rtstruct, command.image.path);
-    }
-    if (!command.mesh.empty()) check_output_kind(command.mesh, FileKind::mesh);
-    if (!command.picture.empty()) check_extension(command.picture, ".png");
-    if (!command.report.empty()) check_extension(command.report, ".json");
-
+    check_dicom_images(command.rtstruct, command.image.path);
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
     check_outputs(std::array{command.output, command.rtstruct, command.mesh, command.picture, command.report}, inputs);
-
-    if (command.image.path.empty() && command.spacing_mm.empty())
-        throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
-    if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
-        throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
-    if (command.date) utc_date();  // which may be set to what is no date
 }
 
 struct Inputs {
@@ -146,8 +131,26 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
 
 }  // namespace
 
+void check_words(const SegmentCommand& command) {
+    check_output_kind(command.output, FileKind::image);
+    check_holes(command.holes, !command.rtstruct.empty());
+    if (!command.rtstruct.empty()) check_extension(command.rtstruct, ".dcm");
+    if (command.image.path.empty())
+        for (const fs::path& path : {command.output, command.rtstruct}) check_dicom_images(path, {});
+    if (!command.mesh.empty()) check_output_kind(command.mesh, FileKind::mesh);
+    if (!command.picture.empty()) check_extension(command.picture, ".png");
+    if (!command.report.empty()) check_extension(command.report, ".json");
+
+    if (command.image.path.empty() && command.spacing_mm.empty())
+        throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
+    if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
+        throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
+    if (command.date) utc_date();  // which may be set to what is no date
+}
+
 void run(const SegmentCommand& command, Console& console) {
-    check(command);
+    check_words(command);
+    check_files(command);
     const Progress progress = console.progress();
     Laps laps;
     const Inputs inputs = read_inputs(command, progress);

@@ -40,11 +40,9 @@ Facts crossings_json(const std::vector<Crossing>& crossings) {
             {"worst", worst}};
 }
 
-/// What the options' own keys do not say.
 Facts provenance_json(const Provenance& made) {
     Facts facts = Facts::object();
-    for (const auto& [key, value] : made)
-        if (key != "version" && key != "options") facts[key] = value;
+    for (const auto& [key, value] : made) facts[key] = value;
     return facts;
 }
 
@@ -66,6 +64,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"smoothing", report.smoothing},
         {"tolerance_mm", report.tolerance_mm},
         {"conflicts", name(report.conflicts)},
+        {"fill_rule", name(report.fill_rule)},
         {"corners", name(report.corners)},
         {"quality", report.quality},
         {"solver", name(report.solver)},

@@ -105,6 +105,103 @@ def test_a_case_whose_input_or_options_changed_is_made_again(cohort):
     assert {name for name, time in times(cohort).items() if before.get(name) != time} == {"a2.nii.gz"}
 
 
+def test_a_case_whose_outputs_are_gone_is_open(cohort):
+    batch(cohort)
+    (cohort / "out" / "a.nii.gz").unlink()
+    result = batch(cohort, "--collect")
+    assert [c["state"] for c in summary(cohort)["cases"]] == ["open", "failed", "done"]
+    assert "1 done, 1 failed, 1 open\n" in result.stdout
+
+
+def test_rows_that_move_in_the_table_stay_done(cohort):
+    batch(cohort)
+    before = times(cohort)
+    head, a, b, c = (cohort / "cases.csv").read_text().splitlines()
+    (cohort / "cases.csv").write_text("\n".join([head, a.replace("a,", "new,", 1).replace("out/a", "out/new"), c, a, b]) + "\n")
+    result = batch(cohort)
+    assert re.findall("^([a-z]+): ", result.stdout, re.MULTILINE) == ["new", "b"]
+    assert {name: time for name, time in times(cohort).items() if name != "new.nii.gz"} == before
+    assert [x["state"] for x in summary(cohort)["cases"]] == ["done", "done", "done", "failed"]
+
+
+def test_warnings_of_the_cases_are_counted_and_can_be_read(cohort):
+    write_nifti(cohort / "half.nii.gz", ball_array(shape=(20, 40, 40)))
+    good = '"ball, drawn.json"'
+    write_table(cohort, [f"whole,{good},image.nii.gz,out/whole.nii.gz", f"cut,{good},half.nii.gz,out/cut.nii.gz"])
+    result = batch(cohort)
+    whole, cut = summary(cohort)["cases"]
+    assert whole["warnings"] == [] and len(cut["warnings"]) > 0
+    number = len(cut["warnings"])
+    assert re.search(rf"^cut: .* ml, .* s, {number} warning", result.stdout, re.MULTILINE)
+    assert re.search(r"^whole +done .* 0$", result.stdout, re.MULTILINE)
+    assert re.search(rf"^cut +done .* {number}$", result.stdout, re.MULTILINE)
+    assert re.fullmatch(rf"read the .*warnings? in {cohort}/summary.json", result.stdout.splitlines()[-1])
+    assert f"kontur: warning: {cut['warnings'][0]}\n" in pathlib.Path(cut["log"]).read_text()
+    last = kontur("batch", cohort / "cases.csv").stdout.splitlines()[-1]
+    assert last.endswith(f"in the .log files of {cohort}/cases.journal")
+
+
+def test_what_spreadsheets_make_of_a_table_is_read(cohort):
+    write_planes(cohort / "more.json", ball_planes()[:2])
+    row = 'a,"ball, drawn.json ; more.json",image.nii.gz,out/a.nii.gz,TRUE'
+    write_table(cohort, [row, ",,,,", ",,,,,,"], "Case,Contours,Image,Output,Date")
+    result = batch(cohort)
+    assert result.returncode == 0, result
+    assert summary(cohort)["done"] == 1
+    assert kontur("batch", cohort / "cases.csv", "--count").stdout == "1\n"
+
+
+@pytest.mark.parametrize("output, sentence", [("folder.nii", "it is no regular file"), ("link.nii", "link.nii would replace the table")])
+def test_an_output_that_cannot_be_is_refused_before_any_work(cohort, output, sentence):
+    good = '"ball, drawn.json",image.nii.gz'
+    table = write_table(cohort, [f"a,{good},out/a.nii.gz", f"b,{good},{output}"])
+    (cohort / "folder.nii").mkdir()
+    (cohort / "link.nii").symlink_to(table)
+    result = batch(cohort)
+    assert result.returncode in (65, 74)
+    assert "cases.csv: line 3: " in result.stderr and sentence in result.stderr
+    assert names(cohort / "out") == []
+
+
+SLOW = "case,contours,image,output,spacing-mm,voxelizer"
+
+
+def test_two_batches_of_one_table_share_its_cases(cohort):
+    good = '"ball, drawn.json"'
+    slow = f"slow,{good},,out/slow.nii.gz,0.1,exhaustive"  # minutes
+    write_table(cohort, [slow, f"a,{good},image.nii.gz,out/a.nii.gz,,"], SLOW)
+    first = subprocess.Popen([KONTUR, "batch", cohort / "cases.csv"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for _ in range(500):
+        if any((cohort / "cases.journal").glob("slow-*.log")):
+            break
+        time.sleep(0.01)
+    second = batch(cohort)
+    assert second.returncode == 1
+    assert "1 done, 0 failed, 0 open, 1 being made by another process" in second.stdout
+    assert second.stderr == "kontur: error: 0 of 2 cases failed, 1 being made by another process\n"
+    assert [c["state"] for c in summary(cohort)["cases"]] == ["running", "done"]
+    before = times(cohort)["a.nii.gz"]
+    first.send_signal(signal.SIGTERM)
+    assert first.wait(20) == 130
+    assert times(cohort) == {"a.nii.gz": before}
+
+
+def test_a_killed_batch_keeps_no_case(cohort):
+    good = '"ball, drawn.json",image.nii.gz'
+    write_table(cohort, [f"a,{good},out/a.nii.gz"])
+    batch(cohort)
+    [log] = (cohort / "cases.journal").glob("a-*.log")
+    (cohort / "out" / "a.nii.gz").unlink()
+    holder = subprocess.Popen([sys.executable, "-c", f"import fcntl, time; f = open({str(log)!r}, 'a'); fcntl.flock(f, fcntl.LOCK_EX); print(flush=True); time.sleep(60)"],
+                              stdout=subprocess.PIPE)
+    holder.stdout.readline()
+    assert summary(cohort)["done"] == 1 and batch(cohort).returncode == 1
+    assert [c["state"] for c in summary(cohort)["cases"]] == ["running"]
+    holder.kill()
+    holder.wait()
+    assert batch(cohort).returncode == 0
+
+
 def test_an_interrupted_batch_goes_on_where_it_was(cohort):
     """Outputs are whole or absent, and nothing that was done is done again."""
     good = '"ball, drawn.json",image.nii.gz'
@@ -149,7 +246,26 @@ def test_every_column_is_an_option_of_segment(cohort):
     "columns, rows, sentence",
     [
         ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii"], "line 3: 2 cells stand below 3 columns"),
-        ("contours,image,output,colour", ["a.json,i.nii,o.nii,red"], "line 2: The following argument was not expected: --colour=red"),
+        ("contours,image,output,colour", ["a.json,i.nii,o.nii,"], "line 1: the column 'colour' is neither case nor contours nor an option"),
+        ("contours,image,output,--mesh", ["a.json,i.nii,o.nii,b.json"], "line 1: the column '--mesh' is neither"),
+        ("contours,image,output,-mesh", ["a.json,i.nii,o.nii,m.stl"], "line 1: the column '-mesh' is neither"),
+        ("contours,image,output,-h", ["a.json,i.nii,o.nii,1"], "line 1: the column '-h' is neither"),
+        ("contours,image,output,help", ["a.json,i.nii,o.nii,1"], "line 1: the column 'help' is neither"),
+        ("contours,image,output,mesh=q.stl --name", ["a.json,i.nii,o.nii,m"], "line 1: the column 'mesh=q.stl --name' is neither"),
+        ("contours,spacing-mm,output,spacing_mm", ["a.json,4,o.nii,4"], "line 1: the column 'spacing_mm' is a second one for spacing-mm"),
+        ("contours,image", ["a.json,i.nii"], "line 1: there is no column 'output'"),
+        ("case;contours;spacing-mm;output", ["a;a.json;0,8;o.nii"], "line 1: semicolons separate the columns; save the table with commas"),
+        ("contours\timage\toutput", ["a.json\ti.nii\to.nii"], "line 1: tabs separate the columns"),
+        ("case,contours,image,output", ["x,a.json,i.nii,o.nii", ",a.json,i.nii,p.nii", "x,b.json,i.nii,q.nii"], "line 4: the case 'x' is already that of line 2"),
+        ("case,contours,image,output", ["2,a.json,i.nii,o.nii", ",a.json,i.nii,p.nii"], "line 3: the case '2' is already that of line 2"),
+        ("contours,image,output", ["a.json,i.nii,o.nii", " ; ,i.nii,p.nii"], "line 3: the cell below 'contours' is empty"),
+        ("contours,image,output", ["a.json,i.nii,"], "line 2: the cell below 'output' is empty"),
+        ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii,o.jpg"], "line 3: "),
+        ("contours,image,output,mesh", ["a.json,i.nii,o.nii,m.vtk"], "line 2: m.vtk is no name for a mesh"),
+        ("contours,image,output,picture", ["a.json,i.nii,o.nii,p.jpg"], "line 2: p.jpg does not end with .png"),
+        ("contours,spacing-mm,output", ["a.json,4,o.dcm"], "line 2: o.dcm would refer to the DICOM images it was made on"),
+        ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii,absent/o.nii"], "line 3: cannot write "),
+        ("contours,image,output,report", ["a.json,i.nii,o.nii,cases.csv"], "line 2: cases.csv does not end with .json"),
         ("contours,image,output", ["a.json,i.nii,o.nii", "b.json,i.nii,./o.nii"], "line 3: ./o.nii is already an output of line 2"),
         ("contours,image,output", ['"a.json,i.nii,o.nii'], "line 2: a quote is not closed"),
         ("contours,image,image", ["a,b,c"], "two columns are named 'image'"),
@@ -159,9 +275,9 @@ def test_every_column_is_an_option_of_segment(cohort):
 def test_a_table_that_makes_no_sense_is_refused_before_any_work(tmp_path, columns, rows, sentence):
     table = write_table(tmp_path, rows, columns)
     result = kontur("batch", table)
-    assert result.returncode in (64, 65, 66)
+    assert result.returncode in (64, 65, 66, 69, 74)
     assert sentence in result.stderr
-    assert not (tmp_path / "out").exists()
+    assert set(names(tmp_path)) <= {"cases.csv", "cases.journal"} and not any((tmp_path / "cases.journal").glob("*"))
 
 
 OVERWRITES = "contours,spacing-mm,output,report"
@@ -220,9 +336,23 @@ def test_a_changed_slice_makes_its_cases_again_and_their_outputs_beside_it_do_no
     assert re.findall("^([ab]): ", batch(scanned).stdout, re.MULTILINE) == ["a", "b"]
 
 
+def test_what_else_appears_in_a_folder_of_slices_makes_no_case_again(scanned):
+    """Outputs in a subfolder, the table with its journal and summary, notes."""
+    (scanned / "dicom" / "out").mkdir()
+    (scanned / "ball.json").rename(scanned / "dicom" / "ball.json")
+    write_table(scanned / "dicom", ["a,ball.json,.,out/a.nii", "b,ball.json,.,b.dcm"])
+    assert batch(scanned / "dicom").returncode == 0
+    assert summary(scanned / "dicom")["done"] == 2
+    (scanned / "dicom" / "notes.txt").touch()
+    (scanned / "dicom" / "old.dcm").write_bytes((scanned / "dicom" / "b.dcm").read_bytes())  # a segmentation
+    (scanned / "dicom" / ".kontur-abcdef").mkdir()
+    result = batch(scanned / "dicom")
+    assert result.returncode == 0 and not re.search("^[ab]: ", result.stdout, re.MULTILINE), result
+
+
 def test_no_row_replaces_a_slice_of_another_ones_image(scanned):
     last = names(scanned / "dicom")[-1]
-    write_table(scanned, [f"a,ball.json,,dicom/{last},4", "b,ball.json,dicom,b.nii,"], "case,contours,image,output,spacing-mm")
+    write_table(scanned, [f"a,ball.json,image.nii,dicom/{last}", "b,ball.json,dicom,b.nii"])
     result = batch(scanned)
     assert result.returncode == 65
     assert f"line 2: dicom/{last} would replace an input of line 3" in result.stderr

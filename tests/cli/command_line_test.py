@@ -59,6 +59,8 @@ SEGMENT = ["segment", "a.json", "--output", "b.nii"]
         (["trace", "a.nii", "--planes", "b.json", "--output", "c.json", "--threads", "-1"], "0 to 4096"),
         (["compare", "a.nii", "b.nii", "--threads", "-1"], "0 to 4096"),
         (["phantom", "a", "--threads", "-1"], "0 to 4096"),
+        (["phantom", "a", "--seed", "-1"], "0 to 18446744073709551615"),
+        (["phantom", "a", "--seed", "18446744073709551616"], "0 to 18446744073709551615"),
         (["open", "--timeout", "-1"], "0 to 2147483647"),
         (["open", "--port", "70000"], "0 to 65535"),
         (["open", "--port", "-1"], "0 to 65535"),
@@ -67,7 +69,7 @@ SEGMENT = ["segment", "a.json", "--output", "b.nii"]
 def test_a_number_out_of_its_range_is_refused_with_the_limits(tmp_path, words, limits):
     result = kontur(*words, cwd=tmp_path)
     assert result.returncode == 64
-    assert f"{words[-2]}: is {words[-1]}, but must be from {limits}" in result.stderr
+    assert re.search(f"{words[-2]}: is {words[-1]}, but must be (a whole number )?from {limits}\n", result.stderr)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -124,6 +126,16 @@ def test_an_option_that_would_change_nothing_is_refused(tmp_path, words, named):
     assert re.fullmatch("kontur: error: .+\n", result.stderr)
     assert named in result.stderr
     assert names(tmp_path) == before
+
+
+def test_o_is_short_for_output(tmp_path):
+    write_planes(tmp_path / "ball.json", ball_planes())
+    succeed("segment", "ball.json", "--spacing-mm", 4, "-o", "out.nii", cwd=tmp_path)
+    succeed("trace", "out.nii", "--planes", "ball.json", "-o", "traced.json", cwd=tmp_path)
+    assert names(tmp_path) == ["ball.json", "out.nii", "traced.json"]
+    for command in ("segment", "trace"):
+        assert "\n  -o,--output FILE REQUIRED" in succeed(command, "--help")
+    assert "--output is required" in kontur("segment", "ball.json", "--spacing-mm", 4, cwd=tmp_path).stderr
 
 
 def test_options_that_name_what_is_there_are_welcome(tmp_path):

@@ -42,6 +42,29 @@ def test_label_chooses_the_voxels_of_one_label(tmp_path, masks):
     assert found["volume_a_ml"] == pytest.approx(numpy.count_nonzero(masks[3]) / 1000)
 
 
+def test_the_second_file_may_have_another_label_and_frame(tmp_path, masks):
+    labels = write_nifti(tmp_path / "labels.nii.gz", masks[2] * 3 + masks[3] * 4)
+    result = kontur("compare", masks[0], labels, "--label-b", 7, "--json")
+    found = json.loads(result.stdout)
+    assert (found["label_a"], found["label_b"]) == (1, 7)
+    assert found["dice"] == pytest.approx(dice(masks[2], masks[3]), abs=1e-12)
+    assert result.stderr == f"kontur: note: label 1 of {masks[0]} is compared with label 7 of {labels}\n"
+    phases = write_nifti(tmp_path / "phases.nii.gz", numpy.stack([masks[2], masks[3]], axis=3))
+    assert json.loads(succeed("compare", masks[1], phases, "--frame-b", 1, "--json"))["dice"] == 1
+    assert json.loads(succeed("compare", phases, masks[0], "--frame", 0, "--frame-b", 0, "--json"))["dice"] == 1
+    assert json.loads(succeed("compare", phases, phases, "--frame", 0, "--json"))["dice"] == 1
+
+
+def test_labels_that_differ_by_themselves_are_told(tmp_path, masks):
+    sevens = write_nifti(tmp_path / "sevens.nii.gz", masks[2] * 7)
+    result = kontur("compare", masks[0], sevens, "--json")
+    assert result.returncode == 0 and "label 1 of " in result.stderr and "label 7 of " in result.stderr
+    empty = write_nifti(tmp_path / "empty.nii.gz", masks[2] * 0)
+    assert json.loads(succeed("compare", empty, sevens, "--json"))["label_a"] is None
+    labels = write_nifti(tmp_path / "labels.nii.gz", masks[2] * 3 + masks[3] * 4)
+    assert "has 2 labels; choose one of 3, 7" in kontur("compare", masks[0], labels).stderr
+
+
 def test_masks_on_different_grids_are_refused_with_the_difference(tmp_path, masks):
     shifted = write_nifti(tmp_path / "shifted.nii.gz", masks[2], lps_affine(origin=(-8, -27, -12.5)))
     result = kontur("compare", masks[0], shifted)

@@ -2,6 +2,7 @@
 """kontur inspect says what files are."""
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -66,6 +67,44 @@ def test_an_image_that_is_no_label_map_has_no_labels(tmp_path):
     array = numpy.linspace(-1, 1, 60, dtype=numpy.float32).reshape(3, 4, 5)
     [facts] = inspect(write_nifti(tmp_path / "image.nii.gz", array))
     assert (facts["samples"], facts["labels"], facts["min"], facts["max"]) == ("float32", [], -1, 1)
+
+
+@pytest.mark.parametrize("bad", [numpy.nan, numpy.inf, -numpy.inf])
+@pytest.mark.parametrize("at", [0, 7, -1])
+def test_values_that_are_not_finite_are_left_out_of_the_range_and_counted(tmp_path, bad, at):
+    array = numpy.linspace(-1, 1, 60, dtype=numpy.float32)
+    array[3], array[50] = -5, 5
+    array[[at, 20]] = bad
+    [facts] = inspect(write_nifti(tmp_path / "image.nii.gz", array.reshape(3, 4, 5)))
+    assert (facts["min"], facts["max"], facts["not_finite"]) == (-5, 5, 2)
+    [facts] = inspect(write_nifti(tmp_path / "none.nii.gz", numpy.full((3, 4, 5), bad, numpy.float32)))
+    assert (facts["min"], facts["max"], facts["not_finite"]) == (None, None, 60)
+
+
+def test_no_zero_has_a_sign(tmp_path):
+    path = write_nifti(tmp_path / "image.nii.gz", ball_array(), lps_affine(origin=(0, 0, 0)))
+    assert re.search(r"^  origin_mm +0 0 0$", succeed("inspect", path), re.MULTILINE)
+    assert '-0.0' not in succeed("inspect", path, "--json")
+
+
+TETRAHEDRON = ["v 5 5 5", "v 6 5 5", "v 5 6 5", "v 5 5 6", "f 1 3 2", "f 1 2 4", "f 2 3 4", "f 3 1 4"]
+
+
+def inspect_mesh(folder, lines):
+    (folder / "mesh.obj").write_text("\n".join(lines) + "\n")
+    return inspect(folder / "mesh.obj")[0]
+
+
+def test_only_a_mesh_that_encloses_a_volume_has_one(tmp_path):
+    facts = inspect_mesh(tmp_path, TETRAHEDRON)
+    assert (facts["closed"], facts["oriented"], facts["faces_inwards"]) == (True, True, False)
+    assert facts["volume_ml"] == pytest.approx(1 / 6000, rel=1e-6)
+    facts = inspect_mesh(tmp_path, [f"f {' '.join(reversed(x.split()[1:]))}" if x[0] == "f" else x for x in TETRAHEDRON])
+    assert facts["volume_ml"] == pytest.approx(1 / 6000, rel=1e-6) and facts["faces_inwards"] is True
+    one_turned = [*TETRAHEDRON[:-1], "f 1 3 4"]
+    for lines in (TETRAHEDRON[:-1], one_turned):
+        facts = inspect_mesh(tmp_path, lines)
+        assert (facts["volume_ml"], facts["faces_inwards"]) == (None, None)
 
 
 def test_contours_show_planes_extent_and_no_problem(tmp_path):

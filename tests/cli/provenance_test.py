@@ -83,6 +83,14 @@ def test_other_masks_and_meshes_say_the_same(folder, mask, pattern):
         assert json.loads(kontur("inspect", folder / file, "--json").stdout)[0]["kind"] == "mesh"
 
 
+def test_the_report_says_all_that_the_other_files_say(folder):
+    segment(folder, "--output", "out.nii", "--report", "out.json", "--fill-rule", "declared")
+    report = json.loads((folder / "out.json").read_text())
+    assert report["provenance"] == comment(folder / "out.nii")
+    options = dict(word.split("=") for word in report["provenance"]["options"].split())
+    assert set(options) <= set(report) and report["fill_rule"] == "declared"
+
+
 def test_equal_contours_have_one_digest_and_others_another(folder):
     segment(folder, "--output", "a.nii")
     kontur("convert", "ball.json", "same.json", cwd=folder)

@@ -47,6 +47,7 @@ def write_material(folder):
         kontur.write_image(folder / name, image)
     for name in ("truth.nii.gz", "demo/liver_truth_liver.nii.gz"):
         kontur.write_mask(folder / name, truth)
+    kontur.write_mask(folder / "organs.nii.gz", truth, label_value=3)
     for name in ("contours.json", "planes.json", "demo/liver_orthogonal14.json", "P001/liver.json"):
         kontur.write_contours(folder / name, CASE.contours)
     kontur.write_contours(folder / "curves.mrk.json", CASE.contours)

@@ -205,26 +205,52 @@ private:
 
     void append_rounded_end(std::vector<Cap>& caps) const {
         if (deepest_ == 0) return;
-        constexpr double kFlat = 0.25;
         const double height = this->height();
-        for (const Probe& probe : inside_) {
-            const double rim = 1 - probe.depth / deepest_, dome = height * std::sqrt(1 - rim * rim);
-            caps.push_back({above(probe.at, dome), 0, 0});
-            // So many zeros over a flat body would make f vanish within it, too, and open holes far from the lines.
-            if (height < kFlat * deepest_)
-                caps.push_back({.position = section_.plane.from_uv(probe.at),
-                                .most_mm = std::numeric_limits<double>::infinity(),
-                                .value_mm = dome / 2,
-                                .least_mm = dome / 8,
-                                .kind = ConstraintKind::interior});
-        }
+        for (const Probe& probe : inside_) append_dome(probe.at, probe.depth, caps);
+        if (is_flat()) append_flat_rim(caps);
         // The outline itself must not be carried on, neither straight nor flaring.
         for (const Polygon2& outline : section_.outlines) {
-            const std::size_t stride = std::max<std::size_t>(1, outline.size() / 40);
-            for (std::size_t i = 0; i < outline.size(); i += stride)
+            for (std::size_t i = 0; i < outline.size(); i += stride_along(outline))
                 caps.push_back({above(outline[i], height), -height / 4, -height / 4});
         }
     }
+
+    bool is_flat() const { return height() < deepest_ / 4; }
+
+    /// The end above a place in the section with this distance from the outlines.
+    void append_dome(const Point2& at, double depth, std::vector<Cap>& caps) const {
+        const double rim = 1 - std::min(depth / deepest_, 1.0), dome = height() * std::sqrt(1 - rim * rim);
+        caps.push_back({above(at, dome), 0, 0});
+        // So many zeros over a flat body would make f vanish within it, too, and open holes far from the lines.
+        if (is_flat())
+            caps.push_back({.position = section_.plane.from_uv(at),
+                            .most_mm = std::numeric_limits<double>::infinity(),
+                            .value_mm = dome / 2,
+                            .least_mm = dome / 8,
+                            .kind = ConstraintKind::interior});
+    }
+
+    /// Between the outlines and the probes next to them, which are far apart compared with the height of a flat end: where f
+    /// rises from the wall as steeply as everywhere, it would make a lip and a groove behind it.
+    void append_flat_rim(std::vector<Cap>& caps) const {
+        const SectionSearch search(section_);
+        for (const Polygon2& outline : section_.outlines)
+            for (std::size_t i = 0; i < outline.size(); i += stride_along(outline)) {
+                const Point2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+                const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+                if (length == 0) continue;
+                const Point2 left{(a[1] - b[1]) / length, (b[0] - a[0]) / length};
+                for (double inset = height(); inset < deepest_ / 6; inset *= 2)
+                    for (const double side : {-inset, inset}) {
+                        const Point2 at{(a[0] + b[0]) / 2 + side * left[0], (a[1] + b[1]) / 2 + side * left[1]};
+                        if (!search.contains(at)) continue;
+                        if (const double depth = search.clearance(at); depth > 0.9 * inset) append_dome(at, depth, caps);
+                    }
+            }
+    }
+
+    /// Every how many points of an outline there are caps.
+    static std::size_t stride_along(const Polygon2& outline) { return std::max<std::size_t>(1, outline.size() / 40); }
 
     const Section& section_;
     const std::vector<Probe>& inside_;

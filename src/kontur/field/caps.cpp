@@ -153,9 +153,10 @@ public:
         return result;
     }
 
-private:
+    /// How far a place lies beyond the section.
     double ahead(const Vec3& p) const { return sign_ * section_.plane.distance_to(p); }
 
+private:
     void consider(const Section& other) {
         crossed_ = true;
         const double reach = reach_of(other);
@@ -323,7 +324,7 @@ public:
         append_beside(side.shifted(height), 0, probes);
         const Plane over = side.shifted(2 * height).plane;
         for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at), 0, -height / 2});
-        for (double far = 3 * height; far < 2 * ball_.radius; far *= 2)
+        for (double far = 0.9 * (ball_.radius + side.ahead(ball_.center)); far > 2.5 * height; far /= 2)
             append_far_beyond(side.shifted(far), far - height, probes);
     }
 
@@ -343,7 +344,7 @@ private:
                 const Vec3 position = end.plane.from_uv(at);
                 if (distance(position, ball_.center) > ball_.radius) continue;
                 const double clear = std::hypot(beyond, search.contains(at) ? 0.0 : search.clearance(at));
-                probes.push_back({.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kTrust});
+                probes.push_back({.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kTrust, .far = true});
             }
     }
 

@@ -20,6 +20,7 @@ struct Cap {
     bool from_start = false;  ///< prescribed whether or not it does
     ConstraintKind kind = ConstraintKind::cap;
     double trust = 1;  ///< of that constraint
+    bool far = false;  ///< a leak probe far beyond an end: a leak there says nothing about those elsewhere
 
     bool allows(double f) const { return f >= least_mm && f <= most_mm; }
 };

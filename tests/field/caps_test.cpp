@@ -35,6 +35,47 @@ TEST(Caps, StackOfCirclesEndsOnePlaneSpacingBeyondItsLastOnes) {
     EXPECT_EQ(above, below);
 }
 
+TEST(Caps, TwoSlicesOfAWideObjectEndOneSpacingBeyondOrSayThatTheirThicknessIsAGuess) {
+    for (const double spacing : {3.0, 1.0, 0.3, 0.15}) {
+        const ContourSet set = stack({0, spacing});
+        const Limits limits = find_limits(DrawnPlanes(set));
+        double highest = 0;
+        for (const Cap& cap : limits.caps) highest = std::max(highest, dot(cap.position, kNormal));
+        const bool is_one_place = spacing < 0.01 * 20;
+        EXPECT_NEAR(highest, spacing + (is_one_place ? 10 : spacing), 1e-9 + is_one_place) << spacing;
+        EXPECT_EQ(limits.notes.size(), is_one_place ? 1u : 0u) << spacing;
+    }
+}
+
+TEST(Caps, LowOnesKeepTheSectionInside) {
+    const auto floor_of = [](double spacing) {
+        std::vector<double> values;
+        for (const Cap& cap : caps_of(stack({0, spacing})))
+            if (cap.kind == ConstraintKind::interior) values.push_back(cap.least_mm);
+        return values;
+    };
+    EXPECT_TRUE(floor_of(4).empty());
+    EXPECT_GT(floor_of(1).size(), 100u);
+    for (const double least : floor_of(1)) {
+        EXPECT_GT(least, 0);
+        EXPECT_LT(least, 1);
+    }
+}
+
+TEST(Caps, LeakProbesFillTheBallBeyondTheEnds) {
+    const ContourSet set = stack({0, 1});
+    int above = 0, below = 0;
+    for (const Cap& probe : find_limits(DrawnPlanes(set)).leak_probes) {
+        const double height = dot(probe.position, kNormal);
+        EXPECT_LT(probe.value_mm, 0);
+        above += height > 10;
+        below += height < -9;
+        EXPECT_LE(distance(probe.position, 0.5 * kNormal), 2 * 10.02 + 1e-9);
+    }
+    EXPECT_GT(above, 15);
+    EXPECT_EQ(above, below);
+}
+
 TEST(Caps, SingleCircleEndsAtItsRadius) {
     double highest = 0;
     for (const Cap& cap : caps_of(stack({0}))) highest = std::max(highest, std::abs(dot(cap.position, kNormal)));

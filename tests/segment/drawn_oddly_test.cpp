@@ -56,7 +56,29 @@ TEST(DrawnOddly, TwiceIsOnce) {
 TEST(DrawnOddly, TwoPlanesAtTheSamePlaceAreOneEnd) {
     const double once = volume_ml(ball({-30, 0, 30}));
     EXPECT_NEAR(volume_ml(ball({-30.5, -30, 0, 30, 30.5})), once, 0.03 * once);
-    EXPECT_NEAR(volume_ml(ball({0, 2})), volume_ml(ball({0})), 0.05 * once);
+    const Segmentation pair = segmented(ball({0, 0.8}), 3, 40);
+    EXPECT_NEAR(pair.report.mask_volume_ml, volume_ml(ball({0})), 0.05 * once);
+    EXPECT_TRUE(warns(pair.report, "the thickness of the object there is a guess from its width"));
+    EXPECT_FALSE(warns(segmented(ball({-30.5, -30, 0, 30, 30.5}), 3, 40).report, "is a guess"));
+}
+
+// However wide the object is: neighbouring slices of a scanner may be 2 % of its width apart.
+TEST(DrawnOddly, NeighbouringSlicesEndOneSpacingBeyond) {
+    for (const std::vector<double>& heights :
+         {std::vector<double>{-2.5, 2.5}, {-1, 1}, {-0.75, 0.75}, {-1, 0, 1}, {-4, -2, 0, 2, 4}}) {
+        const ContourSet set = ball(heights);
+        const double spacing = heights[1] - heights[0], last = heights.back();
+        const Segmentation result = segment(set, grid_around(bounding_box(set), {2, 2, spacing / 3}, 4 * spacing));
+        EXPECT_TRUE(result.report.warnings.empty()) << result.report.warnings.front();
+        EXPECT_EQ(result.report.mask_components, 1);
+        const double area_cm2 = std::numbers::pi * kRadius * kRadius / 100;
+        EXPECT_GT(result.report.mask_volume_ml, area_cm2 * 2 * last / 10);
+        EXPECT_LT(result.report.mask_volume_ml, area_cm2 * 2 * (last + spacing) / 10);
+        for (double x = 0; x < 0.95 * kRadius; x += 2) {
+            for (const double z : heights) EXPECT_GT(result.function.value({x, 0, z}), 0) << "a hole: " << x << ", " << z;
+            EXPECT_LT(result.function.value({x, 0, last + 1.2 * spacing}), 0) << x;
+        }
+    }
 }
 
 TEST(DrawnOddly, APlaneNeedNotShowAllParts) {
@@ -143,8 +165,8 @@ TEST(DrawnOddly, HolesAreFoundInPlanesFittedToRoundedPoints) {
 TEST(DrawnOddly, VeryManySmallContoursShareTheirPoints) {
     ContourSet many;
     for (int n = 0; n < 200; ++n) many.contours.push_back(circle_at({20.0 * (n % 20), 20.0 * (n / 20), 0}, 5, 4));
-    EXPECT_LT(segmented(many, 5, 10).report.centres, 200 * (2 * 24 + 2 * (6 + 4)))
-        << "48 segments each would be twice as many";
+    EXPECT_LT(segmented(many, 5, 10).report.centres, 200 * (2 * 24 + 2 * (6 + 4) + 2))
+        << "48 segments each would be twice as many; 2 for leak probes";
 }
 
 TEST(DrawnOddly, AClickOutsideMakesACavityAndOneFarAsideIsReported) {

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <vector>
 
 #include "kontur/io/contour_json.h"
 #include "kontur/segment.h"
+#include "support/contour_sets.h"
 #include "support/solids.h"
 #include "support/test_data.h"
 
@@ -53,6 +55,57 @@ TEST_P(SlantedPlanesTest, TwoThatCrossGiveAClosedBody) {
         EXPECT_LT(drawn_ml, 2 * truth_ml);
     }
 }
+
+struct Stack {
+    double radius_mm;
+    std::vector<double> heights;
+    bool ball;  ///< circles of a ball; else of a cylinder
+};
+
+class StackTest : public testing::TestWithParam<Stack> {
+protected:
+    static ContourSet contours() {
+        const auto& [radius, heights, ball] = GetParam();
+        ContourSet set;
+        for (const double z : heights)
+            set.contours.push_back(
+                test::circle(make_plane({0, 0, z}, {0, 0, 1}), ball ? std::sqrt(radius * radius - z * z) : radius, 60));
+        return set;
+    }
+};
+
+// Behind a gap in which it is negative, f may rise again in cones that widen with the distance.
+TEST_P(StackTest, NothingIsInsideBeyondTheEnds) {
+    const auto& [radius, heights, ball] = GetParam();
+    const ImplicitFunction f = segment(contours(), grid_around(bounding_box(contours()), {1, 1, 1}, 0)).function;
+    const double spacing = heights[1] - heights[0], middle = (heights.front() + heights.back()) / 2, step = radius / 5;
+    for (double x = -2 * radius; x <= 2 * radius; x += step)
+        for (double y = -2 * radius; y <= 2 * radius; y += step)
+            for (double z = heights.back() + 2 * spacing; z < middle + 2 * radius; z += step / 2)
+                for (const Vec3& p : {Vec3{x, y, z}, Vec3{x, y, 2 * middle - z}}) {
+                    if (distance(p, {0, 0, middle}) > 2 * radius) continue;
+                    ASSERT_LT(f.value(p), 0) << x << ", " << y << ", " << p.z;
+                }
+}
+
+// Voxels thicker than such a gap join what lies on both sides of it.
+TEST_P(StackTest, ThickSlicesJoinNothingToTheObject) {
+    const auto& [radius, heights, ball] = GetParam();
+    const double fine_ml =
+        segment(contours(), grid_around(bounding_box(contours()), {0.5, 0.5, 0.5}, 2 * radius)).report.mask_volume_ml;
+    for (const double thickness : {0.4 * radius, 0.7 * radius, radius})
+        for (const double phase : {0.0, 0.25, 0.5}) {
+            Grid grid = grid_around(bounding_box(contours()), {1, 1, thickness}, 3 * radius);
+            grid.index_to_mm.translation.z += phase * thickness;
+            const double one_slice_ml = std::numbers::pi * radius * radius * thickness / 1000;
+            EXPECT_NEAR(segment(contours(), grid).report.mask_volume_ml, fine_ml, one_slice_ml)
+                << thickness << " mm thick, " << phase << " of it aside";
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Segment, StackTest,
+                         testing::Values(Stack{5, {-1, 1}, true}, Stack{8, {-1.5, 0, 1.5}, true}, Stack{15, {2, 5, 8}, true},
+                                         Stack{15, {0, 3, 6}, false}));
 
 INSTANTIATE_TEST_SUITE_P(Segment, SlantedPlanesTest, testing::Values(7, 10, 15, 20, 28, 35, 40, 50, 70, 90));
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/caps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,10 +85,11 @@ private:
 };
 
 /// How far a section lies from the one before it, rather one that shows a part of the object that it shows itself. One very
-/// near to it, compared with the next one or, without any, with the object's width, shows the same place once more and does
-/// not count.
-std::optional<double> distance_to_previous(const std::vector<DrawnRegions::Parallel>& behind, double width) {
+/// near to it, compared with the next one or, without any, with the section's inscribed radius, shows the same place once
+/// more and does not count.
+std::optional<double> distance_to_previous(const std::vector<DrawnRegions::Parallel>& behind, double radius) {
     constexpr double kSamePlace = 0.125;
+    constexpr double kSameAlone = 0.02;  // 1 % of the width: neighbouring slices of a wide organ are hardly farther apart
     std::vector<double> same_part, all;
     for (const DrawnRegions::Parallel& plane : behind) {
         all.push_back(plane.distance);
@@ -95,7 +98,7 @@ std::optional<double> distance_to_previous(const std::vector<DrawnRegions::Paral
     }
     const std::vector<double>& distances = same_part.empty() ? all : same_part;
     if (distances.empty()) return std::nullopt;
-    if (distances.size() == 1) return distances[0] < kSamePlace * width ? std::nullopt : std::optional(distances[0]);
+    if (distances.size() == 1) return distances[0] < kSameAlone * radius ? std::nullopt : std::optional(distances[0]);
     return distances[distances[0] < kSamePlace * (distances[1] - distances[0]) ? 1 : 0];
 }
 
@@ -134,6 +137,9 @@ public:
     /// Whether no other contour says how the object goes on.
     bool is_last() const { return !leads_on_ && ahead_.empty(); }
 
+    /// Whether nothing that was drawn tells how thick the object is here.
+    bool is_guess() const { return is_last() && !previous_mm_ && !crossed_; }
+
     /// How far the object may go on beyond a last section.
     double height() const {
         const double own = previous_mm_ ? std::min(*previous_mm_, 1.5 * deepest_) : deepest_;
@@ -147,10 +153,12 @@ public:
         return result;
     }
 
-private:
+    /// How far a place lies beyond the section.
     double ahead(const Vec3& p) const { return sign_ * section_.plane.distance_to(p); }
 
+private:
     void consider(const Section& other) {
+        crossed_ = true;
         const double reach = reach_of(other);
         if (std::abs(dot(section_.plane.normal, other.plane.normal)) < kSlanted) leads_on_ = leads_on_ || reach > tolerance_;
         else slanted_reach_ = std::max(slanted_reach_, reach);
@@ -199,17 +207,51 @@ private:
     void append_rounded_end(std::vector<Cap>& caps) const {
         if (deepest_ == 0) return;
         const double height = this->height();
-        for (const Probe& probe : inside_) {
-            const double rim = 1 - probe.depth / deepest_;
-            caps.push_back({above(probe.at, height * std::sqrt(1 - rim * rim)), 0, 0});
-        }
+        for (const Probe& probe : inside_) append_dome(probe.at, probe.depth, caps);
+        if (is_flat()) append_flat_rim(caps);
         // The outline itself must not be carried on, neither straight nor flaring.
         for (const Polygon2& outline : section_.outlines) {
-            const std::size_t stride = std::max<std::size_t>(1, outline.size() / 40);
-            for (std::size_t i = 0; i < outline.size(); i += stride)
+            for (std::size_t i = 0; i < outline.size(); i += stride_along(outline))
                 caps.push_back({above(outline[i], height), -height / 4, -height / 4});
         }
     }
+
+    bool is_flat() const { return height() < deepest_ / 4; }
+
+    /// The end above a place in the section with this distance from the outlines.
+    void append_dome(const Point2& at, double depth, std::vector<Cap>& caps) const {
+        const double rim = 1 - std::min(depth / deepest_, 1.0), dome = height() * std::sqrt(1 - rim * rim);
+        caps.push_back({above(at, dome), 0, 0});
+        // So many zeros over a flat body would make f vanish within it, too, and open holes far from the lines.
+        if (is_flat())
+            caps.push_back({.position = section_.plane.from_uv(at),
+                            .most_mm = std::numeric_limits<double>::infinity(),
+                            .value_mm = dome / 2,
+                            .least_mm = dome / 8,
+                            .kind = ConstraintKind::interior});
+    }
+
+    /// Between the outlines and the probes next to them, which are far apart compared with the height of a flat end: where f
+    /// rises from the wall as steeply as everywhere, it would make a lip and a groove behind it.
+    void append_flat_rim(std::vector<Cap>& caps) const {
+        const SectionSearch search(section_);
+        for (const Polygon2& outline : section_.outlines)
+            for (std::size_t i = 0; i < outline.size(); i += stride_along(outline)) {
+                const Point2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+                const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+                if (length == 0) continue;
+                const Point2 left{(a[1] - b[1]) / length, (b[0] - a[0]) / length};
+                for (double inset = height(); inset < deepest_ / 6; inset *= 2)
+                    for (const double side : {-inset, inset}) {
+                        const Point2 at{(a[0] + b[0]) / 2 + side * left[0], (a[1] + b[1]) / 2 + side * left[1]};
+                        if (!search.contains(at)) continue;
+                        if (const double depth = search.clearance(at); depth > 0.9 * inset) append_dome(at, depth, caps);
+                    }
+            }
+    }
+
+    /// Every how many points of an outline there are caps.
+    static std::size_t stride_along(const Polygon2& outline) { return std::max<std::size_t>(1, outline.size() / 40); }
 
     const Section& section_;
     const std::vector<Probe>& inside_;
@@ -217,6 +259,7 @@ private:
     const Parallels& ahead_;
     std::optional<double> previous_mm_;
     bool leads_on_ = false;
+    bool crossed_ = false;  ///< there are contours of other directions
     double slanted_reach_ = 0;
     double single_reach_ = 0;  ///< of single points
 };
@@ -274,16 +317,37 @@ public:
         for (const std::vector<Cap>& row : rows) probes.insert(probes.end(), row.begin(), row.end());
     }
 
-    /// Beside the cap of a last section at the cap's height, and over it at twice the height: its dome can be pierced
-    /// between its points.
+    /// Beside the cap of a last section at the cap's height, and over it at twice the height, where its dome can be pierced
+    /// between its points; and farther beyond.
     void append_beyond(const Side& side, const std::vector<Probe>& inside, std::vector<Cap>& probes) const {
         const double height = side.height();
         append_beside(side.shifted(height), 0, probes);
         const Plane over = side.shifted(2 * height).plane;
         for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at), 0, -height / 2});
+        for (double far = 0.9 * (ball_.radius + side.ahead(ball_.center)); far > 2.5 * height; far /= 2)
+            append_far_beyond(side.shifted(far), far - height, probes);
     }
 
 private:
+    /// All over a plane at a distance from the end of the object. However low f is behind the cap, it can rise again in a
+    /// cone that widens with the distance, and voxels thicker than the gap between them join the two. Of what widens, few
+    /// points on a coarse lattice are enough.
+    void append_far_beyond(const Section& end, double beyond, std::vector<Cap>& probes) const {
+        constexpr int kFarSteps = 6;
+        const double step = ball_.radius / kFarSteps;
+        const SectionAxes axes(end);
+        const SectionSearch search(end);
+        const Point2 center = axes.from_plane(end.plane.to_uv(ball_.center));
+        for (int j = -kFarSteps; j <= kFarSteps; ++j)
+            for (int i = -kFarSteps; i <= kFarSteps; ++i) {
+                const Point2 at = axes.to_plane({center[0] + i * step, center[1] + j * step});
+                const Vec3 position = end.plane.from_uv(at);
+                if (distance(position, ball_.center) > ball_.radius) continue;
+                const double clear = std::hypot(beyond, search.contains(at) ? 0.0 : search.clearance(at));
+                probes.push_back({.position = position, .most_mm = 0, .value_mm = -clear / 2, .trust = kTrust, .far = true});
+            }
+    }
+
     /// Whether another plane near by shows the object at a place, or planes on both sides of it do.
     bool shown_by_others(const Vec3& p, const Vec3& normal, double clear) const {
         return regions_.any_near(p, kNearer * clear, [](const Vec3&) { return true; }) ||
@@ -317,6 +381,11 @@ Limits find_limits(const DrawnPlanes& planes, int threads) {
             const Side side(planes, section, inside, sign, sign > 0 ? above : below, sign > 0 ? below : above);
             side.append_caps(limits.caps);
             if (side.is_last()) leak_probes.append_beyond(side, inside, limits.leak_probes);
+            if (side.is_guess() && limits.notes.empty())
+                limits.notes.push_back(
+                    fmt::format("contour {} has no others beside it but in nearly the same plane; the thickness of the "
+                                "object there is a guess from its width",
+                                section.contours.front() + 1));
         }
     }
     return limits;

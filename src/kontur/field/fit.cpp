@@ -2,8 +2,12 @@
 #include "kontur/field/fit.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <tuple>
 #include <utility>
+
+#include "kontur/base/smallest_ball.h"
 
 namespace kontur {
 namespace {
@@ -84,6 +88,7 @@ public:
     /// Activates the caps that the function violates; true if there are new ones. Leak probes are looked at only when there
     /// are none: without its caps the object runs on, and what it meets there is no leak. Of the probes that the last
     /// function kept well, one of a few is looked at: a leak is larger than their distance. If it shows a leak, all are.
+    /// A leak far beyond the ends does not bring back those that were forgotten near the object.
     bool update(const ImplicitFunction& function, int threads) {
         Indices caps(first_probe_), doubtful, others;
         std::iota(caps.begin(), caps.end(), std::size_t{0});
@@ -94,7 +99,10 @@ public:
         evaluate(function, doubtful, threads);
         if (count() == before) return false;
         evaluate(function, others, threads);
-        for (Watched& watched : caps_) watched.active = watched.active || watched.forgotten;
+        const bool leaks_near = std::any_of(caps_.cbegin() + static_cast<std::ptrdiff_t>(first_probe_), caps_.cend(),
+                                            [](const Watched& probe) { return probe.active && !probe.cap.far; });
+        for (Watched& watched : caps_)
+            watched.active = watched.active || (watched.forgotten && (leaks_near || watched.cap.far));
         return true;
     }
 
@@ -102,6 +110,20 @@ public:
         for (const Watched& watched : caps_)
             if (const Cap& cap = watched.cap; watched.active)
                 points.push_back({cap.position, cap.value_mm, cap.kind, cap.trust});
+    }
+
+    /// Far probes that are constraints widen the unit ball in which smoothing is measured. By what it is to be multiplied so
+    /// that they change nothing near the object.
+    double smoothing_share(const std::vector<Vec3>& centers, Kernel kernel) const {
+        const auto before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+        std::vector<Vec3> far, near;
+        for (const Watched& watched : caps_)
+            if (watched.active && watched.cap.far) far.push_back(watched.cap.position);
+        if (far.empty()) return 1;
+        std::sort(far.begin(), far.end(), before);
+        std::copy_if(centers.begin(), centers.end(), std::back_inserter(near),
+                     [&](const Vec3& p) { return !std::binary_search(far.begin(), far.end(), p, before); });
+        return kernel_value(kernel, smallest_ball(near).radius / smallest_ball(centers).radius);
     }
 
     /// Leaks so far may come from the smoothing of early fits: they count again only if a fit from now on leaks, too.
@@ -155,7 +177,9 @@ public:
         std::vector<PointConstraint> single_points;
         caps_.append_to(single_points);
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
-        const Solution solution = solve(placed.constraints, solving, progress_of_next_solve(), &previous_);
+        SolveOptions near_object = solving;
+        near_object.smoothing *= caps_.smoothing_share(placed.constraints.centers, solving.kernel);
+        const Solution solution = solve(placed.constraints, near_object, progress_of_next_solve(), &previous_);
         result_.function = solution.function;
         result_.report = solution.report;
         result_.iterations += solution.report.iterations;

@@ -119,6 +119,7 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, Pre
         Limits limits = find_limits(planes, options.threads);
         prepared.caps = std::move(limits.caps);
         prepared.leak_probes = std::move(limits.leak_probes);
+        if (!prepared.coplanar) prepared.notes.insert(prepared.notes.end(), limits.notes.begin(), limits.notes.end());
         const Ends ends = find_ends(planes);
         prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
         prepared.caps.insert(prepared.caps.end(), ends.guards.begin(), ends.guards.end());

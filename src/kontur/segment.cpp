@@ -11,7 +11,9 @@
 #include "kontur/base/stopwatch.h"
 #include "kontur/extract/adaptive.h"
 #include "kontur/extract/entries.h"
+#include "kontur/extract/mesh_grid.h"
 #include "kontur/extract/polygonize.h"
+#include "kontur/extract/tracker.h"
 #include "kontur/field/clicks.h"
 #include "kontur/fitting.h"
 #include "kontur/measure/components.h"
@@ -53,6 +55,22 @@ SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, 
                                  : track_surface_adaptively(function, grid, starts, options.threads, progress);
     surface.evaluations += from_outside.evaluations;
     return surface;
+}
+
+/// The surface on the mask's lattice, or on a finer one where its voxels are coarse beside the object: chords between slices
+/// that are far apart leave out a part of the object.
+TriangleMesh mesh_of(const SurfaceLattice& surface, const ImplicitFunction& function, std::vector<Vec3> starts,
+                     double spacing_mm, const SegmentOptions& options, const Progress& progress) {
+    const Grid grid = mesh_grid(surface, starts, spacing_mm);
+    if (grid == surface.lattice.grid()) return polygonize(surface, function, options.threads, progress);
+    if (options.voxelizer == Voxelizer::exhaustive) {  // what no contour touches is in the mask, too
+        const std::vector<Vec3> cuts = cut_points(surface);
+        starts.insert(starts.end(), cuts.begin(), cuts.end());
+    }
+    SegmentOptions following = options;
+    following.voxelizer = Voxelizer::adaptive;
+    return polygonize(find_surface(function, grid, std::move(starts), following, progress), function, options.threads,
+                      progress);
 }
 
 /// A sentence on the worst crossing, if it is worse than both a voxel and 1 % of the contours' box.
@@ -167,7 +185,8 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     result.mask = fill(surface, options.threads);
     watch.lap("voxelize");
     if (options.mesh) {
-        result.mesh = polygonize(surface, result.function, options.threads, progress);
+        result.mesh =
+            mesh_of(surface, result.function, starts, kMeshSpacingFraction * diameter_mm(contours), options, progress);
         watch.lap("polygonize");
     }
 

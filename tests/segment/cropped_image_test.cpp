@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kontur/memory_estimate.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
@@ -83,6 +84,15 @@ TEST(CroppedImage, BesideTheContoursIsRefused) {
                         "lie outside of the image");
 }
 
+TEST(CroppedImage, OfTinyVoxelsHasAnEstimateOfMemoryThatIsPositiveAndSmall) {
+    for (const double spacing : {1.0, 1e-3, 1e-7, 1e-8}) {
+        const double mb =
+            estimated_memory_mb(tube(), 500, image({10, 10, 10}, {18, 0, 0}, {spacing, spacing, spacing}), {.mesh = true});
+        EXPECT_GT(mb, 0);
+        EXPECT_LT(mb, 1000);
+    }
+}
+
 TEST(CoarseImage, FindsAThinWallBetweenItsSlices) {
     ContourSet shell;
     for (double z = -28; z < 29; z += 4)
@@ -94,6 +104,24 @@ TEST(CoarseImage, FindsAThinWallBetweenItsSlices) {
     for (const Voxelizer voxelizer : kFollowing) {
         const Segmentation found = segmented(shell, grid, voxelizer);
         EXPECT_NEAR(static_cast<double>(found.report.mask_voxels), static_cast<double>(all.report.mask_voxels), 2);
+    }
+}
+
+TEST(CoarseImage, MeshHasTheObjectsVolume) {
+    for (const auto& [radius, spacing] : {std::pair{5.0, Vec3{1, 1, 5}},
+                                          {5.0, Vec3{3, 3, 3}},
+                                          {5.0, Vec3{1, 1, 1}},
+                                          {10.0, Vec3{5, 5, 5}},
+                                          {20.0, Vec3{0.8, 0.8, 5}}}) {
+        ContourSet ball;
+        for (const Vec3& normal : {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+            ball.contours.push_back(circle_at({0.3, 0.1, 0.2}, radius, normal));
+        const Grid grid = grid_around(bounding_box(ball), spacing, 2 * spacing.z);
+        const Segmentation made = segmented(ball, grid, Voxelizer::adaptive, true);
+        const double exact = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+        EXPECT_NEAR(signed_volume_mm3(*made.mesh), exact, 0.01 * exact) << radius << " at " << spacing.z;
+        EXPECT_TRUE(topology(*made.mesh).closed && topology(*made.mesh).oriented);
+        EXPECT_LT(made.mesh->triangles.size(), 60'000u);
     }
 }
 

@@ -80,7 +80,8 @@ Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
 RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segmentation& result) {
     PictureOptions options;
     options.title = inputs.contours.name.empty() ? command.contours.front().stem().string() : inputs.contours.name;
-    options.facts = {{"Residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
+    options.facts = {{"Volume (mask)", in_ml(result.report.mask_volume_ml)},
+                     {"Residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
                      {"Residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
     options.threads = command.options.threads;
     return make_picture(*result.mesh, inputs.contours, inputs.image ? &*inputs.image : nullptr, options);
@@ -116,11 +117,12 @@ std::string crossings_line(const std::vector<Crossing>& crossings) {
 
 void print_summary(const SegmentCommand& command, const Segmentation& result, double seconds, Console& console) {
     const SegmentReport& r = result.report;
-    std::string text = fmt::format("{}: {} voxels, {:.2f} ml, {} component{}\n", command.output.string(), r.mask_voxels,
-                                   r.mask_volume_ml, r.mask_components, r.mask_components == 1 ? "" : "s");
+    std::string text = fmt::format("{}: {} voxels, {}, {} component{}\n", command.output.string(), r.mask_voxels,
+                                   in_ml(r.mask_volume_ml), r.mask_components, r.mask_components == 1 ? "" : "s");
     if (!command.rtstruct.empty()) text += command.rtstruct.string() + "\n";
     if (!command.mesh.empty())
-        text += fmt::format("{}: {} triangles\n", command.mesh.string(), result.mesh->triangles.size());
+        text += fmt::format("{}: {} triangles, {}\n", command.mesh.string(), result.mesh->triangles.size(),
+                            in_ml(signed_volume_mm3(*result.mesh) / 1000));
     if (!command.picture.empty()) text += command.picture.string() + "\n";
     if (!command.report.empty()) text += command.report.string() + "\n";
     text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,

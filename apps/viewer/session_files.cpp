@@ -73,7 +73,8 @@ void write_mesh_file(const fs::path& path, const ContourSet& set, const Grid& gr
 void write_picture(const fs::path& path, const ContourSet& set, const Image& image, const Progress& progress) {
     const Segmentation made = segmented(set, image.grid, progress);
     PictureOptions options;
-    options.facts = {{"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
+    options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
+                     {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
                      {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
     write_png(path, make_picture(*made.mesh, set, &image, options), provenance(set, image.grid, made.report));
 }

@@ -234,8 +234,8 @@ Examples
     define(m, "points_outside", "Number of contour points outside of the grid's voxels.", &points_outside,
            py::arg("contours"), py::arg("grid"));
     define(m, "check_contours_inside",
-           "Raises InvalidInputError when no contour point lies in the grid; a warning sentence when some lie outside, else "
-           "None.",
+           "Raises InvalidInputError when the contours' box does not reach into the grid; a warning sentence when points lie "
+           "outside, else None.",
            &check_contours_inside, py::arg("contours"), py::arg("grid"));
 }
 

@@ -8,6 +8,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
 #include "kontur/extract/adaptive.h"
+#include "kontur/extract/mesh_grid.h"
 
 namespace kontur {
 namespace {
@@ -39,10 +40,15 @@ std::vector<Vec3> all_points(const ContourSet& contours) {
 double estimated_memory_mb(const ContourSet& contours, std::size_t centres, const Grid& grid,
                            const SegmentOptions& options) {
     const auto voxels = static_cast<double>(grid.voxel_count());
-    const double surface = std::min(voxels, static_cast<double>(expected_surface_voxels(grid, all_points(contours))) * 1.5);
+    const std::vector<Vec3> points = all_points(contours);
+    const double surface = std::min(voxels, 1.5 * static_cast<double>(expected_surface_voxels(grid, points)));
     double bytes = kAlways + matrix_bytes(static_cast<double>(centres), options.solver) + kPerVoxel * voxels;
     bytes += options.voxelizer == Voxelizer::exhaustive ? kExhaustivePerVoxel * voxels : kPerSurfaceVoxel * surface;
-    if (options.mesh) bytes += kMeshPerSurfaceVoxel * surface;
+    if (options.mesh) {
+        const Grid fine = with_split_voxels(grid, kMeshSpacingFraction * diameter_mm(contours));
+        const double cells = 1.5 * static_cast<double>(expected_surface_voxels(fine, points));
+        bytes += kMeshPerSurfaceVoxel * cells + (cells > surface ? kPerSurfaceVoxel * cells : 0);
+    }
     return resident_memory_mb() + bytes / 1e6;
 }
 

@@ -10,7 +10,10 @@
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/extract/adaptive.h"
+#include "kontur/extract/entries.h"
+#include "kontur/extract/mesh_grid.h"
 #include "kontur/extract/polygonize.h"
+#include "kontur/extract/tracker.h"
 #include "kontur/field/clicks.h"
 #include "kontur/fitting.h"
 #include "kontur/measure/components.h"
@@ -47,16 +50,32 @@ ContourSet cleaned(ContourSet set, const Grid& grid, FillRule fill_rule, std::ve
     return set;
 }
 
-SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts,
+SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, std::vector<Vec3> starts,
                             const SegmentOptions& options, const Progress& progress) {
-    switch (options.voxelizer) {
-        case Voxelizer::exhaustive:
-            return sample_everywhere(function, grid, options.threads, progress);
-        case Voxelizer::tracked:
-            return track_surface(function, grid, starts, options.threads, progress);
-        default:
-            return track_surface_adaptively(function, grid, starts, options.threads, progress);
+    if (options.voxelizer == Voxelizer::exhaustive) return sample_everywhere(function, grid, options.threads, progress);
+    const Entries from_outside = entries(function, grid, starts, options.threads, progress);
+    starts.insert(starts.end(), from_outside.points.begin(), from_outside.points.end());
+    SurfaceLattice surface = options.voxelizer == Voxelizer::tracked
+                                 ? track_surface(function, grid, starts, options.threads, progress)
+                                 : track_surface_adaptively(function, grid, starts, options.threads, progress);
+    surface.evaluations += from_outside.evaluations;
+    return surface;
+}
+
+/// The surface on the mask's lattice, or on a finer one where its voxels are coarse beside the object: chords between slices
+/// that are far apart leave out a part of the object.
+TriangleMesh mesh_of(const SurfaceLattice& surface, const ImplicitFunction& function, std::vector<Vec3> starts,
+                     double spacing_mm, const SegmentOptions& options, const Progress& progress) {
+    const Grid grid = mesh_grid(surface, starts, spacing_mm);
+    if (grid == surface.lattice.grid()) return polygonize(surface, function, options.threads, progress);
+    if (options.voxelizer == Voxelizer::exhaustive) {  // what no contour touches is in the mask, too
+        const std::vector<Vec3> cuts = cut_points(surface);
+        starts.insert(starts.end(), cuts.begin(), cuts.end());
     }
+    SegmentOptions following = options;
+    following.voxelizer = Voxelizer::adaptive;
+    return polygonize(find_surface(function, grid, std::move(starts), following, progress), function, options.threads,
+                      progress);
 }
 
 /// A sentence on the worst crossing, if it is worse than both a voxel and 1 % of the contours' box.
@@ -166,13 +185,13 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     const Fit fitted = fit(prepared, fitting.fit, progress);
     result.function = fitted.function;
     watch.lap("fit");
-    const SurfaceLattice surface =
-        find_surface(result.function, grid,
-                     start_points(contours, prepared, result.function, fitting.prepare.click_margin_mm), options, progress);
+    const std::vector<Vec3> starts = start_points(contours, prepared, result.function, fitting.prepare.click_margin_mm);
+    const SurfaceLattice surface = find_surface(result.function, grid, starts, options, progress);
     result.mask = fill(surface, options.threads);
     watch.lap("voxelize");
     if (options.mesh) {
-        result.mesh = polygonize(surface, result.function, options.threads, progress);
+        result.mesh =
+            mesh_of(surface, result.function, starts, kMeshSpacingFraction * diameter_mm(contours), options, progress);
         watch.lap("polygonize");
     }
 

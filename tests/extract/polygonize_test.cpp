@@ -39,7 +39,7 @@ TEST(Polygonize, BallIsASphereOnEveryKindOfGrid) {
         ASSERT_EQ(mesh.normals.size(), mesh.points.size());
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             const Vec3 radial = mesh.points[i] - kCenter;
-            EXPECT_NEAR(norm(radial), radius, 0.05);
+            EXPECT_NEAR(norm(radial), radius, 6e-3);
             EXPECT_GT(dot(mesh.normals[i], normalized(radial)), std::cos(0.01 * M_PI / 180));
         }
         for (const auto& t : mesh.triangles) EXPECT_GT(dot(area_vector(mesh, t), mesh.points[t[0]] - kCenter), 0);
@@ -55,6 +55,16 @@ TEST(Polygonize, VolumeConvergesWithTheSquareOfTheSpacing) {
     };
     EXPECT_LT(error(1), 0.012);
     EXPECT_LT(error(0.5), error(1) / 3.5);
+}
+
+TEST(Polygonize, PointsLieOnTheSurfaceHoweverCoarseTheGrid) {
+    for (const double slices : {2.0, 5.0}) {
+        Grid grid = test::grid_about(kCenter, {22, 23, 14}, 1);
+        grid.index_to_mm.linear[2][2] = slices;
+        grid.index_to_mm.translation.z = kCenter.z - 6.4 * slices;
+        for (const Vec3& p : surface_of(test::ball_function(kCenter, 9), grid).points)
+            EXPECT_NEAR(distance(p, kCenter), 9, 6e-3);
+    }
 }
 
 TEST(Polygonize, TorusHasAHole) {

@@ -228,8 +228,13 @@ TEST(CheckContoursInside, WarnsWithTheNumberOutside) {
     EXPECT_EQ(check_contours_inside(set, sheared_grid()), "3 of 4 contour points lie outside of the image");
 }
 
+TEST(CheckContoursInside, WarnsOfAnImageBetweenTheDrawnPlanes) {
+    const ContourSet set = points_at_indices(sheared_grid(), {{3, 4, -30}, {5, 9, 60}, {4, 6, 60}});
+    EXPECT_EQ(check_contours_inside(set, sheared_grid()), "3 of 3 contour points lie outside of the image");
+}
+
 TEST(CheckContoursInside, RefusesContoursOfAnotherPlace) {
-    const ContourSet set = points_at_indices(sheared_grid(), {{-60, 0, 0}, {0, 190.6, 0}, {0, 0, 46}});
+    const ContourSet set = points_at_indices(sheared_grid(), {{-60, 0, 0}, {-2, 190.6, 0}, {-9, 0, 46}});
     EXPECT_THROW(check_contours_inside(set, sheared_grid()), Error);
 }
 

@@ -156,6 +156,32 @@ TEST(Picture, ComesOutWithoutAnyFont) {
     EXPECT_GT(count_color(picture, picture::kDrawn), 200);
 }
 
+TEST(WindowAbout, ShowsAHotLesionOfWhichTheWholeImageKnowsNothing) {
+    Image image{{{60, 60, 60}, {}}, {}};
+    std::vector<float> values(60 * 60 * 60);
+    for (std::int64_t k = 0; k < 60; ++k)
+        for (std::int64_t j = 0; j < 60; ++j)
+            for (std::int64_t i = 0; i < 60; ++i)
+                values[image.grid.offset(i, j, k)] = distance(image.grid.center_mm(i, j, k), {20, 20, 30}) < 5
+                                                         ? 12.0F
+                                                         : 0.1F * static_cast<float>((i + j + k) % 10);
+    image.samples = values;
+    const Box3 lesion{{15, 15, 25}, {25, 25, 35}};
+    EXPECT_LT(suggest_window(image).center + suggest_window(image).width / 2, 2);
+    const Window window = picture::window_about(image, lesion);
+    EXPECT_NEAR(window.center + window.width / 2, 12, 1e-6);
+    EXPECT_NEAR(window.center - window.width / 2, 0, 1e-6);
+    for (const Box3& box : {Box3{}, Box3{{-900, -900, -900}, {-800, -800, -800}}})
+        EXPECT_GT(picture::window_about(image, box).width, 0) << "no object, or one beside the image";
+}
+
+TEST(InMl, HasFourDigitsHoweverSmallTheObject) {
+    EXPECT_EQ(in_ml(1104.36), "1104 ml");
+    EXPECT_EQ(in_ml(53.3), "53.30 ml");
+    EXPECT_EQ(in_ml(0.004), "0.004000 ml") << "a mask of 4 mm^3";
+    EXPECT_EQ(in_ml(1.234567e-7), "0.0000001235 ml");
+}
+
 TEST(Rounded, KeepsTheSignificantDigits) {
     EXPECT_EQ(picture::rounded(1177.65, 4), "1178");
     EXPECT_EQ(picture::rounded(397.0635, 4), "397.1");

@@ -303,8 +303,17 @@ private:
 }  // namespace
 
 std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> starts) {
-    const Vec3 half = extent(grid, starts) / 2;
-    return std::llround(4.0 / 3 * M_PI * (half.x * half.y + half.y * half.z + half.z * half.x));
+    constexpr double kMost = 1e15;  // far beyond any lattice, far from what 64 bits hold
+    Box3 box;
+    for (const Vec3& p : to_index(grid, starts)) box.extend(p);
+    Vec3 half;
+    for (int axis = 0; axis < 3; ++axis) {  // no more of it than lies in the grid
+        const double low = std::max(box.min[axis], -0.5);
+        const double high = std::min(box.max[axis], static_cast<double>(grid.size[axis]) - 0.5);
+        half[axis] = std::max(high - low, 0.0) / 2;
+    }
+    const double voxels = 4.0 / 3 * M_PI * (half.x * half.y + half.y * half.z + half.z * half.x);
+    return std::llround(std::min(voxels, kMost));
 }
 
 SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,

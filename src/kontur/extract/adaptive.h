@@ -24,7 +24,8 @@ SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const 
 SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
                                         const Progress& progress = {});
 
-/// About how many voxels a surface through the starts passes, as if it were an ellipsoid that fills their box.
+/// About how many of the grid's voxels a surface through the starts passes, as if it were an ellipsoid that fills their box
+/// as far as that lies in the grid.
 std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> starts);
 
 }  // namespace kontur

@@ -78,7 +78,7 @@ private:
 
     std::array<double, 2> crossing(const Node& in, const Node& out) const {
         const double v_in = value(in), v_out = value(out);
-        double t = v_in / (v_in - v_out);  // 0, the border node, where the other node lies beyond the lattice
+        double t = std::isfinite(v_out) ? v_in / (v_in - v_out) : 0.5;
         const auto a = lattice_.uv(in.i, in.j), b = lattice_.uv(out.i, out.j);
         const auto at = [&](double s) { return std::array{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}; };
         if (exact_ && std::isfinite(v_out)) t = bisect(at);

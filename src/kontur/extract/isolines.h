@@ -42,7 +42,7 @@ struct Isoline {
 
 /// The zero level of a function from its `values` at the lattice's nodes (u fastest), inside where > 0, by marching squares
 /// (the 2D case of Lorensen & Cline 1987). Beyond the lattice everything counts as outside, so lines that reach its border
-/// are closed along the border. Two diagonal inside nodes are joined when the bilinear interpolant is > 0 at its saddle
+/// are closed half a step beyond it. Two diagonal inside nodes are joined when the bilinear interpolant is > 0 at its saddle
 /// (Nielson & Hamann 1991), hence lines never cross. Crossings are interpolated linearly, or, given the function `exact` of
 /// (u, v) itself, located on it by bisection. Lines are ordered by their lowest crossing, row by row.
 std::vector<Isoline> isolines(const PlaneLattice& lattice, std::span<const double> values,

@@ -10,14 +10,45 @@
 namespace kontur {
 namespace {
 
-constexpr std::size_t kPointsPerCell = 1;  ///< a cell has about as many cut edges of its own
+constexpr std::size_t kEvaluationsPerCell = 3;  // a cell has about one cut edge: a normal, two values to find its place
+constexpr double kTolerance = 0.02;             // of the fast function's values, in the grid's smallest spacing
+constexpr double kSmallValue = 5e-3;            // in the smallest spacing: a point with less is on the surface
+constexpr int kMostSteps = 8;
 
-/// Where f vanishes between two lattice values of different sign, as a fraction of the edge. Kept off the ends, so that no
-/// triangle collapses; an edge that leaves the grid is cut in its middle.
-double cut(double from, double to) {
-    if (!std::isfinite(from) || !std::isfinite(to)) return 0.5;
-    return std::clamp(from / (from - to), 1e-4, 1 - 1e-4);
+double smallest_spacing(const Grid& grid) {
+    const Vec3 spacing = grid.spacing_mm();
+    return std::min({spacing.x, spacing.y, spacing.z});
 }
+
+/// A lattice edge on which f changes its sign.
+struct CutEdge {
+    std::uint32_t point;  ///< of the mesh
+    int axis;
+    Index3 from;
+    double low = 0, high = 1;  ///< between these fractions of the edge
+    double low_value, high_value;
+    int last_moved = 0;  ///< -1: low, 1: high
+
+    /// Where the straight line through the two values is zero.
+    double zero() const { return low + low_value / (low_value - high_value) * (high - low); }
+
+    /// One step of regula falsi. When the same end moves twice the other one's value is halved (the Illinois algorithm,
+    /// Dowell & Jarratt 1971), which draws both ends to the zero.
+    void narrow(double at, double value) {
+        const bool moves_low = (value > 0) == (low_value > 0);
+        if (moves_low) {
+            low = at, low_value = value;
+            if (last_moved == -1) high_value /= 2;
+        } else {
+            high = at, high_value = value;
+            if (last_moved == 1) low_value /= 2;
+        }
+        last_moved = moves_low ? -1 : 1;
+    }
+};
+
+/// Off the ends of the edge, so that no triangle collapses.
+double kept_off_ends(double fraction) { return std::clamp(fraction, 1e-4, 1 - 1e-4); }
 
 class MeshBuilder {
 public:
@@ -35,6 +66,29 @@ public:
                                                   point_on(cell, t[2], corners)};
             if (mirrored_) std::swap(triangle[1], triangle[2]);
             mesh_.triangles.push_back(triangle);
+        }
+    }
+
+    /// Moves the points from where linear interpolation put them to the function's zeros; all of them step by step, because
+    /// the function is cheaper in bulk. Between slices that are far apart the difference is a large part of a voxel.
+    void refine(FastFunction& function, const Progress& progress) {
+        const double small_mm = kSmallValue * smallest_spacing(lattice_.grid());
+        std::vector<Vec3> places;
+        std::vector<double> values;
+        for (int step = 0; step < kMostSteps && !edges_.empty(); ++step) {
+            places.clear();
+            for (const CutEdge& edge : edges_) places.push_back(mesh_.points[edge.point]);
+            values.resize(places.size());
+            function.values(places, values, progress);
+            std::size_t kept = 0;
+            for (std::size_t n = 0; n < edges_.size(); ++n) {
+                if (!(std::abs(values[n]) > small_mm)) continue;
+                CutEdge edge = edges_[n];
+                edge.narrow(kept_off_ends(edge.zero()), values[n]);
+                mesh_.points[edge.point] = place(edge.from, edge.axis, kept_off_ends(edge.zero()));
+                edges_[kept++] = edge;
+            }
+            edges_.resize(kept);
         }
     }
 
@@ -59,14 +113,25 @@ private:
         if (is_new) {
             if (mesh_.points.size() >= std::numeric_limits<std::uint32_t>::max())
                 throw Error(ErrorKind::too_large, "the surface has more than 4294967295 points; use a larger spacing");
-            Vec3 at{static_cast<double>(from.i), static_cast<double>(from.j), static_cast<double>(from.k)};
-            at[edge.axis] += cut(corners[static_cast<std::size_t>(edge.from)], corners[static_cast<std::size_t>(edge.to)]);
-            mesh_.points.push_back(lattice_.grid().index_to_mm.apply(at));
+            const CutEdge cut{.point = found->second,
+                              .axis = edge.axis,
+                              .from = from,
+                              .low_value = corners[static_cast<std::size_t>(edge.from)],
+                              .high_value = corners[static_cast<std::size_t>(edge.to)]};
+            const bool leaves_grid = !std::isfinite(cut.low_value) || !std::isfinite(cut.high_value);
+            mesh_.points.push_back(place(from, edge.axis, leaves_grid ? 0.5 : kept_off_ends(cut.zero())));
+            if (!leaves_grid) edges_.push_back(cut);
             if (!lattice_.in_grid(from)) border_normals_.emplace_back(found->second, -border_normal(edge.axis));
             if (!lattice_.in_grid(Lattice::corner(cell, edge.to)))
                 border_normals_.emplace_back(found->second, border_normal(edge.axis));
         }
         return found->second;
+    }
+
+    Vec3 place(const Index3& from, int axis, double fraction) const {
+        Vec3 at{static_cast<double>(from.i), static_cast<double>(from.j), static_cast<double>(from.k)};
+        at[axis] += fraction;
+        return lattice_.grid().index_to_mm.apply(at);
     }
 
     /// Normal of the grid's face at its high end along an axis.
@@ -80,6 +145,7 @@ private:
     bool mirrored_;
     std::unordered_map<std::uint64_t, std::uint32_t> points_;  ///< lattice edge -> point
     TriangleMesh mesh_;
+    std::vector<CutEdge> edges_;  ///< whose points may not be on the surface yet
     std::vector<std::pair<std::uint32_t, Vec3>> border_normals_;
 };
 
@@ -88,14 +154,17 @@ private:
 TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Progress& progress) {
     MeshBuilder builder(surface);
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
-    progress.report("polygonize", 0.5);
+    progress.report("polygonize", 0.3);
+    builder.refine(function, progress);
+    progress.report("polygonize", 0.6);
     return builder.finish(function, progress);
 }
 
 TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, int threads,
                         const Progress& progress) {
-    FastFunction fast(
-        function, {.expected_points = static_cast<std::int64_t>(kPointsPerCell * surface.cells.size()), .threads = threads});
+    FastFunction fast(function, {.tolerance_mm = kTolerance * smallest_spacing(surface.lattice.grid()),
+                                 .expected_points = static_cast<std::int64_t>(kEvaluationsPerCell * surface.cells.size()),
+                                 .threads = threads});
     return polygonize(surface, fast, progress);
 }
 

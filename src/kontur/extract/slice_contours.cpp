@@ -62,6 +62,10 @@ public:
     }
 
     const std::vector<double>& levels() const { return levels_; }
+    bool contains(const std::array<double, 2>& index) const {
+        return index[0] >= 0 && index[1] >= 0 && index[0] < static_cast<double>(grid_.size.i) &&
+               index[1] < static_cast<double>(grid_.size.j);
+    }
     double level(double i, double j) const {
         return levels_[offset(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j))];
     }
@@ -108,10 +112,11 @@ struct Crossing {
     }
 };
 
-/// Points on the grid's border stay where they are: both indices are integers.
+/// Points beyond the grid's outermost centres, where it cuts the object off, stay where they are.
 std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const Slice& slice) {
     Crossing crossing{{std::floor(point[0]), std::floor(point[1])}, {std::ceil(point[0]), std::ceil(point[1])}};
-    if (crossing.low == crossing.high) return std::nullopt;
+    if (crossing.low == crossing.high || !slice.contains(crossing.low) || !slice.contains(crossing.high))
+        return std::nullopt;
     crossing.low_level = slice.level(crossing.low[0], crossing.low[1]);
     crossing.high_level = slice.level(crossing.high[0], crossing.high[1]);
     if ((crossing.low_level > 0) == (crossing.high_level > 0)) return std::nullopt;
@@ -150,12 +155,13 @@ std::vector<Contour> contours_of_slice(const Mask& mask, const ImplicitFunction&
     std::vector<Isoline> lines = isolines(lattice, slice.levels());
     refine(lines, slice, function, lattice.plane);
     const Plane plane = plane_of(lattice);
-    std::vector<Contour> contours;
+    ContourSet set;
     for (const Isoline& line : lines) {
-        Contour& contour = contours.emplace_back(Contour{.plane = plane, .points = {}, .hole = line.hole});
+        Contour& contour = set.contours.emplace_back(Contour{.plane = plane, .points = {}, .hole = line.hole});
         for (const auto& [i, j] : line.points) contour.points.push_back(lattice.plane.from_uv(i, j));
     }
-    return contours;
+    drop_duplicate_points(set);  // lines that meet a centre at which the function is 0
+    return std::move(set.contours);
 }
 
 }  // namespace

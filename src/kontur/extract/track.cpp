@@ -37,6 +37,21 @@ void sort_in_memory_order(std::vector<Index3>& cells, std::int64_t layers) {
     cells = std::move(sorted);
 }
 
+constexpr Index3 kNext{1, 1, 1};
+
+template <typename Visit>
+void for_each_around(const Index3& cell, const Index3& reach, const Visit& visit) {
+    for (std::int64_t k = -reach.k; k <= reach.k; ++k)
+        for (std::int64_t j = -reach.j; j <= reach.j; ++j)
+            for (std::int64_t i = -reach.i; i <= reach.i; ++i) visit(Index3{cell.i + i, cell.j + j, cell.k + k});
+}
+
+std::vector<Index3> cells_around(const std::vector<Index3>& centers, const Index3& reach) {
+    std::vector<Index3> cells;
+    for (const Index3& center : centers) for_each_around(center, reach, [&](const Index3& c) { cells.push_back(c); });
+    return cells;
+}
+
 class Tracker {
 public:
     Tracker(Lattice known, const EvaluatePoints& evaluate) : evaluate_(evaluate), surface_{std::move(known), {}, 0} {}
@@ -85,6 +100,21 @@ public:
         return result;
     }
 
+    /// Of the grid's cells among these, those that the surface passes neither itself nor next to.
+    std::vector<Index3> unmet(const std::vector<Index3>& cells) const {
+        std::vector<Index3> result;
+        for (const Index3& cell : cells) {
+            if (!surface_.lattice.is_cell(cell)) continue;
+            bool is_met = false;
+            for_each_around(cell, kNext, [&](const Index3& c) {
+                const unsigned inside = surface_.lattice.is_cell(c) ? inside_corners(surface_.lattice.corners(c)) : 0;
+                is_met = is_met || (inside != 0 && inside != 0xffu);
+            });
+            if (!is_met) result.push_back(cell);
+        }
+        return result;
+    }
+
     SurfaceLattice finish() {
         sort_in_memory_order(surface_.cells, surface_.lattice.grid().size.k);
         return std::move(surface_);
@@ -128,21 +158,30 @@ void evaluate_in_batches(const ImplicitFunction& function, std::span<const Vec3>
     }
 }
 
-/// The cells that contain the points, and the 26 around each.
-std::vector<Index3> cells_around(const Grid& grid, std::span<const Vec3> points) {
+/// The cells that contain the points.
+std::vector<Index3> cells_at(const Grid& grid, std::span<const Vec3> points) {
     const Affine3 mm_to_index = grid.index_to_mm.inverse();
     std::vector<Index3> cells;
     for (const Vec3& p : points) {
         const Vec3 at = mm_to_index.apply(p);
         // Far outside of any 64-bit index; also false for NaN.
         if (!(std::abs(at.x) < 1e15 && std::abs(at.y) < 1e15 && std::abs(at.z) < 1e15)) continue;
-        const Index3 c{static_cast<std::int64_t>(std::floor(at.x)), static_cast<std::int64_t>(std::floor(at.y)),
-                       static_cast<std::int64_t>(std::floor(at.z))};
-        for (std::int64_t k = -1; k <= 1; ++k)
-            for (std::int64_t j = -1; j <= 1; ++j)
-                for (std::int64_t i = -1; i <= 1; ++i) cells.push_back({c.i + i, c.j + j, c.k + k});
+        cells.push_back({static_cast<std::int64_t>(std::floor(at.x)), static_cast<std::int64_t>(std::floor(at.y)),
+                         static_cast<std::int64_t>(std::floor(at.z))});
     }
     return cells;
+}
+
+/// How many cells are as long as the grid's largest spacing. Between two slices a thin wall at a start can pass this far to
+/// the side of it on either slice; farther where it is flatter, but there it is cut between the slices.
+Index3 farthest(const Grid& grid) {
+    constexpr double kMostCells = 32;  // bounds the search on needles of voxels
+    const Vec3 spacing = grid.spacing_mm();
+    const double largest = std::max({spacing.x, spacing.y, spacing.z});
+    Index3 reach;
+    for (int axis = 0; axis < 3; ++axis)
+        reach[axis] = static_cast<std::int64_t>(std::min(std::round(largest / spacing[axis]), kMostCells));
+    return reach;
 }
 
 }  // namespace
@@ -153,7 +192,12 @@ SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std:
     Tracker tracker(std::move(known), evaluate);
     // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
     // contour they are cells that the walk visits anyway.
-    auto front = tracker.keep_mixed(tracker.unseen(cells_around(grid, starts)));
+    const std::vector<Index3> start_cells = cells_at(grid, starts);
+    auto front = tracker.keep_mixed(tracker.unseen(cells_around(start_cells, kNext)));
+    if (const Index3 reach = farthest(grid); !(reach == kNext)) {
+        const auto beside = tracker.keep_mixed(tracker.unseen(cells_around(tracker.unmet(start_cells), reach)));
+        front.insert(front.end(), beside.begin(), beside.end());
+    }
     while (!front.empty()) {
         progress.check();
         front = tracker.keep_mixed(tracker.advance(front));
@@ -194,6 +238,21 @@ SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& g
                 if (inside != 0 && inside != 0xffu) surface.cells.push_back({i, j, k});
             }
     return surface;
+}
+
+std::vector<Vec3> cut_points(const SurfaceLattice& surface) {
+    std::vector<Vec3> points;
+    for (const Index3& cell : surface.cells) {  // each edge belongs to the cell of which it is among the lowest
+        const double value = surface.lattice.value(cell);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double next = surface.lattice.value(Lattice::corner(cell, 1 << axis));
+            if ((value > 0) == (next > 0) || !std::isfinite(value) || !std::isfinite(next)) continue;
+            Vec3 at{static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
+            at[axis] += value / (value - next);
+            points.push_back(surface.lattice.grid().index_to_mm.apply(at));
+        }
+    }
+    return points;
 }
 
 }  // namespace kontur

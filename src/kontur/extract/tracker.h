@@ -15,4 +15,7 @@ using EvaluatePoints = std::function<void(std::span<const Vec3> points_mm, std::
 SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std::span<const Vec3> starts,
                              const Progress& progress);
 
+/// Where linear interpolation has the surface cut the edges of its lattice, in mm; not the edges that leave the grid.
+std::vector<Vec3> cut_points(const SurfaceLattice& surface);
+
 }  // namespace kontur

@@ -119,6 +119,17 @@ bool is_inside(const Grid& grid, const Vec3& index) {
     return true;
 }
 
+/// Whether the box around the contours' points, along the grid's axes, reaches into the grid's voxels.
+bool overlaps(const Grid& grid, const ContourSet& set) {
+    const Affine3 mm_to_index = grid.index_to_mm.inverse();
+    Box3 box;
+    for (const Contour& contour : set.contours)
+        for (const Vec3& p : contour.points) box.extend(mm_to_index.apply(p));
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(box.max[axis] >= -0.5 && box.min[axis] <= static_cast<double>(grid.size[axis]) - 0.5)) return false;
+    return true;
+}
+
 }  // namespace
 
 std::string_view name(ContourEnd end) noexcept {
@@ -224,7 +235,7 @@ std::size_t points_outside(const ContourSet& set, const Grid& grid) {
 std::optional<std::string> check_contours_inside(const ContourSet& set, const Grid& grid) {
     const std::size_t total = point_count(set), outside = points_outside(set, grid);
     if (outside == 0) return std::nullopt;
-    if (outside == total)
+    if (outside == total && !overlaps(grid, set))
         refuse(
             fmt::format("all {} contour points lie outside of the image; are the contours and the image of one patient "
                         "and in one frame of reference?",

@@ -109,8 +109,9 @@ std::vector<std::string> set_problems(const ContourSet& set);
 /// Number of contour points outside of the grid's voxels (their outer faces belong to the grid).
 std::size_t points_outside(const ContourSet& set, const Grid& grid);
 
-/// Compares the contours with the image that they claim to be drawn on. Throws Error(invalid_input) when no contour point
-/// lies in the grid, which mostly means another patient or a mixed-up frame; gives a warning when some lie outside.
+/// Compares the contours with the image that they claim to be drawn on. Throws Error(invalid_input) when the box around
+/// them does not reach into the grid, which mostly means another patient or a mixed-up frame; gives a warning when points
+/// lie outside. An image may hold a part of the object between two drawn planes, and no point.
 std::optional<std::string> check_contours_inside(const ContourSet& set, const Grid& grid);
 
 }  // namespace kontur

@@ -19,7 +19,7 @@ double round_length(double limit) {
 
 std::string rounded(double value, int digits) {
     const int before_point = value == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
-    const int decimals = std::clamp(digits - before_point, 0, 6);
+    const int decimals = std::clamp(digits - before_point, 0, 12);
     std::array<char, 400> text;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals).ptr;
     return {text.data(), end};

@@ -29,6 +29,10 @@ struct Place {
 /// A number with the given significant digits, at least all digits before the decimal point.
 std::string rounded(double value, int digits);
 
+/// `suggest_window` of what lies in the box (mm) and as far around it as half of its size, except for CT: a lesion in a
+/// PET, or an object in an image that is mostly empty, is beyond the 99th percentile of the whole.
+Window window_about(const Image& image, const Box3& box_mm);
+
 /// A bar of a round length at the panel's lower left, with that length in mm.
 void draw_scale_bar(Canvas& canvas, const Place& place, double pixel_mm);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kontur/base/error.h"
+#include "kontur/extract/isolines.h"
 #include "kontur/view/panels.h"
 
 namespace kontur {
@@ -13,7 +14,7 @@ namespace {
 
 using picture::kDrawn, picture::kFrame, picture::kGround, picture::kMuted, picture::kPanel, picture::kSurface,
     picture::kText;
-using picture::Place, picture::rounded;
+using picture::Place, picture::rounded, picture::window_about;
 
 /// The picture's places: the surface on the left, 2 x 2 on the right (three slices and the table), title above, footer
 /// below.
@@ -53,7 +54,7 @@ double common_pixel_mm(const std::array<Slice, 3>& slices, const Rect& cell) {
     return pixel_mm > 0 ? pixel_mm : 1;
 }
 
-std::string volume(const TriangleMesh& mesh) { return rounded(signed_volume_mm3(mesh) / 1000, 4) + " ml"; }
+std::string volume(const TriangleMesh& mesh) { return in_ml(signed_volume_mm3(mesh) / 1000); }
 
 std::string extent(const TriangleMesh& mesh) {
     const Vec3 size = bounding_box(mesh.points).size();
@@ -61,7 +62,7 @@ std::string extent(const TriangleMesh& mesh) {
 }
 
 std::vector<PictureFact> all_facts(const TriangleMesh& mesh, const ContourSet& contours, const PictureOptions& options) {
-    std::vector<PictureFact> facts{{"Volume", volume(mesh)},
+    std::vector<PictureFact> facts{{"Volume (surface)", volume(mesh)},
                                    {"Extent RL × AP × SI", extent(mesh)},
                                    {"Contours", std::to_string(contours.contours.size())},
                                    {"Points", std::to_string(point_count(contours))}};
@@ -130,6 +131,36 @@ void check_size(const PictureOptions& options) {
 
 }  // namespace
 
+Window picture::window_about(const Image& image, const Box3& box_mm) {
+    const Window of_all = suggest_window(image);
+    if (of_all == Window{} || box_mm.is_empty()) return of_all;
+    const Affine3 mm_to_index = image.grid.index_to_mm.inverse();
+    const Vec3 around = 0.5 * box_mm.size();
+    Box3 box;
+    for (const Vec3& corner : corners({box_mm.min - around, box_mm.max + around})) box.extend(mm_to_index.apply(corner));
+    Index3 low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto last = static_cast<double>(image.grid.size[axis] - 1);
+        low[axis] = static_cast<std::int64_t>(std::clamp(std::floor(box.min[axis]), 0.0, last));
+        high[axis] = static_cast<std::int64_t>(std::clamp(std::ceil(box.max[axis]), 0.0, last));
+    }
+    Image part;
+    part.samples = std::visit(
+        [&](const auto& samples) {
+            std::decay_t<decltype(samples)> values;
+            for (std::int64_t k = low.k; k <= high.k; ++k)
+                for (std::int64_t j = low.j; j <= high.j; ++j) {
+                    const auto row = samples.begin() + static_cast<std::ptrdiff_t>(image.grid.offset(low.i, j, k));
+                    values.insert(values.end(), row, row + (high.i - low.i + 1));
+                }
+            return Image::Samples(std::move(values));
+        },
+        image.samples);
+    return suggest_window(part);
+}
+
+std::string in_ml(double volume_ml) { return rounded(volume_ml, 4) + " ml"; }
+
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
                       const PictureOptions& options) {
     check_size(options);
@@ -139,12 +170,15 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
-    const std::string subtitle = volume(mesh) + " from " + std::to_string(contours.contours.size()) + " drawn contours";
+    const std::string subtitle =
+        "surface of " + volume(mesh) + " from " + std::to_string(contours.contours.size()) + " drawn contours";
     draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle);
     picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, options.threads);
 
     const std::array<Slice, 3> slices = choose_slices(mesh, contours, image);
-    const Window window = options.window ? *options.window : image ? suggest_window(*image) : Window{};
+    const Window window = options.window ? *options.window
+                          : image        ? window_about(*image, bounding_box(mesh.points))
+                                         : Window{};
     const picture::SliceContent content{mesh, contours, image, window, common_pixel_mm(slices, layout.slices.front())};
     for (std::size_t i = 0; i < slices.size(); ++i)
         picture::draw_slice_panel(canvas, {layout.slices[i], layout.unit}, slices[i], content);

@@ -18,12 +18,15 @@ struct PictureFact {
     std::string caption, value;
 };
 
+/// A volume with four significant digits and its unit, however small it is.
+std::string in_ml(double volume_ml);
+
 struct PictureOptions {
     int width_px = 1600;                  ///< at least 320
     int height_px = 1000;                 ///< at least 200
     std::string title = {};               ///< empty: the contour set's name
     std::vector<PictureFact> facts = {};  ///< below the volume and the counts, which the picture gives by itself
-    std::optional<Window> window = {};    ///< of the slices; unset: `suggest_window`
+    std::optional<Window> window = {};    ///< of the slices; unset: `suggest_window` of the object's surroundings
     int threads = 0;                      ///< 0: the machine's
 };
 

@@ -324,7 +324,7 @@ public:
         append_beside(side.shifted(height), 0, probes);
         const Plane over = side.shifted(2 * height).plane;
         for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at), 0, -height / 2});
-        for (double far = 0.9 * (ball_.radius + side.ahead(ball_.center)); far > 2.5 * height; far /= 2)
+        for (double far = 0.98 * (ball_.radius + side.ahead(ball_.center)); far > 2.5 * height; far /= 1.5)
             append_far_beyond(side.shifted(far), far - height, probes);
     }
 

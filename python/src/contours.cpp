@@ -233,10 +233,11 @@ Examples
         py::arg("contours"), py::kw_only(), KeywordText(checks));
     define(m, "points_outside", "Number of contour points outside of the grid's voxels.", &points_outside,
            py::arg("contours"), py::arg("grid"));
-    define(m, "check_contours_inside",
-           "Raises InvalidInputError when the contours' box does not reach into the grid; a warning sentence when points lie "
-           "outside, else None.",
-           &check_contours_inside, py::arg("contours"), py::arg("grid"));
+    define(
+        m, "check_contours_inside",
+        "Raises InvalidInputError when the contours' box does not reach into the grid; a warning sentence when points lie "
+        "outside, else None.",
+        &check_contours_inside, py::arg("contours"), py::arg("grid"));
 }
 
 }  // namespace kontur::python

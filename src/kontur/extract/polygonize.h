@@ -7,10 +7,10 @@
 
 namespace kontur {
 
-/// The surface as triangles, from the lattice values already known and some two more for each point: closed, oriented outward, manifold; it closes half a
-/// voxel beyond the outermost voxel centres where the object leaves the grid. Points lie on lattice edges where f vanishes,
-/// within a fiftieth of the smallest spacing; normals are the function's downhill gradient within 0.01, and on the faces where the
-/// grid's border cuts the object off those of the border.
+/// The surface as triangles, from the lattice values already known and some two more for each point: closed, oriented
+/// outward, manifold; it closes half a voxel beyond the outermost voxel centres where the object leaves the grid. Points lie
+/// on lattice edges where f vanishes, within a fiftieth of the smallest spacing; normals are the function's downhill
+/// gradient within 0.01, and on the faces where the grid's border cuts the object off those of the border.
 TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, int threads = 0,
                         const Progress& progress = {});
 

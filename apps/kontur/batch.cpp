@@ -23,6 +23,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/view/picture.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -259,7 +260,7 @@ private:
         if (!succeeded(facts)) return fmt::format("{}: FAILED, {}\n", one.name, facts["error"].get<std::string>());
         const double volume_ml = facts.contains("mask") ? facts["mask"].value("volume_ml", 0.0) : 0.0;
         const std::size_t warnings = warning_count(facts);
-        return fmt::format("{}: {:.2f} ml, {:.1f} s{}\n", one.name, volume_ml, facts["seconds"].get<double>(),
+        return fmt::format("{}: {}, {:.1f} s{}\n", one.name, in_ml(volume_ml), facts["seconds"].get<double>(),
                            warnings > 0 ? ", " + counted(warnings, "warning") : "");
     }
 

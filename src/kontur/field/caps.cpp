@@ -321,6 +321,7 @@ public:
     /// between its points; and farther beyond.
     void append_beyond(const Side& side, const std::vector<Probe>& inside, std::vector<Cap>& probes) const {
         const double height = side.height();
+        if (height == 0) return;  // a hole in nothing ends nothing
         append_beside(side.shifted(height), 0, probes);
         const Plane over = side.shifted(2 * height).plane;
         for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at), 0, -height / 2});

@@ -62,6 +62,10 @@ struct Stack {
     bool ball;  ///< circles of a ball; else of a cylinder
 };
 
+void PrintTo(const Stack& stack, std::ostream* out) {
+    *out << (stack.ball ? "ball of " : "cylinder of ") << stack.radius_mm << " mm, " << stack.heights.size() << " planes";
+}
+
 class StackTest : public testing::TestWithParam<Stack> {
 protected:
     static ContourSet contours() {

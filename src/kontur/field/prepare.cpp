@@ -161,8 +161,9 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
 
     ContourSet fitted = set;
     const DrawnCorners corners(set, options.corners);
+    for (Contour& contour : fitted.contours) contour = reduce(contour, {options.quality});  // which checks the quality
     const int least = least_segments(options, set.contours.size());
-    for (Contour& contour : fitted.contours) contour = refined(reduce(contour, {options.quality}), least, corners, options);
+    for (Contour& contour : fitted.contours) contour = refined(contour, least, corners, options);
     if (prepared.coplanar && options.copy_shift_mm > 0) {
         const Contour& first = fitted.contours.front();
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));

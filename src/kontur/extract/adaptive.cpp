@@ -7,6 +7,7 @@
 #include "kontur/base/parallel.h"
 #include "kontur/extract/coarse_band.h"
 #include "kontur/extract/cubic_cells.h"
+#include "kontur/extract/tracker.h"
 #include "kontur/field/fast_function.h"
 
 namespace kontur {
@@ -34,20 +35,11 @@ Index3 strides(const Grid& grid) {
     return stride;
 }
 
-double smallest_spacing(const Grid& grid) {
-    const Vec3 spacing = grid.spacing_mm();
-    return std::min({spacing.x, spacing.y, spacing.z});
-}
-
-bool is_usable(const Vec3& index) {
-    return std::abs(index.x) < 1e15 && std::abs(index.y) < 1e15 && std::abs(index.z) < 1e15;  // false for NaN
-}
-
 std::vector<Vec3> to_index(const Grid& grid, std::span<const Vec3> points_mm) {
     const Affine3 mm_to_index = grid.index_to_mm.inverse();
     std::vector<Vec3> result;
     for (const Vec3& p : points_mm)
-        if (const Vec3 index = mm_to_index.apply(p); is_usable(index)) result.push_back(index);
+        if (const Vec3 index = mm_to_index.apply(p); fits_index(index)) result.push_back(index);
     return result;
 }
 

@@ -35,11 +35,6 @@ bool overlaps(const Box3& box, const Grid& grid) {
     return true;
 }
 
-double smallest_spacing(const Grid& grid) {
-    const Vec3 spacing = grid.spacing_mm();
-    return std::min({spacing.x, spacing.y, spacing.z});
-}
-
 /// The voxels near the faces of a grid, and one voxel's width beyond.
 class Border {
 public:
@@ -78,9 +73,8 @@ bool encloses(const SurfaceLattice& surface, const Index3& point) {
 /// Whether it encloses one of the lattice's points around a point in mm.
 bool encloses_near(const SurfaceLattice& surface, const Vec3& p) {
     const Vec3 at = surface.lattice.grid().index_to_mm.inverse().apply(p);
-    if (!(std::abs(at.x) < 1e15 && std::abs(at.y) < 1e15 && std::abs(at.z) < 1e15)) return false;
-    const Index3 low{static_cast<std::int64_t>(std::floor(at.x)), static_cast<std::int64_t>(std::floor(at.y)),
-                     static_cast<std::int64_t>(std::floor(at.z))};
+    if (!fits_index(at)) return false;
+    const Index3 low = cell_of(at);
     for (int n = 0; n < 8; ++n) {
         const Index3 corner = Lattice::corner(low, n);
         if (surface.lattice.in_grid(corner) && encloses(surface, corner)) return true;

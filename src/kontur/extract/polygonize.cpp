@@ -6,6 +6,8 @@
 
 #include "kontur/base/error.h"
 #include "kontur/extract/cell_triangles.h"
+#include "kontur/extract/sign_change.h"
+#include "kontur/extract/tracker.h"
 
 namespace kontur {
 namespace {
@@ -15,36 +17,14 @@ constexpr double kTolerance = 0.02;             // of the fast function's values
 constexpr double kSmallValue = 5e-3;            // in the smallest spacing: a point with less is on the surface
 constexpr int kMostSteps = 8;
 
-double smallest_spacing(const Grid& grid) {
-    const Vec3 spacing = grid.spacing_mm();
-    return std::min({spacing.x, spacing.y, spacing.z});
-}
-
 /// A lattice edge on which f changes its sign.
 struct CutEdge {
     std::uint32_t point;  ///< of the mesh
     int axis;
     Index3 from;
-    double low = 0, high = 1;  ///< between these fractions of the edge
-    double low_value, high_value;
-    int last_moved = 0;  ///< -1: low, 1: high
+    SignChange<double> zero{.low = 0, .high = 1};  ///< where f vanishes, as fractions of the edge
 
-    /// Where the straight line through the two values is zero.
-    double zero() const { return low + low_value / (low_value - high_value) * (high - low); }
-
-    /// One step of regula falsi. When the same end moves twice the other one's value is halved (the Illinois algorithm,
-    /// Dowell & Jarratt 1971), which draws both ends to the zero.
-    void narrow(double at, double value) {
-        const bool moves_low = (value > 0) == (low_value > 0);
-        if (moves_low) {
-            low = at, low_value = value;
-            if (last_moved == -1) high_value /= 2;
-        } else {
-            high = at, high_value = value;
-            if (last_moved == 1) low_value /= 2;
-        }
-        last_moved = moves_low ? -1 : 1;
-    }
+    double fraction() const { return zero.low + zero.zero() * (zero.high - zero.low); }
 };
 
 /// Off the ends of the edge, so that no triangle collapses.
@@ -84,8 +64,8 @@ public:
             for (std::size_t n = 0; n < edges_.size(); ++n) {
                 if (!(std::abs(values[n]) > small_mm)) continue;
                 CutEdge edge = edges_[n];
-                edge.narrow(kept_off_ends(edge.zero()), values[n]);
-                mesh_.points[edge.point] = place(edge.from, edge.axis, kept_off_ends(edge.zero()));
+                edge.zero.narrow(kept_off_ends(edge.fraction()), values[n]);
+                mesh_.points[edge.point] = place(edge.from, edge.axis, kept_off_ends(edge.fraction()));
                 edges_[kept++] = edge;
             }
             edges_.resize(kept);
@@ -113,13 +93,11 @@ private:
         if (is_new) {
             if (mesh_.points.size() >= std::numeric_limits<std::uint32_t>::max())
                 throw Error(ErrorKind::too_large, "the surface has more than 4294967295 points; use a larger spacing");
-            const CutEdge cut{.point = found->second,
-                              .axis = edge.axis,
-                              .from = from,
-                              .low_value = corners[static_cast<std::size_t>(edge.from)],
-                              .high_value = corners[static_cast<std::size_t>(edge.to)]};
-            const bool leaves_grid = !std::isfinite(cut.low_value) || !std::isfinite(cut.high_value);
-            mesh_.points.push_back(place(from, edge.axis, leaves_grid ? 0.5 : kept_off_ends(cut.zero())));
+            CutEdge cut{found->second, edge.axis, from};
+            cut.zero.low_value = corners[static_cast<std::size_t>(edge.from)];
+            cut.zero.high_value = corners[static_cast<std::size_t>(edge.to)];
+            const bool leaves_grid = !std::isfinite(cut.zero.low_value) || !std::isfinite(cut.zero.high_value);
+            mesh_.points.push_back(place(from, edge.axis, leaves_grid ? 0.5 : kept_off_ends(cut.fraction())));
             if (!leaves_grid) edges_.push_back(cut);
             if (!lattice_.in_grid(from)) border_normals_.emplace_back(found->second, -border_normal(edge.axis));
             if (!lattice_.in_grid(Lattice::corner(cell, edge.to)))

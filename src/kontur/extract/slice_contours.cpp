@@ -10,6 +10,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/extract/isolines.h"
+#include "kontur/extract/sign_change.h"
 
 namespace kontur {
 namespace {
@@ -85,41 +86,23 @@ private:
     std::vector<double> levels_;
 };
 
-/// A point of a line between two voxel centres of which the surface separates one from the other.
-struct Crossing {
-    std::array<double, 2> low{}, high{};  ///< indices (i, j)
-    double low_level = 0, high_level = 0;
-    int last_moved = 0;  ///< -1: low, 1: high
+/// A point of a line between two voxel centres, indices (i, j), of which the surface separates one from the other.
+using Crossing = SignChange<std::array<double, 2>>;
 
-    /// Where the straight line through the two levels is zero.
-    std::array<double, 2> zero() const {
-        const double t = low_level / (low_level - high_level);
-        return {low[0] + t * (high[0] - low[0]), low[1] + t * (high[1] - low[1])};
-    }
-
-    /// One step of regula falsi. When the same end moves twice the other one's level is halved (the Illinois algorithm,
-    /// Dowell & Jarratt 1971), which draws both ends to the zero.
-    void narrow(const std::array<double, 2>& at, double level) {
-        const bool moves_low = (level > 0) == (low_level > 0);
-        if (moves_low) {
-            low = at, low_level = level;
-            if (last_moved == -1) high_level /= 2;
-        } else {
-            high = at, high_level = level;
-            if (last_moved == 1) low_level /= 2;
-        }
-        last_moved = moves_low ? -1 : 1;
-    }
-};
+std::array<double, 2> zero_of(const Crossing& crossing) {
+    const double t = crossing.zero();
+    return {crossing.low[0] + t * (crossing.high[0] - crossing.low[0]),
+            crossing.low[1] + t * (crossing.high[1] - crossing.low[1])};
+}
 
 /// Points beyond the grid's outermost centres, where it cuts the object off, stay where they are.
 std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const Slice& slice) {
     Crossing crossing{{std::floor(point[0]), std::floor(point[1])}, {std::ceil(point[0]), std::ceil(point[1])}};
     if (crossing.low == crossing.high || !slice.contains(crossing.low) || !slice.contains(crossing.high))
         return std::nullopt;
-    crossing.low_level = slice.level(crossing.low[0], crossing.low[1]);
-    crossing.high_level = slice.level(crossing.high[0], crossing.high[1]);
-    if ((crossing.low_level > 0) == (crossing.high_level > 0)) return std::nullopt;
+    crossing.low_value = slice.level(crossing.low[0], crossing.low[1]);
+    crossing.high_value = slice.level(crossing.high[0], crossing.high[1]);
+    if ((crossing.low_value > 0) == (crossing.high_value > 0)) return std::nullopt;
     return crossing;
 }
 
@@ -142,7 +125,7 @@ void refine(std::vector<Isoline>& lines, const Slice& slice, const ImplicitFunct
         function.values(places, values, 1);
         for (std::size_t n = 0; n < points.size(); ++n) {
             crossings[n].narrow(*points[n], values[n]);
-            *points[n] = crossings[n].zero();
+            *points[n] = zero_of(crossings[n]);
         }
     }
 }

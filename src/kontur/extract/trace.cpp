@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/extract/isolines.h"
+#include "kontur/extract/tracker.h"
 
 namespace kontur {
 namespace {
@@ -166,8 +167,7 @@ void check_arguments(const Mask& mask, std::span<const Plane> planes, const Trac
 }
 
 double sampling_step_mm(const Grid& grid, const TraceOptions& options) {
-    const Vec3 spacing = grid.spacing_mm();
-    return options.step_mm > 0 ? options.step_mm : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+    return options.step_mm > 0 ? options.step_mm : 0.5 * smallest_spacing(grid);
 }
 
 }  // namespace

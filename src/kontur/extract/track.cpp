@@ -164,10 +164,7 @@ std::vector<Index3> cells_at(const Grid& grid, std::span<const Vec3> points) {
     std::vector<Index3> cells;
     for (const Vec3& p : points) {
         const Vec3 at = mm_to_index.apply(p);
-        // Far outside of any 64-bit index; also false for NaN.
-        if (!(std::abs(at.x) < 1e15 && std::abs(at.y) < 1e15 && std::abs(at.z) < 1e15)) continue;
-        cells.push_back({static_cast<std::int64_t>(std::floor(at.x)), static_cast<std::int64_t>(std::floor(at.y)),
-                         static_cast<std::int64_t>(std::floor(at.z))});
+        if (fits_index(at)) cells.push_back(cell_of(at));
     }
     return cells;
 }

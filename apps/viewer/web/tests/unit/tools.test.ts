@@ -127,7 +127,18 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
   const settled = () => new Promise((resolve) => setImmediate(resolve));
   const edits = () => calls.filter(({ name, args }) => name !== "path" && args["draft"] !== true);
   const { drawing } = editor;
-  return { editor, drawing, outbox: drawing.outbox, project, navigation, calls, press, drag, settled, edits, server, complaints };
+  /** The server takes edits again: trying again sends the one that it had refused as it was, and nothing waits any more. */
+  const savedByTryingAgain = async () => {
+    server.refusal = null;
+    drawing.close();
+    await settled();
+    assert.equal(drawing.sketch, null);
+    assert.ok(!drawing.outbox.hasUnsaved);
+    const [first, second] = edits();
+    assert.equal(edits().length, 2);
+    assert.deepEqual(first!.args, second!.args);
+  };
+  return { editor, drawing, outbox: drawing.outbox, project, navigation, calls, press, drag, settled, edits, server, complaints, savedByTryingAgain };
 }
 
 const round = (count: number, radius: number): Point2[] =>
@@ -333,7 +344,7 @@ function madeOf(id: number, call: Call): Contour {
 }
 
 test("a closed contour that the server does not take stays, whatever tool comes next, until it does", async () => {
-  const { editor, drawing, outbox, drag, edits, settled, server, complaints } = editing("spline", []);
+  const { editor, drawing, outbox, drag, settled, server, complaints, savedByTryingAgain } = editing("spline", []);
   for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
   const drawn = drawing.sketch!.points.map((point) => point.at);
   server.refusal = DISK_FULL;
@@ -343,14 +354,7 @@ test("a closed contour that the server does not take stays, whatever tool comes 
   editor.choose("edit");
   assert.ok(outbox.hasUnsaved);
   assert.deepEqual(drawing.sketch!.points.map((point) => point.at), drawn);
-  server.refusal = null;
-  drawing.close();
-  await settled();
-  assert.equal(drawing.sketch, null);
-  assert.ok(!outbox.hasUnsaved);
-  const [first, second] = edits();
-  assert.equal(edits().length, 2);
-  assert.deepEqual(first!.args, second!.args);
+  await savedByTryingAgain();
 });
 
 test("a line by hand that the server does not take stays closed, as it was drawn", async () => {
@@ -425,7 +429,7 @@ function redrawnBy(path: Vec3[], backwards = false): Contour {
 const STROKE: Point2[] = [[180, 215], [172, 210], [168, 205], [166, 200], [168, 195], [172, 190], [180, 185]];
 
 test("a redrawn piece that the server does not take stays, whatever tool comes next, until it does", async () => {
-  const { editor, drawing, outbox, drag, edits, settled, server, complaints } = editing("redraw");
+  const { editor, drawing, outbox, drag, edits, settled, server, complaints, savedByTryingAgain } = editing("redraw");
   server.refusal = DISK_FULL;
   drag(...STROKE);
   await settled();
@@ -436,15 +440,8 @@ test("a redrawn piece that the server does not take stays, whatever tool comes n
   assert.match(complaints.at(-1)!, /Enter tries again/);
   editor.choose("edit");
   editor.choose("wire");
-  server.refusal = null;
-  drawing.close();
-  await settled();
-  assert.equal(drawing.sketch, null);
-  assert.ok(!outbox.hasUnsaved);
-  const [first, second] = edits();
-  assert.equal(edits().length, 2);
-  assert.equal(second!.name, "contour.redraw");
-  assert.deepEqual(first!.args, second!.args);
+  await savedByTryingAgain();
+  assert.equal(edits()[1]!.name, "contour.redraw");
 });
 
 test("a redrawn piece that is given up comes back by undo, one that is undone by redo", async () => {

@@ -66,6 +66,7 @@ describe("the page", () => {
     await viewer.waitForContours(2);
     await viewer.surfaceShown();
     assert.equal(await viewer.page.locator(".contour-row[data-kind=livewire]").count(), 1);
+    await viewer.slicesShown(); // where contours cross is asked for after the surface
     const crossings = Number(await viewer.pane("sagittal").getAttribute("data-crossings"));
     assert.equal(crossings, 2, "both contours cross the sagittal slice");
   });

@@ -103,7 +103,7 @@ export class SurfaceView {
   surfacesChanged(): void {
     const { project } = this.services;
     if (!this.scene) return;
-    for (const id of this.scene.meshes) if ((project.surfaces.get(id)?.stage ?? "none") === "none") this.remove(id);
+    for (const id of this.scene.meshes) if (!this.hasSurface(id)) this.remove(id);
     for (const surface of project.surfaces.values()) {
       if (surface.stage === "none" || this.shownRevisions.get(surface.structure) === surface.revision) continue;
       this.fetchesOf(surface.structure).send();
@@ -122,6 +122,10 @@ export class SurfaceView {
     for (const { id, color, visible } of this.services.project.structures.values()) this.scene?.style(id, color, visible, this.opacity);
   }
 
+  private hasSurface(structure: number): boolean {
+    return (this.services.project.surfaces.get(structure)?.stage ?? "none") !== "none";
+  }
+
   private remove(id: number): void {
     this.scene?.removeMesh(id);
     this.shownRevisions.delete(id);
@@ -136,6 +140,7 @@ export class SurfaceView {
   private async fetchMesh(structure: number): Promise<void> {
     try {
       const reply = await this.services.http.mesh(structure);
+      if (!this.hasSurface(structure)) return; // it went meanwhile
       this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles") });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();

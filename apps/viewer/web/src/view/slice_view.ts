@@ -8,7 +8,7 @@ import type { Project } from "../model/project";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
-import type { SliceHeader, Surface, ViewName } from "../net/protocol";
+import type { SliceHeader, ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { inView } from "../tools/hit";
 import { button, el } from "../ui/dom";
@@ -149,14 +149,18 @@ export class SliceView {
 
   /** Asks for the outlines of surfaces that are newer than those shown, unless they have been told already. */
   surfacesChanged(): void {
+    if (this.lacksOutlines()) return this.refresh(false);
+    if ([...this.services.project.surfaces.values()].some(({ stage }) => stage !== "preview")) this.paint(); // conflicts may be new
+    // The slice that is on its way may have been made before them, and take their place.
+    if (this.requests.busy) void this.requests.idle().then(() => !this.requests.busy && this.lacksOutlines() && this.refresh(false));
+  }
+
+  private lacksOutlines(): boolean {
     const { project } = this.services;
-    const isMissing = ({ structure, revision, stage }: Surface): boolean => {
+    return [...project.surfaces.values()].some(({ structure, revision, stage }) => {
       const shown = this.slice?.outlines.get(structure)?.revision;
       return shown !== (stage === "none" ? undefined : revision) && project.structures.get(structure)?.visible === true;
-    };
-    const surfaces = [...project.surfaces.values()];
-    if (surfaces.some(isMissing)) this.refresh(false);
-    else if (surfaces.some(({ stage }) => stage !== "preview")) this.paint(); // conflicts may be new
+    });
   }
 
   /** Outlines that the server tells unasked. Of another plane than the one shown they are of no use. */

@@ -357,6 +357,49 @@ describe("views", () => {
     assert.equal(await page.locator(".notice").count(), 0);
   });
 
+  test("a slice that was made before a surface, and comes after it, is asked for again", async () => {
+    const { page } = viewer;
+    const radius = await drawBall("axial");
+    await viewer.saved();
+    await viewer.surfaceShown();
+    await viewer.slicesShown();
+    const revisionOf = (view: string) => page.evaluate((name) => document.querySelector<HTMLElement>(`[data-view=${name}]`)!.dataset["revisions"]!, view);
+    const scroll = async (by: 1 | -1) => {
+      const number = (await viewer.slice("sagittal")) + by;
+      await page.mouse.move(...(await viewer.at("sagittal", 0, 0)));
+      await page.mouse.wheel(0, by * 120);
+      await page.waitForSelector(`[data-view=sagittal][data-slice="${number}"]`);
+    };
+    let made: Buffer | undefined; // the next slice with the first surface
+    await page.route("**/api/slice", async (route) => {
+      const response = await route.fetch();
+      made = await response.body();
+      return route.fulfill({ response });
+    });
+    await scroll(1);
+    await viewer.slicesShown();
+    await page.unroute("**/api/slice");
+    await scroll(-1);
+    await viewer.slicesShown();
+
+    let comes = () => {};
+    const isTime = new Promise<void>((resolve) => (comes = resolve));
+    await page.route("**/api/slice", (route) => isTime.then(() => route.fulfill({ body: made! })), { times: 1 });
+    const first = await revisionOf("sagittal");
+    await scroll(1);
+    await page.mouse.move(...(await viewer.at("axial", radius, 0)));
+    await page.mouse.down();
+    await page.mouse.move(...(await viewer.at("axial", radius + 8, 0)));
+    await page.waitForFunction((old) => document.querySelector<HTMLElement>("[data-view=sagittal]")!.dataset["revisions"] !== old, first);
+    await viewer.surfaceShown();
+    comes();
+    await viewer.slicesShown();
+    await viewer.surfaceShown();
+    assert.equal(await revisionOf("sagittal"), await revisionOf("coronal"));
+    await page.mouse.up();
+    await viewer.saved();
+  });
+
   test("zoom and shift one slice, or all that are linked", async () => {
     const { page } = viewer;
     const scales = () => Promise.all(["axial", "coronal", "oblique"].map(async (view) => Number(await viewer.pane(view).getAttribute("data-pixels-per-mm"))));

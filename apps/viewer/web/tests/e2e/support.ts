@@ -13,8 +13,8 @@ const CHROMIUM = process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium";
 /** As Chromium does where there is no graphics processor: WebGL in software, and the page itself without it. */
 const SOFTWARE_WEBGL = ["--enable-unsafe-swiftshader"];
 export const NO_WEBGL = ["--disable-gpu", "--disable-software-rasterizer"];
-/** Long, because other programs may keep the machine busy; every wait is for a state. */
-const PATIENCE_MS = 60_000;
+/** Long, because other programs may keep the machine busy, and sanitizers the program; every wait is for a state. */
+const PATIENCE_MS = process.env["KONTUR_SANITIZED"] ? 240_000 : 60_000;
 
 interface Folder {
   path: string;
@@ -223,12 +223,16 @@ export class Viewer {
 
   /** The surface is refined, and every slice and the 3D view show it. */
   async surfaceShown(): Promise<void> {
-    await this.page.waitForFunction(() => {
+    const isShown = () => {
       const panel = document.querySelector<HTMLElement>(".panel")!.dataset;
       if (panel["stage"] !== "refined") return false;
       const revision = `:${panel["revision"]}`;
       const panes = [...document.querySelectorAll<HTMLElement>(".pane")].filter((pane) => pane.dataset["webgl"] !== "no");
       return panes.every((pane) => pane.dataset["revisions"]?.endsWith(revision));
+    };
+    const state = () => [".panel", ".pane"].flatMap((kind) => [...document.querySelectorAll<HTMLElement>(kind)].map(({ dataset }) => ({ ...dataset })));
+    await this.page.waitForFunction(isShown).catch(async (error: Error) => {
+      throw new Error(`the surface is not shown everywhere: ${JSON.stringify(await this.page.evaluate(state))}`, { cause: error });
     });
   }
 

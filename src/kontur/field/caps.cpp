@@ -241,12 +241,15 @@ private:
                 const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
                 if (length == 0) continue;
                 const Point2 left{(a[1] - b[1]) / length, (b[0] - a[0]) / length};
-                for (double inset = height(); inset < deepest_ / 6; inset *= 2)
+                double inset = height();
+                while (inset < deepest_ / 6) {
                     for (const double side : {-inset, inset}) {
                         const Point2 at{(a[0] + b[0]) / 2 + side * left[0], (a[1] + b[1]) / 2 + side * left[1]};
                         if (!search.contains(at)) continue;
                         if (const double depth = search.clearance(at); depth > 0.9 * inset) append_dome(at, depth, caps);
                     }
+                    inset *= 2;
+                }
             }
     }
 
@@ -325,8 +328,11 @@ public:
         append_beside(side.shifted(height), 0, probes);
         const Plane over = side.shifted(2 * height).plane;
         for (const Probe& probe : inside) probes.push_back({over.from_uv(probe.at), 0, -height / 2});
-        for (double far = 0.98 * (ball_.radius + side.ahead(ball_.center)); far > 2.5 * height; far /= 1.5)
+        double far = 0.98 * (ball_.radius + side.ahead(ball_.center));
+        while (far > 2.5 * height) {
             append_far_beyond(side.shifted(far), far - height, probes);
+            far /= 1.5;
+        }
     }
 
 private:

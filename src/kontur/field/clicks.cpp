@@ -35,11 +35,11 @@ std::optional<Conflict> conflict(const Vec3& point, bool interior, const std::ve
 bool passes_near(const ImplicitFunction& function, const Vec3& point, double reach_mm) {
     for (const double radius : {reach_mm, reach_mm / 4}) {
         bool inside = false, outside = false;
-        for (int x = -1; x <= 1; ++x)
-            for (int y = -1; y <= 1; ++y)
-                for (int z = -1; z <= 1; ++z) {
+        for (const double x : {-1.0, 0.0, 1.0})
+            for (const double y : {-1.0, 0.0, 1.0})
+                for (const double z : {-1.0, 0.0, 1.0}) {
                     if (x == 0 && y == 0 && z == 0) continue;
-                    const Vec3 direction = normalized(Vec3(x, y, z));
+                    const Vec3 direction = normalized({x, y, z});
                     (function.value(point + radius * direction) > 0 ? inside : outside) = true;
                     if (inside && outside) return true;
                 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 #include "kontur/base/parallel.h"
@@ -136,6 +138,9 @@ public:
 
     /// Whether no other contour says how the object goes on.
     bool is_last() const { return !leads_on_ && ahead_.empty(); }
+
+    /// Whether contours of other directions alone say where the object ends.
+    bool is_left_to_others() const { return leads_on_ && ahead_.empty(); }
 
     /// Whether nothing that was drawn tells how thick the object is here.
     bool is_guess() const { return is_last() && !previous_mm_ && !crossed_; }
@@ -335,6 +340,22 @@ public:
         }
     }
 
+    /// All around the drawing, where nothing that was drawn can lead. Of planes that contradict each other, each counts on
+    /// the others to end the object, and leak probes beside their contours keep away from what may be missing.
+    void append_around(std::vector<Cap>& probes) const {
+        constexpr int kPlaces = 128;
+        const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+        for (int i = 0; i < kPlaces; ++i) {
+            const double z = (2 * i + 1.0) / kPlaces - 1, angle = i * golden_angle, r = std::sqrt(1 - z * z);
+            const Vec3 direction{r * std::cos(angle), r * std::sin(angle), z};
+            probes.push_back({.position = ball_.center + ball_.radius * direction,
+                              .most_mm = 0,
+                              .value_mm = -ball_.radius / 4,
+                              .trust = kTrust,
+                              .far = true});
+        }
+    }
+
 private:
     /// All over a plane at a distance from the end of the object. However low f is behind the cap, it can rise again in a
     /// cone that widens with the distance, and voxels thicker than the gap between them join the two. Of what widens, few
@@ -378,6 +399,7 @@ Limits find_limits(const DrawnPlanes& planes, int threads) {
     Limits limits;
     const DrawnRegions regions(planes.sections);
     const LeakProbes leak_probes(regions, planes.ball, threads);
+    bool is_left_to_others = false;
     for (const Section& section : planes.sections) {
         if (!has_open_contour(planes, section.plane))
             leak_probes.append_beside(section, missing_reach(section, planes.sections), limits.leak_probes);
@@ -387,6 +409,7 @@ Limits find_limits(const DrawnPlanes& planes, int threads) {
         for (const double sign : {-1.0, 1.0}) {
             const Side side(planes, section, inside, sign, sign > 0 ? above : below, sign > 0 ? below : above);
             side.append_caps(limits.caps);
+            is_left_to_others = is_left_to_others || side.is_left_to_others();
             if (side.is_last()) leak_probes.append_beyond(side, inside, limits.leak_probes);
             if (side.is_guess() && limits.notes.empty())
                 limits.notes.push_back(
@@ -395,6 +418,7 @@ Limits find_limits(const DrawnPlanes& planes, int threads) {
                                 section.contours.front() + 1));
         }
     }
+    if (is_left_to_others) leak_probes.append_around(limits.leak_probes);
     return limits;
 }
 

@@ -34,6 +34,7 @@ async function drawBall(view: string, radius_mm = BALL_RADIUS_MM, contours = 1):
   await viewer.page.keyboard.press("f");
   await viewer.drag(view, circle(radius, 36));
   await viewer.waitForContours(contours);
+  await viewer.saved(); // and selected
   await viewer.page.keyboard.press("v");
   return radius;
 }

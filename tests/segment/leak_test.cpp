@@ -57,12 +57,12 @@ TEST_P(SlantedPlanesTest, TwoThatCrossGiveAClosedBody) {
 }
 
 // Each of two planes counts on the other to end the object. One shows all of it, the other a sliver of it; or a hole of the
-// same size is drawn where the object is.
+// same size is drawn across it.
 TEST(Leaks, PlanesThatContradictEachOtherStayBounded) {
-    const Plane axial = make_plane({0, 0, 2}, {0, 0, 1}), coronal = make_plane({0, 1, 0}, {0, 1, 0});
+    const Plane axial = make_plane({0, 0, -2}, {0, 0, 1}), coronal = make_plane({0, -1, 0}, {0, 1, 0});
     const double ball_ml = 4.0 / 3 * std::numbers::pi * 40 * 40 * 40 / 1000;
     const Contour whole = test::circle(axial, 40, 36), inner = test::circle(axial, 20, 36);
-    const Contour sliver{coronal, {{40, 1, 0}, {35, 1, -20}, {20, 1, -35}}};
+    const Contour sliver{coronal, {{40, -1, 0}, {35, -1, -20}, {20, -1, -35}}};
     Contour hole = test::circle(coronal, 40, 36);
     hole.hole = true;
     for (const std::vector<Contour>& contours : std::vector<std::vector<Contour>>{{whole, sliver}, {whole, hole, inner}}) {

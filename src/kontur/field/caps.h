@@ -52,7 +52,7 @@ struct Limits {
 /// and such a sheet can join the object. Leak probes lie on a lattice over each of these planes, in a ball of twice the
 /// diameter of the smallest one around the contours. Where contours of other planes cross a drawn plane outside of its own,
 /// it may be incomplete: there the points keep twice the distance of these crossings. Where contours of other directions
-/// alone say where the object ends, leak probes lie all over that ball, too.
+/// alone say where the object ends, leak probes lie on the surface of that ball, too.
 Limits find_limits(const DrawnPlanes& planes, int threads = 0);
 
 }  // namespace kontur

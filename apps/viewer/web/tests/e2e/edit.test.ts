@@ -361,7 +361,6 @@ describe("views", () => {
   test("a slice that was made before a surface, and comes after it, is asked for again", async () => {
     const { page } = viewer;
     const radius = await drawBall("axial");
-    await viewer.saved();
     await viewer.surfaceShown();
     await viewer.slicesShown();
     const revisionOf = (view: string) => page.evaluate((name) => document.querySelector<HTMLElement>(`[data-view=${name}]`)!.dataset["revisions"]!, view);

@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Drawings of every structure in label maps, for kontur_accuracy: organs that no rule of the method was chosen on.
+
+Usage: bench/structures.py --kontur build/release/bin/kontur --output FOLDER [--without STRUCTURE]... NAME=LABELMAP...
+
+Every label with at least 300 voxels becomes a structure, NAME_LABEL; with NAME/parts=LABELMAP every connected part of a label
+does, NAME_LABEL_PART, counted from the lowest in the file. Of each: the mask, coarsened until its grid has at most 2.6 million
+voxels, with a margin of 35 % of its diameter on every side (empty voxels beyond the image), and five drawings of it, cut by
+`kontur trace`. Sorted by name, the first, third, ... go to FOLDER/report, the second, fourth, ... to FOLDER/tune: constants may
+be chosen on the latter. FOLDER/structures.csv lists them. The same arguments give the same files.
+"""
+import argparse
+import csv
+import hashlib
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import nibabel
+import numpy as np
+from scipy import ndimage
+
+LEAST_VOXELS, MOST_VOXELS = 300, 2.6e6
+MARGIN, LEAST_MARGIN = 0.35, 10  # of the diameter; voxels
+LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
+TILTED = (0.3, -0.25, 0.92)  # normal of the tilted planes, LPS
+HAND_MM, HAND_HARMONICS = 0.55, 5
+FIELDS = ["number", "set", "structure", "source", "voxels", "volume_ml", "parts", "at_border", "coarsened"]
+
+
+def read_labels(path, kontur):
+    """Labels as integers and the affine from indices to LPS mm."""
+    if path.name.endswith((".nii", ".nii.gz")):
+        image = nibabel.load(path)
+        return np.rint(np.asarray(image.dataobj)).astype(int), LPS @ image.affine
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder, "labels.nii.gz")
+        subprocess.run([kontur, "convert", path, copy, "--quiet"], check=True)
+        return read_labels(copy, kontur)
+
+
+def structures_of(name, labels):
+    """(structure's name, mask) of every label or part that is large enough."""
+    apart = name.endswith("/parts")
+    for label in np.unique(labels[labels > 0]):
+        mask = labels == label
+        parts, count = ndimage.label(mask, np.ones((3, 3, 3))) if apart else (mask.astype(int), 1)
+        lowest = sorted(range(1, count + 1), key=lambda part: np.argwhere(parts == part)[:, 2].min())
+        for number, part in enumerate(lowest, 1):
+            if (parts == part).sum() >= LEAST_VOXELS:
+                suffix = f"_{number}" if apart else ""
+                yield f"{name.removesuffix('/parts')}_{label:03d}{suffix}", parts == part
+
+
+def margin_voxels(extent_mm, spacing):
+    """Along each axis; `extent_mm` is that of the object's box."""
+    return np.maximum(np.ceil(MARGIN * np.linalg.norm(extent_mm) / spacing), LEAST_MARGIN).astype(int)
+
+
+def coarsening(extent, spacing):
+    """How many voxels along each axis become one, so that the padded grid is small enough: the finest axes first."""
+    factors = np.ones(3, int)
+    while True:
+        coarse = spacing * factors
+        size = np.ceil(extent / factors) + 2 * margin_voxels(extent * spacing, coarse)
+        if size.prod() <= MOST_VOXELS:
+            return factors
+        factors[coarse < 1.01 * coarse.min()] += 1
+
+
+def coarsened(mask, factors):
+    """A voxel is inside where at least half of those that it is made of are."""
+    size = -(-np.array(mask.shape) // factors)
+    padded = np.pad(mask, [(0, n * f - have) for n, f, have in zip(size, factors, mask.shape)])
+    blocks = padded.reshape([part for pair in zip(size, factors) for part in pair])
+    return blocks.mean(axis=(1, 3, 5)) >= 0.5
+
+
+def truth_of(mask, index_to_mm):
+    """The mask within its own grid, coarsened and padded; that grid's affine; and how many voxels became one."""
+    found = np.argwhere(mask)
+    low, high = found.min(axis=0), found.max(axis=0) + 1
+    spacing = np.linalg.norm(index_to_mm[:3, :3], axis=0)
+    factors = coarsening(high - low, spacing)
+    truth = coarsened(mask[tuple(slice(a, b) for a, b in zip(low, high))], factors)
+    margin = margin_voxels((high - low) * spacing, spacing * factors)
+    affine = index_to_mm.copy()
+    affine[:3, :3] *= factors
+    first_centre = low + (factors - 1) / 2 - margin * factors
+    affine[:3, 3] = index_to_mm[:3, :3] @ first_centre + index_to_mm[:3, 3]
+    return np.pad(truth, [(n, n) for n in margin]), affine, factors
+
+
+def plane(origin, normal):
+    normal = np.array(normal, float) / np.linalg.norm(normal)
+    u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    u /= np.linalg.norm(u)
+    return {"origin": list(origin), "normal": list(normal), "u": list(u), "v": list(np.cross(normal, u)), "contours": []}
+
+
+def oblique(points, random):
+    """Ten planes in random directions through random places in the object."""
+    places = points[random.integers(len(points), size=10)]
+    return [plane(place, normal) for place, normal in zip(places, random.normal(size=(10, 3)))]
+
+
+def orthogonal(points, random):
+    """Three planes across each patient axis: through the centroid and a quarter of the extent to both sides."""
+    quarter = np.ptp(points, axis=0) / 4
+    return [plane(points.mean(axis=0) + step * quarter[axis] * np.eye(3)[axis], np.eye(3)[axis])
+            for axis in range(3) for step in (-1, 0, 1)]
+
+
+def radial(points, random):
+    """Six planes through the centroid around the long axis."""
+    across = np.linalg.eigh(np.cov(points.T))[1][:, :2]
+    angles = np.arange(6) * np.pi / 6
+    return [plane(points.mean(axis=0), across @ (np.cos(a), np.sin(a))) for a in angles]
+
+
+def tilted_parallel(points, random):
+    """Seven parallel planes across the object, tilted against the patient's axes."""
+    normal = np.array(TILTED) / np.linalg.norm(TILTED)
+    heights = (points - points.mean(axis=0)) @ normal
+    at = heights.min() + np.linspace(0.06, 0.94, 7) * np.ptp(heights)
+    return [plane(points.mean(axis=0) + height * normal, normal) for height in at]
+
+
+DRAWINGS = {"oblique10": oblique, "ortho3x3": orthogonal, "radial6": radial, "tilted_parallel7": tilted_parallel}
+
+
+def random_for(*names):
+    digest = hashlib.sha256("/".join(names).encode()).digest()
+    return np.random.default_rng(int.from_bytes(digest[:8], "little"))
+
+
+def displaced(points, normal, random):
+    """A closed contour as an unsteady hand draws it: moved along its normal by waves, 1 to 5 around it, each less the shorter."""
+    points = np.array(points)
+    tangents = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
+    outward = np.cross(tangents, normal)
+    outward /= np.maximum(np.linalg.norm(outward, axis=1, keepdims=True), 1e-12)
+    lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
+    around = 2 * np.pi * np.r_[0, np.cumsum(lengths)[:-1]] / lengths.sum()
+    waves = np.arange(1, HAND_HARMONICS + 1)
+    # A tiny contour displaced by as much as a large one would cross itself.
+    rms = min(HAND_MM, lengths.sum() / 40) / np.sqrt((1 / waves).sum())
+    heights = random.normal(size=(2, len(waves))) * rms / np.sqrt(waves)
+    phases = np.outer(around, waves)
+    return points + (np.cos(phases) @ heights[0] + np.sin(phases) @ heights[1])[:, None] * outward
+
+
+def by_hand(drawing, random):
+    drawing = json.loads(json.dumps(drawing))
+    for drawn in drawing["planes"]:
+        for contour in drawn["contours"]:
+            contour["points"] = displaced(contour["points"], drawn["normal"], random).round(4).tolist()
+    return drawing
+
+
+def cut(kontur, folder, drawing, planes, least_area):
+    """Contours with fewer than a voxel's face are left out, as nobody would draw them."""
+    with tempfile.TemporaryDirectory() as scratch:
+        file = pathlib.Path(scratch, "planes.json")
+        file.write_text(json.dumps({"frame": "LPS mm", "planes": planes}))
+        subprocess.run([kontur, "trace", folder / "truth.nii.gz", "--planes", file, "--output", folder / f"{drawing}.json",
+                        "--min-area-mm2", str(least_area), "--quiet"], check=True)
+
+
+def write_structure(folder, name, truth, affine, kontur):
+    folder.mkdir(parents=True, exist_ok=True)
+    image = nibabel.Nifti1Image(truth.astype(np.uint8), LPS @ affine)
+    image.set_sform(LPS @ affine, 1)
+    image.set_qform(None, 0)  # it could not hold a shear
+    nibabel.save(image, folder / "truth.nii.gz")
+    points = np.argwhere(truth) @ affine[:3, :3].T + affine[:3, 3]
+    least_area = np.linalg.norm(affine[:3, :3], axis=0).min() ** 2
+    for drawing, planes in DRAWINGS.items():
+        cut(kontur, folder, drawing, planes(points, random_for(name, drawing)), least_area)
+    exact = json.loads((folder / "ortho3x3.json").read_text())
+    (folder / "ortho3x3_hand.json").write_text(json.dumps(by_hand(exact, random_for(name, "hand"))))
+
+
+def touches_border(mask):
+    return any(mask.take(end, axis).any() for axis in range(3) for end in (0, -1))
+
+
+def collect(maps, without, kontur):
+    """{structure: (mask, affine, file)}, sorted by name."""
+    found = {}
+    for argument in maps:
+        name, _, file = argument.partition("=")
+        labels, affine = read_labels(pathlib.Path(file), kontur)
+        for structure, mask in structures_of(name, labels):
+            found[structure] = (mask, affine, file)
+    for structure in without:
+        if found.pop(structure, None) is None:
+            sys.exit(f"structures.py: error: there is no {structure} to leave out, but {' '.join(sorted(found))}")
+    return dict(sorted(found.items()))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("maps", nargs="+", metavar="NAME=LABELMAP")
+    parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
+    parser.add_argument("--output", required=True, type=pathlib.Path)
+    parser.add_argument("--without", action="append", default=[], metavar="STRUCTURE")
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    with open(options.output / "structures.csv", "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(FIELDS)
+        for number, (name, (mask, affine, source)) in enumerate(
+                collect(options.maps, options.without, options.kontur).items(), 1):
+            split = "report" if number % 2 else "tune"
+            truth, grid, factors = truth_of(mask, affine)
+            write_structure(options.output / split / name, name, truth, grid, options.kontur)
+            volume = truth.sum() * abs(np.linalg.det(grid[:3, :3])) / 1000
+            parts = ndimage.label(truth, np.ones((3, 3, 3)))[1]
+            table.writerow([number, split, name, pathlib.Path(source).name, truth.sum(), f"{volume:.2f}", parts,
+                            int(touches_border(mask)), "x".join(map(str, factors))])
+            file.flush()
+            print(f"{split}/{name}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -154,10 +154,11 @@ def displaced(points, normal, random):
 
 
 def by_hand(drawing, random):
-    drawing = json.loads(json.dumps(drawing))
+    """The same contours, displaced. What `kontur trace` said of their origin is no longer the whole of it."""
+    drawing = {key: value for key, value in drawing.items() if key != "provenance"}
     for drawn in drawing["planes"]:
         for contour in drawn["contours"]:
-            contour["points"] = displaced(contour["points"], drawn["normal"], random).round(4).tolist()
+            contour["points"] = displaced(contour["points"], drawn["normal"], random).tolist()
     return drawing
 
 

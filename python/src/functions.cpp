@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "fields.h"
 #include "kontur/field/implicit_function.h"
 #include "kontur/field/residual.h"
 #include "points.h"
@@ -128,9 +129,11 @@ ndarray, shape (..., 3), float64
     });
 
     py::class_<Residual> residual_type(m, "Residual", "How far the fitted surface passes from the drawn points.");
-    residual_type.def_readonly("max_mm", &Residual::max_mm, "float");
-    residual_type.def_readonly("rms_mm", &Residual::rms_mm, "float");
-    residual_type.def_readonly("worst_contour", &Residual::worst_contour, "int: index of the contour with the largest one.");
+    Fields(residual_type)
+        .field("max_mm", &Residual::max_mm, "float")
+        .field("rms_mm", &Residual::rms_mm, "float")
+        .field("worst_contour", &Residual::worst_contour, "int: index of the contour with the largest one.")
+        .picklable();
     residual_type.def("__repr__", [](const Residual& r) {
         return py::str("<Residual: max {:.3g} mm, rms {:.3g} mm>").format(r.max_mm, r.rms_mm);
     });

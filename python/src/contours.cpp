@@ -157,6 +157,10 @@ outward : array_like, shape (3,), optional
     point.def_readonly("outward", &SurfacePoint::outward, "ndarray, shape (3,), float64, or None.");
     point.def(
         "__eq__", [](const SurfacePoint& a, const SurfacePoint& b) { return a == b; }, py::is_operator());
+    point.def("__repr__", [](const SurfacePoint& p) {
+        return py::str("<SurfacePoint {}{}>")
+            .format(py::cast(p.position).attr("tolist")(), p.outward ? ", outward known" : "");
+    });
     picklable(point, [](const SurfacePoint& p) { return py::make_tuple(p.position, p.outward); });
 }
 

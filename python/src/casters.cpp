@@ -59,6 +59,13 @@ std::vector<py::ssize_t> leading_shape(const py::array& points) {
     return {points.shape(), points.shape() + points.ndim() - 1};
 }
 
+std::vector<double> list_of(const ArrayOf<double>& numbers, const char* what) {
+    if (numbers.size() > 0 && numbers.ndim() != 1)
+        throw Error(ErrorKind::invalid_input,
+                    std::string("an array of ") + what + " has the shape " + shape_text(numbers) + "; (n,) is needed");
+    return {numbers.data(), numbers.data() + numbers.size()};
+}
+
 std::string filled_in(std::string help, const std::string& options) {
     const std::pair<std::string_view, std::string_view> marks[] = {
         {"@options\n", options},

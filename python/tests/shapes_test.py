@@ -217,12 +217,26 @@ def test_an_array_with_masked_entries_is_refused(oblique):
         (1, lambda: kontur.Plane(square[1], [0, 0, 1])),
         (1, lambda: kontur.Plane([0, 0, numpy.ma.masked], [0, 0, 1])),
         (4, lambda: kontur.TriangleMesh(square, [])),
+        (2, lambda: kontur.ConstraintSet(numpy.eye(3), numpy.ma.masked_equal([0, 1, 0], 0))),
+        (2, lambda: kontur.ConstraintSet(numpy.eye(3), numpy.ones(3), trust=numpy.ma.masked_equal([0, 1, 0], 0))),
+        (3, lambda: kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, numpy.eye(3), numpy.ma.masked_equal(numpy.ones(3), 1), [1, 0, 0, 0])),
+        (3, lambda: kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, numpy.eye(3), numpy.ones(3), numpy.ma.masked_equal([1, 0, 0, 0], 0))),
+        (1, lambda: kontur.Grid.from_spacing((1, 1, 1), numpy.ma.masked_equal([1, 2, 3], 2))),
+        (12, lambda: kontur.Grid((1, 1, 1), numpy.ma.masked_equal(numpy.eye(4), 0), frame="LPS")),
+        (9, lambda: kontur.EdgeMap(numpy.ma.masked_equal(numpy.ones((3, 3)), 1))),
         (1, lambda: kontur.encode_png(numpy.ma.masked_equal(numpy.arange(12).reshape(2, 2, 3), 5))),
     ]
     for count, call in calls:
         with pytest.raises(kontur.InvalidInputError, match=f"an array is masked at {count} of its") as error:
             call()
         assert "filled" in str(error.value)
+
+
+def test_a_function_of_parts_that_do_not_fit_is_refused():
+    for weights, polynomial, problem in ((numpy.ones((3, 1)), [1, 0, 0, 0], r"weights has the shape \(3, 1\)"), (numpy.ones(2), [1, 0, 0, 0], "2 weights"),
+                                         (numpy.ones(3), [1, 0, 0], "the polynomial has 3 numbers; 4 are needed")):
+        with pytest.raises(kontur.InvalidInputError, match=problem):
+            kontur.ImplicitFunction("biharmonic", [0, 0, 0], 1, numpy.eye(3), weights, polynomial)
 
 
 @pytest.mark.parametrize(

@@ -12,13 +12,14 @@
 #include "dicom_output.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
+#include "kontur/base/machine_memory.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/png.h"
+#include "kontur/report.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
-#include "segment_report.h"
 
 namespace kontur::app {
 namespace {
@@ -188,8 +189,7 @@ void run(const SegmentCommand& command, Console& console) {
     write(command.picture,
           [&](const fs::path& path) { write_png(path, picture(command, inputs, result), mask.provenance); });
     report.seconds.emplace_back("write", laps.lap());
-    write(command.report,
-          [&](const fs::path& path) { write_file_atomically(path, to_json_text(report_json(report, mask.provenance))); });
+    write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json(report, mask.provenance)); });
     outputs.commit();
 
     for (const std::string& warning : report.warnings) console.warn(warning);

@@ -54,7 +54,7 @@ def segment_case(row, folder, threads):
     notes = []
     contours = kontur.read_contours(files, roi=row.get("roi"), on_note=notes.append)
     if "name" in row:
-        contours = kontur.ContourSet(contours.contours, row["name"], contours.interior, contours.exterior, contours.surface)
+        contours = kontur.ContourSet(contours, row["name"], contours.interior, contours.exterior, contours.surface)
     digests = {"contour_files_sha256": kontur.files_sha256(files)}
     if "image" in row:
         grid = kontur.read_grid(folder / row["image"], on_note=notes.append)

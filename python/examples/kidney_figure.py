@@ -31,7 +31,7 @@ left.imshow(slice_hu, cmap="gray", vmin=level - width / 2, vmax=level + width / 
 for points, closed in kontur.outline(kidney.mesh, plane):
     line = plane.to_uv(np.concatenate([points, points[:1]]) if closed else points)
     left.plot(line[:, 0], line[:, 1], color="tab:orange")
-for contour in case.contours.contours:
+for contour in case.contours:
     marks = plane.to_uv(kontur.crossings(contour, plane))
     left.plot(marks[:, 0], marks[:, 1], "o", color="tab:blue", markersize=4)
 left.set(title=f"Kidney from {len(case.contours)} contours, Dice {agreement.dice:.3f}", xlabel="mm", ylabel="mm")

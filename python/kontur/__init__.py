@@ -17,6 +17,7 @@ True
 """
 from ._core import *
 from ._core import __version__
+from . import notebook
 from .converters import from_nibabel, from_sitk, to_nibabel, to_sitk
 from .errors import (
     CancelledError,
@@ -29,7 +30,7 @@ from .errors import (
     UnsupportedError,
 )
 
-__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in ("converters", "errors"))
+__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in ("converters", "errors", "notebook"))
 
 # Where users find them, in messages and in pickles.
 for _name in __all__:

@@ -2,8 +2,8 @@
 # What `import kontur` gives, for type checkers and editors. A test holds it against the module.
 import os
 import pathlib
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal, Protocol, Union
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, Literal, Protocol, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -149,6 +149,12 @@ class ContourSet:
     @property
     def diameter_mm(self) -> float: ...
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Contour]: ...
+    def __contains__(self, value: object) -> bool: ...
+    @overload
+    def __getitem__(self, index: int) -> Contour: ...
+    @overload
+    def __getitem__(self, index: slice) -> ContourSet: ...
     def __eq__(self, other: object) -> bool: ...
 
 class Crossing:
@@ -396,7 +402,7 @@ class Fit:
     def slopes(self) -> NDArray[numpy.float64]: ...
 
 class Grid:
-    def __init__(self, size: Sequence[int], index_to_mm: ArrayLike, frame: Literal["LPS", "RAS"] = "LPS") -> None: ...
+    def __init__(self, size: Sequence[int], index_to_mm: ArrayLike, frame: Literal["LPS", "RAS"]) -> None: ...
     @staticmethod
     def from_spacing(
         size: Sequence[int],
@@ -420,6 +426,7 @@ class Grid:
     @property
     def bounds_mm(self) -> NDArray[numpy.float64]: ...
     def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
 
 class Image:
     def __init__(self, samples: ArrayLike, grid: Grid) -> None: ...
@@ -494,7 +501,7 @@ class LiveWire:
     def path_to(self, target: tuple[int, int]) -> NDArray[numpy.int32]: ...
 
 class Mask:
-    def __init__(self, values: ArrayLike, grid: Grid) -> None: ...
+    def __init__(self, values: ArrayLike, grid: Grid, label: int | None = None) -> None: ...
     @property
     def grid(self) -> Grid: ...
     @property
@@ -685,9 +692,13 @@ class SegmentReport:
     @property
     def mask_components(self) -> int: ...
     @property
+    def estimated_memory_mb(self) -> float: ...
+    @property
     def warnings(self) -> list[str]: ...
     @property
     def seconds(self) -> dict[str, float]: ...
+    def to_json(self, provenance: dict[str, str] | None = None) -> str: ...
+    def to_dict(self, provenance: dict[str, str] | None = None) -> dict[str, Any]: ...
 
 class Segmentation:
     @property
@@ -698,6 +709,10 @@ class Segmentation:
     def mesh(self) -> TriangleMesh | None: ...
     @property
     def report(self) -> SegmentReport: ...
+
+class _SegmentationWithMesh(Segmentation):
+    @property
+    def mesh(self) -> TriangleMesh: ...
 
 class SelfContact:
     @property
@@ -819,6 +834,8 @@ def dense_liver_case(*, points: int = 25000, orthogonal: bool = False, by_hand: 
 def disagreement(crossings: Sequence[Crossing]) -> Disagreement: ...
 
 def disagreement_by_contour(crossings: Sequence[Crossing], contour_count: int) -> list[Disagreement]: ...
+
+def encode_png(pixels: ArrayLike, provenance: dict[str, str] | None = None) -> bytes: ...
 
 def files_sha256(
     paths: Sequence[_Path], *, progress: _Progress | None = None, stop: _Stop | None = None
@@ -1092,6 +1109,29 @@ def sample_everywhere(
     stop: _Stop | None = None,
 ) -> SurfaceLattice: ...
 
+@overload
+def segment(
+    contours: ContourSet,
+    grid: Grid,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    kernel: _Kernel = "triharmonic",
+    normals: _Normals = "surface",
+    normal_offset_mm: float | None = None,
+    smoothing: float | None = None,
+    conflicts: _Conflicts = "reconcile",
+    fill_rule: _FillRule = "even-odd",
+    corners: _Corners = "rounded",
+    quality: float = 1.0,
+    solver: _Solver = "automatic",
+    tolerance_mm: float | None = None,
+    voxelizer: _Voxelizer = "adaptive",
+    mesh: Literal[True],
+    threads: int = 0,
+    max_memory_mb: float | None = None,
+) -> _SegmentationWithMesh: ...
+@overload
 def segment(
     contours: ContourSet,
     grid: Grid,

@@ -15,6 +15,35 @@ void check_numbers(const py::array& array, bool whole) {
                                               (whole ? "whole" : "real") + " numbers are needed");
 }
 
+namespace {
+
+void refuse_masked(py::handle source, py::handle type) {
+    if (PyList_Check(source.ptr()) || PyTuple_Check(source.ptr())) {
+        for (const py::handle item : source) refuse_masked(item, type);
+        return;
+    }
+    if (!py::isinstance(source, type)) return;
+    const auto count = py::module_::import("numpy.ma").attr("count_masked")(source).cast<std::size_t>();
+    if (count > 0)
+        throw Error(ErrorKind::invalid_input,
+                    py::str("an array is masked at {} of its {} entries; give these a value first (`array.filled(...)`)")
+                        .format(count, source.attr("size"))
+                        .cast<std::string>());
+}
+
+}  // namespace
+
+void refuse_masked(py::handle source) {
+    // Who has not imported it has no masked arrays.
+    const py::dict modules = py::module_::import("sys").attr("modules");
+    if (modules.contains("numpy.ma")) refuse_masked(source, modules["numpy.ma"].attr("MaskedArray"));
+}
+
+py::array array_from(py::handle source) {
+    refuse_masked(source);
+    return py::array::ensure(source);
+}
+
 std::span<const Vec3> points_of(const ArrayOf<double>& array) {
     if (array.size() == 0) return {};
     if (array.ndim() != 2 || array.shape(1) != 3)
@@ -28,6 +57,13 @@ std::vector<py::ssize_t> leading_shape(const py::array& points) {
         throw Error(ErrorKind::invalid_input,
                     "an array of points has the shape " + shape_text(points) + "; (..., 3) is needed");
     return {points.shape(), points.shape() + points.ndim() - 1};
+}
+
+std::vector<double> list_of(const ArrayOf<double>& numbers, const char* what) {
+    if (numbers.size() > 0 && numbers.ndim() != 1)
+        throw Error(ErrorKind::invalid_input,
+                    std::string("an array of ") + what + " has the shape " + shape_text(numbers) + "; (n,) is needed");
+    return {numbers.data(), numbers.data() + numbers.size()};
 }
 
 std::string filled_in(std::string help, const std::string& options) {

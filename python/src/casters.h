@@ -37,6 +37,10 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<std::uint3
 /// "(4, 3)"
 std::string shape_text(const py::array& array);
 
+/// An array or a sequence as an array; null for what NumPy makes no array of. Throws Error(invalid_input) for one with
+/// masked entries (numpy.ma), whose mask would be lost.
+py::array array_from(py::handle source);
+
 /// Throws Error(invalid_input) unless the array holds real numbers or booleans, whole ones where `whole`. Without elements
 /// anything goes.
 void check_numbers(const py::array& array, bool whole);
@@ -55,7 +59,7 @@ void check_range(const py::array& array) {
 /// An array or a sequence as an array of these numbers; null for what NumPy makes no array of.
 template <class Value>
 ArrayOf<Value> numbers_of(py::handle source) {
-    const auto array = py::array::ensure(source);
+    const py::array array = array_from(source);
     if (!array) return py::reinterpret_steal<ArrayOf<Value>>(py::handle());
     constexpr bool kWhole = std::is_integral_v<Value>;
     check_numbers(array, kWhole);

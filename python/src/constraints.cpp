@@ -3,17 +3,19 @@
 
 #include "bindings.h"
 #include "kontur/field/prepare.h"
+#include "points.h"
 
 namespace kontur::python {
 namespace {
 
-ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> values,
-                               std::optional<std::vector<ConstraintKind>> kinds, std::optional<std::vector<double>> trust) {
+ConstraintSet constraints_from(std::vector<Vec3> centers, const ArrayOf<double>& values,
+                               std::optional<std::vector<ConstraintKind>> kinds,
+                               const std::optional<ArrayOf<double>>& trust) {
     ConstraintSet set;
     set.centers = std::move(centers);
-    set.values = std::move(values);
+    set.values = list_of(values, "values");
     set.kinds = kinds ? std::move(*kinds) : std::vector<ConstraintKind>(set.size(), ConstraintKind::boundary);
-    set.trust = std::move(trust).value_or(std::vector<double>{});
+    if (trust) set.trust = list_of(*trust, "trust");
     if (set.values.size() != set.size() || set.kinds.size() != set.size())
         throw Error(ErrorKind::invalid_input, std::to_string(set.size()) + " constraints have " +
                                                   std::to_string(set.values.size()) + " values and " +
@@ -28,17 +30,15 @@ ConstraintSet constraints_from(std::vector<Vec3> centers, std::vector<double> va
     return set;
 }
 
-PlacedConstraints place(const PreparedContours& prepared, std::optional<std::vector<double>> slopes,
-                        const PlaceOptions& options) {
-    if (!slopes) slopes.emplace(prepared.points.size(), 1.0);
-    if (slopes->size() != prepared.points.size())
+PlacedConstraints place(const PreparedContours& prepared, const std::vector<double>& slopes, const PlaceOptions& options) {
+    if (slopes.size() != prepared.points.size())
         throw Error(ErrorKind::invalid_input,
-                    std::to_string(prepared.points.size()) + " points have " + std::to_string(slopes->size()) + " slopes");
-    for (const double slope : *slopes)
+                    std::to_string(prepared.points.size()) + " points have " + std::to_string(slopes.size()) + " slopes");
+    for (const double slope : slopes)
         if (!(slope > 0 && slope <= 1))
             throw Error(ErrorKind::invalid_input,
                         "a slope is " + std::to_string(slope) + "; it must be above 0 and at most 1");
-    return place_constraints(prepared.points, *slopes, {}, options);
+    return place_constraints(prepared.points, slopes, {}, options);
 }
 
 }  // namespace
@@ -108,9 +108,12 @@ Examples
 >>> len(placed.constraints) + placed.merged == 2 * len(prepared.positions)
 True
 )",
-        [keywords](const PreparedContours& prepared, std::optional<std::vector<double>> slopes, const py::kwargs& given) {
+        [keywords](const PreparedContours& prepared, const std::optional<ArrayOf<double>>& given_slopes,
+                   const py::kwargs& given) {
             const PlaceOptions options = keywords.parse("place_constraints", given);
-            return unlocked([&] { return place(prepared, std::move(slopes), options); });
+            const std::vector<double> slopes =
+                given_slopes ? list_of(*given_slopes, "slopes") : std::vector<double>(prepared.points.size(), 1.0);
+            return unlocked([&] { return place(prepared, slopes, options); });
         },
         py::arg("prepared"), py::arg("slopes") = py::none(), py::kw_only(), KeywordText(keywords));
 }

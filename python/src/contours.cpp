@@ -5,8 +5,17 @@
 namespace kontur::python {
 namespace {
 
+void check_finite(const std::vector<Vec3>& points) {
+    for (std::size_t n = 0; n < points.size(); ++n)
+        if (!is_finite(points[n]))
+            throw Error(ErrorKind::invalid_input, py::str("point {} of a contour is not finite: {}")
+                                                      .format(n + 1, py::cast(points[n]).attr("tolist")())
+                                                      .cast<std::string>());
+}
+
 Contour contour_from(std::vector<Vec3> points, const std::optional<Plane>& plane, bool closed, bool hole, ContourEnd end,
                      std::optional<Hand> inside, double weight) {
+    check_finite(points);
     const std::optional<Plane> its_plane = plane ? plane : fit_plane(points);
     if (!its_plane)
         throw Error(ErrorKind::invalid_input,
@@ -45,6 +54,30 @@ py::tuple contours_of(const py::object& self) {
     for (std::size_t n = 0; n < contours.size(); ++n)
         all[n] = py::cast(&contours[n], py::return_value_policy::reference_internal, self);
     return all;
+}
+
+py::object contour_at(const py::object& self, py::ssize_t index) {
+    const auto& contours = self.cast<const ContourSet&>().contours;
+    const auto count = static_cast<py::ssize_t>(contours.size());
+    const py::ssize_t from_start = index < 0 ? index + count : index;
+    if (from_start < 0 || from_start >= count)
+        throw py::index_error("there is no contour " + std::to_string(index) + "; the set has " + std::to_string(count));
+    return py::cast(&contours[static_cast<std::size_t>(from_start)], py::return_value_policy::reference_internal, self);
+}
+
+/// The set with these contours alone; name and single points stay.
+ContourSet contours_at(const ContourSet& set, const py::slice& slice) {
+    std::size_t start = 0, stop = 0, step = 0, count = 0;
+    if (!slice.compute(set.contours.size(), &start, &stop, &step, &count)) throw py::error_already_set();
+    ContourSet some{set.name, {}, set.interior, set.exterior, set.surface};
+    for (std::size_t n = 0; n < count; ++n, start += step) some.contours.push_back(set.contours[start]);
+    return some;
+}
+
+bool holds(const ContourSet& set, const py::object& value) {
+    if (!py::isinstance<Contour>(value)) return false;
+    const auto& contour = value.cast<const Contour&>();
+    return std::any_of(set.contours.begin(), set.contours.end(), [&](const Contour& c) { return equal(c, contour); });
 }
 
 Keywords<ContourCheckOptions> check_keywords() {
@@ -124,11 +157,17 @@ outward : array_like, shape (3,), optional
     point.def_readonly("outward", &SurfacePoint::outward, "ndarray, shape (3,), float64, or None.");
     point.def(
         "__eq__", [](const SurfacePoint& a, const SurfacePoint& b) { return a == b; }, py::is_operator());
+    point.def("__repr__", [](const SurfacePoint& p) {
+        return py::str("<SurfacePoint {}{}>")
+            .format(py::cast(p.position).attr("tolist")(), p.outward ? ", outward known" : "");
+    });
     picklable(point, [](const SurfacePoint& p) { return py::make_tuple(p.position, p.outward); });
 }
 
 void bind_contour_set(py::module_& m) {
     py::class_<ContourSet> set(m, "ContourSet", R"(Everything drawn for one object. Immutable.
+
+A sequence of its contours; a slice is a set of some of them with the same name and single points.
 
 Parameters
 ----------
@@ -144,6 +183,8 @@ Examples
 >>> case = kontur.phantom_case("kidney_radial6")
 >>> case.contours
 <ContourSet 'kidney': 6 contours, 1500 points>
+>>> case.contours[::2], len(case.contours[0])
+(<ContourSet 'kidney': 3 contours, 751 points>, 244)
 )");
     constructor(
         set,
@@ -173,6 +214,10 @@ Examples
     set.def_property_readonly("diameter_mm", &diameter_mm,
                               "float: diameter of that ball, which the method's lengths are fractions of.");
     set.def("__len__", [](const ContourSet& s) { return s.contours.size(); });
+    set.def("__iter__", [](const py::object& self) { return py::iter(contours_of(self)); });
+    set.def("__contains__", &holds);
+    set.def("__getitem__", &contour_at);
+    set.def("__getitem__", &contours_at);
     set.def(
         "__eq__", [](const ContourSet& a, const ContourSet& b) { return equal(a, b); }, py::is_operator());
     set.def("__repr__", [](const ContourSet& s) {

@@ -1,29 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/shape/crossings.h"
 #include "bindings.h"
+#include "fields.h"
 
 namespace kontur::python {
 
 void bind_crossings(py::module_& m) {
     py::class_<Crossing> crossing(m, "Crossing", "A place where a contour passes through the plane of another one.");
-    crossing.def_readonly("contour", &Crossing::contour, "int: index of the contour that passes through the plane of");
-    crossing.def_readonly("other", &Crossing::other, "int: this one.");
-    crossing.def_readonly("position", &Crossing::position,
-                          "ndarray, shape (3,): mm, where `contour` passes the common line.");
-    crossing.def_readonly("other_position", &Crossing::other_position, "ndarray, shape (3,): mm, where `other` passes it.");
-    crossing.def_readonly("matched", &Crossing::matched, "bool: False where the other plane shows nothing.");
-    crossing.def_readonly("distance_mm", &Crossing::distance_mm, "float: > 0 where `contour` passes outside of `other`.");
-    crossing.def_readonly("disagreement_mm", &Crossing::disagreement_mm,
-                          "float: how far a surface would have to move so that both are right.");
+    Fields(crossing)
+        .field("contour", &Crossing::contour, "int: index of the contour that passes through the plane of")
+        .field("other", &Crossing::other, "int: this one.")
+        .field("position", &Crossing::position, "ndarray, shape (3,): mm, where `contour` passes the common line.")
+        .field("other_position", &Crossing::other_position, "ndarray, shape (3,): mm, where `other` passes it.")
+        .field("matched", &Crossing::matched, "bool: False where the other plane shows nothing.")
+        .field("distance_mm", &Crossing::distance_mm, "float: > 0 where `contour` passes outside of `other`.")
+        .field("disagreement_mm", &Crossing::disagreement_mm,
+               "float: how far a surface would have to move so that both are right.")
+        .picklable();
     crossing.def("__str__", [](const Crossing& self) { return sentence(self); });
+    crossing.def("__repr__", [](const Crossing& self) {
+        return py::str("<Crossing of contours[{}] and [{}], {:.3g} mm{}>")
+            .format(self.contour, self.other, self.disagreement_mm, self.matched ? "" : ", unmatched");
+    });
 
     py::class_<Disagreement> type(m, "Disagreement", "How well contours agree where they cross, over matched crossings.");
-    type.def_readonly("matched", &Disagreement::matched, "int");
-    type.def_readonly("unmatched", &Disagreement::unmatched, "int");
-    type.def_readonly("mean_mm", &Disagreement::mean_mm, "float");
-    type.def_readonly("rms_mm", &Disagreement::rms_mm, "float");
-    type.def_readonly("max_mm", &Disagreement::max_mm, "float");
-    type.def_readonly("max_unmatched_mm", &Disagreement::max_unmatched_mm, "float");
+    Fields(type)
+        .field("matched", &Disagreement::matched, "int")
+        .field("unmatched", &Disagreement::unmatched, "int")
+        .field("mean_mm", &Disagreement::mean_mm, "float")
+        .field("rms_mm", &Disagreement::rms_mm, "float")
+        .field("max_mm", &Disagreement::max_mm, "float")
+        .field("max_unmatched_mm", &Disagreement::max_unmatched_mm, "float")
+        .picklable();
+    type.def("__repr__", [](const Disagreement& d) {
+        return py::str("<Disagreement: max {:.3g} mm, rms {:.3g} mm, {} matched, {} not>")
+            .format(d.max_mm, d.rms_mm, d.matched, d.unmatched);
+    });
 
     define(
         m, "find_crossings", R"(Every place where closed contours of different planes meet: list of Crossing.

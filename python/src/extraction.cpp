@@ -218,7 +218,7 @@ ContourSet
 
 Examples
 --------
->>> grid = kontur.Grid((8, 8, 8), np.eye(4))
+>>> grid = kontur.Grid((8, 8, 8), np.eye(4), frame="LPS")
 >>> cube = kontur.Mask(np.pad(np.ones((4, 4, 4)), 2), grid)
 >>> contours = kontur.trace(cube, [kontur.Plane([0, 0, 3.5], [0, 0, 1])])
 >>> contours.bounding_box.round(6).tolist()

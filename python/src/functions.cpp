@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "fields.h"
 #include "kontur/field/implicit_function.h"
 #include "kontur/field/residual.h"
 #include "points.h"
@@ -17,12 +18,16 @@ std::vector<Vec3> points_of_function(const ImplicitFunction& function) {
 }
 
 ImplicitFunction function_from(Kernel kernel, const Vec3& frame_center_mm, double frame_scale_mm,
-                               const std::vector<Vec3>& centers, const std::vector<double>& weights,
-                               const std::array<double, 4>& polynomial) {
+                               const std::vector<Vec3>& centers, const ArrayOf<double>& weight_array,
+                               const ArrayOf<double>& polynomial) {
+    const std::vector<double> weights = list_of(weight_array, "weights"), p = list_of(polynomial, "the polynomial");
+    if (p.size() != 4)
+        throw Error(ErrorKind::invalid_input, "the polynomial has " + std::to_string(p.size()) + " numbers; 4 are needed");
     if (centers.size() != weights.size())
         throw Error(ErrorKind::invalid_input,
                     std::to_string(centers.size()) + " centres have " + std::to_string(weights.size()) + " weights");
-    return ImplicitFunction(kernel, UnitFrame{frame_center_mm, frame_scale_mm}, point_arrays(centers), weights, polynomial);
+    return ImplicitFunction(kernel, UnitFrame{frame_center_mm, frame_scale_mm}, point_arrays(centers), weights,
+                            {p[0], p[1], p[2], p[3]});
 }
 
 py::array_t<double> values_at(const ImplicitFunction& function, const ArrayOf<double>& points, int threads) {
@@ -128,9 +133,11 @@ ndarray, shape (..., 3), float64
     });
 
     py::class_<Residual> residual_type(m, "Residual", "How far the fitted surface passes from the drawn points.");
-    residual_type.def_readonly("max_mm", &Residual::max_mm, "float");
-    residual_type.def_readonly("rms_mm", &Residual::rms_mm, "float");
-    residual_type.def_readonly("worst_contour", &Residual::worst_contour, "int: index of the contour with the largest one.");
+    Fields(residual_type)
+        .field("max_mm", &Residual::max_mm, "float")
+        .field("rms_mm", &Residual::rms_mm, "float")
+        .field("worst_contour", &Residual::worst_contour, "int: index of the contour with the largest one.")
+        .picklable();
     residual_type.def("__repr__", [](const Residual& r) {
         return py::str("<Residual: max {:.3g} mm, rms {:.3g} mm>").format(r.max_mm, r.rms_mm);
     });

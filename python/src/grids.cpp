@@ -41,9 +41,21 @@ Grid checked(const Grid& grid) {
     return grid;
 }
 
+/// Told nothing: a mirrored patient looks like a patient.
+Grid refuse_unknown_frame(const py::object&, const py::object&) {
+    throw py::type_error("a grid's affine needs its frame: 'LPS' (DICOM, ITK, kontur) or 'RAS' (NIfTI, nibabel)");
+}
+
 Grid grid_from(const Index3& size, const ArrayOf<double>& index_to_mm, const std::string& frame) {
     const Affine3 affine = affine_from(index_to_mm);
     return checked({size, is_ras(frame) ? ras_to_lps(affine) : affine});
+}
+
+/// Of Python's numbers, among which 0.0 and -0.0 are one, as they are for ==.
+py::ssize_t hash_of(const Grid& grid) {
+    py::list numbers(matrix_of(grid.index_to_mm).attr("ravel")().attr("tolist")());
+    numbers.append(py::cast(grid.size));
+    return py::hash(py::tuple(numbers));
 }
 
 /// ITK's way to say the same; the columns of `direction` are the axes.
@@ -68,17 +80,18 @@ size : (int, int, int)
 index_to_mm : array_like, shape (4, 4)
     Affine from voxel indices (0-based, voxel centres) to mm. Oblique, sheared and left-handed axes are all valid.
 frame : {'LPS', 'RAS'}
-    The frame that `index_to_mm` leads to. kontur and DICOM use LPS, NIfTI and nibabel RAS.
+    The frame that `index_to_mm` leads to: kontur, DICOM and ITK use LPS, NIfTI and nibabel RAS. It is always told.
 
 Examples
 --------
->>> grid = kontur.Grid((4, 3, 2), np.diag([1, 1, 2.5, 1]))
+>>> grid = kontur.Grid((4, 3, 2), np.diag([1, 1, 2.5, 1]), frame="LPS")
 >>> grid.shape, grid.spacing_mm.tolist(), grid.voxel_count
 ((2, 3, 4), [1.0, 1.0, 2.5], 24)
 >>> grid.affine("RAS").diagonal().tolist()
 [-1.0, -1.0, 2.5, 1.0]
 )");
-    constructor(grid, &grid_from, py::arg("size"), py::arg("index_to_mm"), py::arg("frame") = "LPS");
+    constructor(grid, &grid_from, py::arg("size"), py::arg("index_to_mm"), py::arg("frame"));
+    grid.def(py::init(&refuse_unknown_frame), py::arg("size"), py::arg("index_to_mm"));
     grid.def_static("from_spacing", &grid_from_spacing, py::arg("size"), py::arg("spacing_mm"),
                     py::arg("origin_mm") = Vec3{}, py::arg("direction") = py::none(),
                     R"(from_spacing(size, spacing_mm, origin_mm=(0.0, 0.0, 0.0), direction=None)
@@ -118,11 +131,12 @@ Grid
                                "ndarray, shape (2, 3): box of the outer faces of all voxels, LPS.");
     grid.def(
         "__eq__", [](const Grid& a, const Grid& b) { return a == b; }, py::is_operator());
+    grid.def("__hash__", &hash_of);
     grid.def("__repr__", [](const Grid& g) {
         return py::str("<Grid {} x {} x {}, {:g} x {:g} x {:g} mm>")
             .format(g.size.i, g.size.j, g.size.k, g.spacing_mm().x, g.spacing_mm().y, g.spacing_mm().z);
     });
-    picklable(grid, [](const Grid& g) { return py::make_tuple(g.size, matrix_of(g.index_to_mm)); });
+    picklable(grid, [](const Grid& g) { return py::make_tuple(g.size, matrix_of(g.index_to_mm), "LPS"); });
 
     define(m, "grid_around", R"(An axis-aligned LPS grid whose voxels cover a box with a margin.
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "fields.h"
 #include "kontur/measure/compare.h"
 #include "kontur/measure/components.h"
 
@@ -7,18 +8,26 @@ namespace kontur::python {
 
 void bind_measures(py::module_& m) {
     py::class_<SurfaceDistance> distance(m, "SurfaceDistance", "Distances between the surfaces of two masks.");
-    distance.def_readonly("hausdorff_mm", &SurfaceDistance::hausdorff_mm, "float: the largest.");
-    distance.def_readonly("hausdorff95_mm", &SurfaceDistance::hausdorff95_mm,
-                          "float: the 95th percentile of each direction, the larger one.");
-    distance.def_readonly("mean_surface_distance_mm", &SurfaceDistance::mean_surface_distance_mm,
-                          "float: over both directions together.");
+    Fields(distance)
+        .field("hausdorff_mm", &SurfaceDistance::hausdorff_mm, "float: the largest.")
+        .field("hausdorff95_mm", &SurfaceDistance::hausdorff95_mm,
+               "float: the 95th percentile of each direction, the larger one.")
+        .field("mean_surface_distance_mm", &SurfaceDistance::mean_surface_distance_mm,
+               "float: over both directions together.")
+        .picklable();
+    distance.def("__repr__", [](const SurfaceDistance& d) {
+        return py::str("<SurfaceDistance: mean {:.3g} mm, Hausdorff {:.3g} mm>")
+            .format(d.mean_surface_distance_mm, d.hausdorff_mm);
+    });
 
     py::class_<Comparison> comparison(m, "Comparison", "How two masks of one grid agree.");
-    comparison.def_readonly("volume_a_ml", &Comparison::volume_a_ml, "float");
-    comparison.def_readonly("volume_b_ml", &Comparison::volume_b_ml, "float");
-    comparison.def_readonly("dice", &Comparison::dice, "float: 1 when both are empty.");
-    comparison.def_readonly("jaccard", &Comparison::jaccard, "float: 1 when both are empty.");
-    comparison.def_readonly("surface", &Comparison::surface, "SurfaceDistance, or None when a mask is empty.");
+    Fields(comparison)
+        .field("volume_a_ml", &Comparison::volume_a_ml, "float")
+        .field("volume_b_ml", &Comparison::volume_b_ml, "float")
+        .field("dice", &Comparison::dice, "float: 1 when both are empty.")
+        .field("jaccard", &Comparison::jaccard, "float: 1 when both are empty.")
+        .field("surface", &Comparison::surface, "SurfaceDistance, or None when a mask is empty.")
+        .picklable();
     comparison.def("__repr__", [](const Comparison& c) { return py::str("<Comparison: Dice {:.4f}>").format(c.dice); });
 
     define(
@@ -42,7 +51,7 @@ InvalidInputError
 
 Examples
 --------
->>> grid = kontur.Grid((8, 8, 8), np.eye(4))
+>>> grid = kontur.Grid((8, 8, 8), np.eye(4), frame="LPS")
 >>> a = kontur.Mask(np.pad(np.ones((4, 4, 4)), 2), grid)
 >>> b = kontur.Mask(np.roll(a.values, 1, axis=2), grid)
 >>> agreement = kontur.compare(a, b)

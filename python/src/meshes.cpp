@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "fields.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/view/outline.h"
 
@@ -84,10 +85,16 @@ Examples
     });
 
     py::class_<MeshTopology> topology_type(m, "MeshTopology", "What makes a mesh a solid's surface.");
-    topology_type.def_readonly("closed", &MeshTopology::closed, "bool: every edge belongs to two triangles.");
-    topology_type.def_readonly("oriented", &MeshTopology::oriented, "bool: which run through it in opposite directions.");
-    topology_type.def_readonly("euler", &MeshTopology::euler, "int: points - edges + triangles.");
-    topology_type.def_readonly("components", &MeshTopology::components, "int");
+    Fields(topology_type)
+        .field("closed", &MeshTopology::closed, "bool: every edge belongs to two triangles.")
+        .field("oriented", &MeshTopology::oriented, "bool: which run through it in opposite directions.")
+        .field("euler", &MeshTopology::euler, "int: points - edges + triangles.")
+        .field("components", &MeshTopology::components, "int")
+        .picklable();
+    topology_type.def("__repr__", [](const MeshTopology& t) {
+        return py::str("<MeshTopology: {}closed, {}oriented, Euler number {}, {} components>")
+            .format(t.closed ? "" : "not ", t.oriented ? "" : "not ", t.euler, t.components);
+    });
 
     define(m, "signed_volume_mm3", "Enclosed volume in mm^3; negative when the triangles are turned inward.",
            &signed_volume_mm3, py::arg("mesh"));

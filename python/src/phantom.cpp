@@ -44,12 +44,18 @@ void bind_phantom(py::module_& m) {
     phantom.def_readonly("grid", &PhantomCase::grid, "Grid: to segment on.");
     phantom.def_readonly("normals", &PhantomCase::normals,
                          "list of ndarray, shape (n, 3): the body's at each contour's points.");
+    phantom.def("__repr__", [](const PhantomCase& c) {
+        return py::str("<PhantomCase {!r}: {} contours>").format(c.name, c.contours.contours.size());
+    });
 
     py::class_<PhantomVolume> volume(m, "PhantomVolume", "A scan of the phantom.");
     volume.def_readonly("name", &PhantomVolume::name, "str");
     volume.def_readonly("note", &PhantomVolume::note, "str: what it shows.");
     volume.def_readonly("grid", &PhantomVolume::grid, "Grid");
     volume.def_readonly("bodies", &PhantomVolume::bodies, "list of Body: those that it shows whole.");
+    volume.def("__repr__", [](const PhantomVolume& v) {
+        return py::str("<PhantomVolume {!r} on {!r}>").format(v.name, py::cast(v.grid));
+    });
 
     define(m, "phantom_bodies", "Liver, metastasis, kidney and vertebra of the phantom: list of Body.", &phantom_bodies);
     define(m, "phantom_case_names", "Names for `phantom_case`: list of str.", &phantom_case_names);

@@ -72,6 +72,14 @@ ndarray, shape (height_px, width_px, 3), uint8
         },
         py::arg("path"), py::arg("pixels"), py::arg("provenance") = py::none());
     define(
+        m, "encode_png", "The bytes of the file that `write_png` writes, for notebooks and mails.",
+        [](const ArrayOf<std::uint8_t>& pixels, const py::object& items) {
+            const RgbImage image = image_from(pixels);
+            const Provenance provenance = provenance_from(items);
+            return py::bytes(unlocked([&] { return encode_png(image, provenance); }));
+        },
+        py::arg("pixels"), py::arg("provenance") = py::none());
+    define(
         m, "suggest_window", R"(The intensities that a screen shows from black to white: (centre, width).
 
 CT soft tissue (40, 350) when the values look like Hounsfield units, else from the 1st to the 99th percentile.)",

@@ -2,6 +2,10 @@
 #include "kontur/segment.h"
 
 #include "bindings.h"
+#include "fields.h"
+#include "kontur/report.h"
+#include "kontur/view/picture.h"
+#include "provenance.h"
 #include "segment_words.h"
 
 namespace kontur::python {
@@ -34,29 +38,57 @@ Keywords<SegmentOptions> segment_keywords() {
                "Refuse a run of which the process would hold more; None: the machine's memory.");
 }
 
-/// A report's fields under their C++ names, as the command line's report has them.
-template <class Type>
-class ReportFields {
-public:
-    explicit ReportFields(Type& type) : type_(type) {}
+void bind_json(py::class_<SegmentReport>& type) {
+    method(
+        type, "to_json", R"(The report as `kontur segment --report` writes it: JSON of several lines.
 
-    template <class Member>
-    ReportFields& field(const char* name, Member member, const char* help) {
-        type_.def_readonly(name, member, help);
-        names_.append(name);
-        return *this;
-    }
-    py::tuple names() const { return py::tuple(names_); }
+Contours are counted from 1. `peak_memory_mb` is that of this process until now.
 
-private:
-    Type& type_;
-    py::list names_;
-};
+Parameters
+----------
+provenance : dict of str to str, optional
+    What `provenance` gives; empty when left out.
+
+Returns
+-------
+str
+)",
+        [](const SegmentReport& report, const py::object& made) { return to_json(report, provenance_from(made)); },
+        py::arg("provenance") = py::none());
+    method(
+        type, "to_dict", R"(The same as a dict.
+
+Parameters
+----------
+provenance : dict of str to str, optional
+
+Returns
+-------
+dict
+
+Examples
+--------
+>>> case = kontur.phantom_case("kidney_radial6")
+>>> report = kontur.segment(case.contours, case.grid).report.to_dict()
+>>> report["contours"], report["mask"]["components"]
+(6, 1)
+)",
+        [](const SegmentReport& report, const py::object& made) -> py::dict {
+            return py::module_::import("json").attr("loads")(to_json(report, provenance_from(made)));
+        },
+        py::arg("provenance") = py::none());
+}
+
+py::object mesh_of(const py::object& self) {
+    const auto& mesh = self.cast<const Segmentation&>().mesh;
+    if (!mesh) return py::none();
+    return py::cast(&*mesh, py::return_value_policy::reference_internal, self);
+}
 
 void bind_report(py::module_& m) {
     using Report = SegmentReport;
     py::class_<Report> type(m, "SegmentReport", "What `segment` did, and how well the surface fits.");
-    ReportFields fields(type);
+    Fields fields(type);
     fields.field("contours", &Report::contours, "int")
         .field("points", &Report::points, "int: drawn points.")
         .field("constraints", &Report::constraints, "int: placed and kept.")
@@ -84,33 +116,47 @@ void bind_report(py::module_& m) {
         .field("mask_voxels", &Report::mask_voxels, "int")
         .field("mask_volume_ml", &Report::mask_volume_ml, "float")
         .field("mask_components", &Report::mask_components, "int: face-connected.")
-        .field("warnings", &Report::warnings, "list of str: choices made for you and doubts, one sentence each.");
+        .field("estimated_memory_mb", &Report::estimated_memory_mb, "float: before the fit, of the whole process.")
+        .field("warnings", &Report::warnings, "list of str: choices made for you and doubts, one sentence each.")
+        .stored("seconds", &Report::seconds)
+        .picklable();
     type.def_property_readonly(
         "seconds", [](const Report& report) { return py::dict(py::cast(report.seconds)); },
         "dict of str to float: wall time by stage.");
-    type.def("__repr__", [names = fields.names()](const py::object& self) {
-        py::list parts;
-        for (const auto& name : names) parts.append(py::str("{}={!r}").format(name, self.attr(name)));
-        return py::str("SegmentReport({})").format(py::str(", ").attr("join")(parts));
+    type.def("__repr__", [](const Report& report) {
+        return py::str("<SegmentReport: {} contours, {} points, {}, residual {:.3g} mm (max), {:.3g} mm (rms), {} warnings>")
+            .format(report.contours, report.points, in_ml(report.mask_volume_ml), report.residual.max_mm,
+                    report.residual.rms_mm, report.warnings.size());
     });
+    bind_json(type);
+}
+
+void bind_segmentation(py::module_& m) {
+    py::class_<Segmentation> type(m, "Segmentation", "What `segment` made.");
+    type.def_readonly("mask", &Segmentation::mask, "Mask");
+    type.def_readonly("function", &Segmentation::function, "ImplicitFunction: f > 0 inside.");
+    type.def_property_readonly("mesh", &mesh_of, "TriangleMesh, or None when it was not asked for.");
+    type.def_readonly("report", &Segmentation::report, "SegmentReport");
+    type.def("__repr__", [](const Segmentation& s) {
+        const std::string triangles = s.mesh ? ", " + std::to_string(s.mesh->triangles.size()) + " triangles" : "";
+        return py::str("<Segmentation: {}{}, residual {:.3g} mm (max)>")
+            .format(in_ml(s.report.mask_volume_ml), triangles, s.report.residual.max_mm);
+    });
+    type.def(py::pickle(
+        [](const py::object& self) {
+            return py::make_tuple(self.attr("mask"), self.attr("function"), self.attr("mesh"), self.attr("report"));
+        },
+        [](const py::tuple& state) {
+            return Segmentation{state[0].cast<Mask>(), state[1].cast<ImplicitFunction>(),
+                                state[2].cast<std::optional<TriangleMesh>>(), state[3].cast<SegmentReport>()};
+        }));
 }
 
 }  // namespace
 
 void bind_segment(py::module_& m) {
     bind_report(m);
-    py::class_<Segmentation> segmentation(m, "Segmentation", "What `segment` made.");
-    segmentation.def_readonly("mask", &Segmentation::mask, "Mask");
-    segmentation.def_readonly("function", &Segmentation::function, "ImplicitFunction: f > 0 inside.");
-    segmentation.def_property_readonly(
-        "mesh",
-        [](const py::object& self) -> py::object {
-            const auto& mesh = self.cast<const Segmentation&>().mesh;
-            if (!mesh) return py::none();
-            return py::cast(&*mesh, py::return_value_policy::reference_internal, self);
-        },
-        "TriangleMesh, or None when it was not asked for.");
-    segmentation.def_readonly("report", &Segmentation::report, "SegmentReport");
+    bind_segmentation(m);
 
     const auto keywords = segment_keywords();
     define(

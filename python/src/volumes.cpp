@@ -6,6 +6,7 @@
 
 #include "bindings.h"
 #include "kontur/shape/volume.h"
+#include "kontur/view/picture.h"
 
 namespace kontur::python {
 namespace {
@@ -29,14 +30,6 @@ void check_type(const py::array& values, const char* what) {
     if (std::string_view("biuf").find(values.dtype().kind()) == std::string_view::npos)
         throw Error(ErrorKind::unsupported,
                     std::string(what) + " of type " + py::str(values.dtype()).cast<std::string>() + " are no real numbers");
-}
-
-Mask mask_from(const py::array& values, const Grid& grid) {
-    check_shape(values, grid);
-    check_type(values, "mask values");
-    if (values.dtype().kind() == 'f' && py::bool_(values.attr("__ne__")(values).attr("any")()))
-        throw Error(ErrorKind::invalid_input, "a mask has the value NaN, which is neither inside nor outside");
-    return {grid, copied<std::uint8_t>(values.attr("__ne__")(0))};
 }
 
 /// Whether all values of an integer array fit into Value; an empty array never occurs.
@@ -97,9 +90,44 @@ Image::Samples samples_from(const py::array& values) {
     return copied<std::int32_t>(values);
 }
 
-Image image_from(const py::array& samples, const Grid& grid) {
-    check_shape(samples, grid);
-    return {grid, samples_from(samples)};
+/// An array of the grid's shape. Throws Error(invalid_input).
+py::array volume_from(const py::object& source, const Grid& grid) {
+    const py::array values = array_from(source);
+    if (!values) throw py::error_already_set();
+    check_shape(values, grid);
+    return values;
+}
+
+Image image_from(const py::object& samples, const Grid& grid) { return {grid, samples_from(volume_from(samples, grid))}; }
+
+/// The floats as whole numbers, which keep them apart where 32-bit floats would not. Throws Error(invalid_input) for
+/// fractions, NaN and infinity among them.
+py::array wholes_of(const py::array& values) {
+    const auto numpy = py::module_::import("numpy");
+    const py::object fractions = numpy.attr("not_equal")(numpy.attr("trunc")(values), values) |
+                                 numpy.attr("greater")(numpy.attr("abs")(values), 1e15);
+    if (py::bool_(fractions.attr("any")()))
+        throw Error(
+            ErrorKind::invalid_input,
+            py::str("the array is no mask and no label map: {} voxels hold values that are not integers, the first is {}; "
+                    "compare it with a threshold (`array > 0.5`)")
+                .format(fractions.attr("sum")(), values[fractions][py::int_(0)])
+                .cast<std::string>());
+    return values.attr("astype")("int64");
+}
+
+/// What `read_mask` makes of a file with these values; a lone value below 0 is more often a mark for something else.
+Mask mask_from(const py::object& source, const Grid& grid, std::optional<std::int64_t> label) {
+    py::array values = volume_from(source, grid);
+    check_type(values, "mask values");
+    if (values.dtype().kind() == 'f') values = wholes_of(values);
+    if (const py::int_ least(values.attr("min")()); !label && least < py::int_(0))
+        throw Error(ErrorKind::invalid_input,
+                    py::str("the array has the value {}; a mask holds 0 and one value above it, or choose "
+                            "one with the option label")
+                        .format(least)
+                        .cast<std::string>());
+    return select_mask({grid, samples_from(values)}, label, "the array");
 }
 
 py::array mask_values(const py::object& self) {
@@ -126,39 +154,49 @@ void define_array(Class& type, py::array (*array)(const py::object&)) {
         py::arg("dtype") = py::none());
 }
 
+double volume_ml(const Mask& mask) {
+    const auto inside = mask.values.size() - std::count(mask.values.begin(), mask.values.end(), std::uint8_t{0});
+    return static_cast<double>(inside) * mask.grid.voxel_volume_mm3() / 1000;
+}
+
 void bind_mask(py::module_& m) {
     py::class_<Mask> mask(m, "Mask", R"(A binary mask on a grid. numpy.asarray(mask) is its array.
 
 Parameters
 ----------
 values : array_like, shape (z, y, x)
-    Inside where not 0; copied. NaN is refused.
+    Booleans, or whole numbers of which at most one is not 0: inside where not 0; copied. Label maps with several labels need
+    `label`; probabilities and other fractions are refused, and so are numbers below 0 without `label`.
 grid : Grid
+label : int, optional
+    Inside where `values` has this value, which must be there.
 
 Examples
 --------
->>> grid = kontur.Grid((4, 3, 2), np.eye(4))
+>>> grid = kontur.Grid((4, 3, 2), np.eye(4), frame="LPS")
 >>> mask = kontur.Mask(np.arange(24).reshape(2, 3, 4) > 20, grid)
 >>> mask.values.sum(), mask.volume_ml
 (3, 0.003)
+>>> organs = np.arange(24).reshape(2, 3, 4) // 8
+>>> kontur.Mask(organs, grid, label=2).values.sum()
+8
 )");
-    constructor(mask, &mask_from, py::arg("values"), py::arg("grid"));
+    constructor(mask, &mask_from, py::arg("values"), py::arg("grid"), py::arg("label") = py::none());
     mask.def_readonly("grid", &Mask::grid, "Grid");
     mask.def_property_readonly(
         "values", &mask_values,
         "ndarray, shape (z, y, x), uint8: 0 outside, 1 inside. A view: writing to it changes the mask.");
-    mask.def_property_readonly(
-        "volume_ml",
-        [](const Mask& self) {
-            const auto inside = self.values.size() - std::count(self.values.begin(), self.values.end(), std::uint8_t{0});
-            return static_cast<double>(inside) * self.grid.voxel_volume_mm3() / 1000;
-        },
-        "float");
+    mask.def_property_readonly("volume_ml", &volume_ml, "float");
     define_array(mask, &mask_values);
-    mask.def("__repr__", [](const py::object& self) { return py::str("<Mask on {!r}>").format(self.attr("grid")); });
-    mask.def("__reduce__", [](const py::object& self) {
-        return py::make_tuple(py::type::of(self), py::make_tuple(mask_values(self), self.attr("grid")));
+    mask.def("__repr__", [](const Mask& self) {
+        return py::str("<Mask of {} on {!r}>").format(in_ml(volume_ml(self)), py::cast(self.grid));
     });
+    // Not by way of the constructor: whatever was written into the array comes back.
+    mask.def(py::pickle([](const py::object& self) { return py::make_tuple(mask_values(self), self.attr("grid")); },
+                        [](const py::tuple& state) {
+                            const auto grid = state[1].cast<Grid>();
+                            return Mask{grid, copied<std::uint8_t>(volume_from(state[0], grid))};
+                        }));
 }
 
 void bind_image(py::module_& m) {
@@ -173,7 +211,7 @@ grid : Grid
 
 Examples
 --------
->>> image = kontur.Image(np.full((2, 3, 4), -1000), kontur.Grid((4, 3, 2), np.eye(4)))
+>>> image = kontur.Image(np.full((2, 3, 4), -1000), kontur.Grid((4, 3, 2), np.eye(4), frame="LPS"))
 >>> image.samples.dtype
 dtype('int16')
 )");

@@ -19,4 +19,4 @@ def kidney(case):
 def oblique():
     """A sheared, left-handed grid without any two equal numbers."""
     affine = numpy.array([[0.8, 0.1, -0.3, 10], [-0.2, 0.9, 0.25, -20], [0.05, 0.15, -2.5, 30], [0, 0, 0, 1]])
-    return kontur.Grid((5, 4, 3), affine)
+    return kontur.Grid((5, 4, 3), affine, frame="LPS")

@@ -2,6 +2,7 @@
 """The examples in docstrings run, everything has a docstring, and the stubs say what the module is."""
 import doctest
 import inspect
+import os
 import pathlib
 import re
 import subprocess
@@ -11,6 +12,7 @@ import kontur
 import numpy
 import pytest
 
+ROOT = pathlib.Path(__file__).parents[2]
 NAMES = {"kontur": kontur, "np": numpy}
 
 
@@ -59,8 +61,29 @@ def test_stubs_and_module_agree(tmp_path):
     assert lines == []
 
 
+def test_the_readmes_program_is_clean_for_strict_type_checkers(tmp_path):
+    pytest.importorskip("mypy")
+    [program] = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    more = """
+flag: bool = len(contours) > 3
+for contour in contours:
+    reveal_type(contour)
+reveal_type(contours[0])
+reveal_type(contours[1:])
+reveal_type(kontur.segment(contours, image.grid).mesh)
+reveal_type(kontur.segment(contours, image.grid, mesh=flag).mesh)
+reveal_type(liver.mesh)
+"""
+    (tmp_path / "program.py").write_text(program + more)
+    result = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", "program.py"],
+                            capture_output=True, text=True, cwd=tmp_path, env={**os.environ, "MYPYPATH": os.environ["PYTHONPATH"]})
+    assert result.returncode == 0, result.stdout + result.stderr
+    told = re.findall(r'Revealed type is "(.*)"', result.stdout)
+    assert told == ["kontur.Contour", "kontur.Contour", "kontur.ContourSet", *["Union[kontur.TriangleMesh, None]"] * 2,
+                    "kontur.TriangleMesh"], result.stdout
+
+
 def test_the_programs_in_the_documentation_run(tmp_path, monkeypatch):
-    root = pathlib.Path(__file__).parents[2]
     case = kontur.phantom_case("liver_orthogonal14")
     (tmp_path / "demo").mkdir()
     kontur.write_contours(tmp_path / "demo" / "liver_orthogonal14.json", case.contours)
@@ -68,7 +91,7 @@ def test_the_programs_in_the_documentation_run(tmp_path, monkeypatch):
     kontur.write_image(tmp_path / "demo" / "liver_ct.nii.gz", kontur.make_phantom_image(grid))
     monkeypatch.chdir(tmp_path)
     for page, blocks in (("README.md", 1), ("docs/python.md", 5)):
-        programs = re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.DOTALL)
+        programs = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.DOTALL)
         assert len(programs) >= blocks
         exec(compile("\n".join(programs), page, "exec"), {})
     assert (tmp_path / "liver.nii.gz").exists() and (tmp_path / "liver.stl").exists()

@@ -19,7 +19,7 @@ def test_images_come_back(tmp_path, oblique, name):
 
 
 def test_masks_come_back_by_label(tmp_path, oblique):
-    mask = kontur.Mask(numpy.arange(60).reshape(oblique.shape) % 3, oblique)
+    mask = kontur.Mask(numpy.arange(60).reshape(oblique.shape) % 3 > 0, oblique)
     kontur.write_mask(tmp_path / "a.seg.nrrd", mask, label_value=7, segment_name="left kidney")
     assert numpy.array_equal(kontur.read_mask(tmp_path / "a.seg.nrrd", label=7).values, mask.values)
     assert b"Segment0_Name:=left kidney" in (tmp_path / "a.seg.nrrd").read_bytes()
@@ -72,7 +72,7 @@ def make_series(folder, grid):
 
 
 def test_a_dicom_series(tmp_path):
-    grid = kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]))
+    grid = kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]), frame="LPS")
     make_series(tmp_path, grid)
     [series] = kontur.list_dicom_series(tmp_path)
     assert (series.modality, series.description, len(series.files), series.rows) == ("CT", "phantom", 5, 3)
@@ -85,7 +85,7 @@ def test_a_dicom_series(tmp_path):
 
 
 def test_segments_that_overlap_keep_every_voxel(tmp_path):
-    grid = kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]))
+    grid = kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]), frame="LPS")
     (tmp_path / "ct").mkdir()
     make_series(tmp_path / "ct", grid)
     [series] = kontur.list_dicom_series(tmp_path / "ct")
@@ -101,7 +101,7 @@ def test_segments_that_overlap_keep_every_voxel(tmp_path):
 
 
 def test_notes_go_to_the_caller_or_to_the_log(tmp_path, caplog):
-    make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1])))
+    make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]), frame="LPS"))
     (tmp_path / "readme.txt").write_text("no image")
     notes = []
     kontur.read_image(tmp_path, on_note=notes.append)

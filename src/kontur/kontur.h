@@ -65,6 +65,7 @@
 // All of it at once.
 #include "kontur/editor.h"
 #include "kontur/live_editor.h"
+#include "kontur/report.h"
 #include "kontur/segment.h"
 
 // Judging and showing the result.

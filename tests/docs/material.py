@@ -51,8 +51,8 @@ def write_material(folder):
     for name in ("contours.json", "planes.json", "demo/liver_orthogonal14.json", "P001/liver.json"):
         kontur.write_contours(folder / name, CASE.contours)
     kontur.write_contours(folder / "curves.mrk.json", CASE.contours)
-    axial = [c for c in CASE.contours.contours if abs(c.plane.normal[2]) > 0.9]
-    others = [c for c in CASE.contours.contours if abs(c.plane.normal[2]) <= 0.9]
+    axial = [c for c in CASE.contours if abs(c.plane.normal[2]) > 0.9]
+    others = [c for c in CASE.contours if abs(c.plane.normal[2]) <= 0.9]
     for name, some in (("axial", axial), ("sagittal", others)):
         kontur.write_contours(folder / "P002" / f"{name}.json", kontur.ContourSet(some, name="liver"))
     write_dicom(folder / "dicom_folder", image)

@@ -47,6 +47,13 @@ TEST(WritePng, SamePictureGivesTheSameBytes) {
     EXPECT_EQ(bytes_of(folder / "a.png"), bytes_of(folder / "b.png"));
 }
 
+TEST(EncodePng, GivesTheBytesOfTheFile) {
+    const test::TemporaryFolder folder;
+    write_png(folder / "a.png", noise(50, 40), {{"made_by", "hand"}});
+    EXPECT_EQ(encode_png(noise(50, 40), {{"made_by", "hand"}}), bytes_of(folder / "a.png"));
+    EXPECT_KONTUR_ERROR(encode_png(RgbImage{}), ErrorKind::invalid_input, "0 x 0");
+}
+
 TEST(WritePng, RefusesWhatIsNoPictureAndLeavesNothingBehind) {
     const test::TemporaryFolder folder;
     EXPECT_KONTUR_ERROR(write_png(folder / "a.png", RgbImage{}), ErrorKind::invalid_input, "0 x 0");

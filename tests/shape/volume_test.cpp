@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kontur/base/error.h"
+#include "support/expect_error.h"
 
 namespace kontur {
 namespace {
@@ -101,6 +102,24 @@ TEST(CountLabels, RefusesAnImageWithTooManyValues) {
     const Image image = image_of<std::int16_t>(small_grid(), [](auto i, auto j, auto k) { return i + 3 * j + 12 * k; });
     EXPECT_EQ(count_labels(image, 59).size(), 59u);
     EXPECT_NE(message_of_count(image, 58).find("58"), std::string::npos);
+}
+
+TEST(SelectMask, TakesTheLoneLabelOrTheChosenOne) {
+    const auto lone = image_of<std::int16_t>(small_grid(), [](auto i, auto, auto) { return i == 0 ? 0 : -7; });
+    const auto two = image_of<float>(small_grid(), [](auto i, auto, auto) { return i; });
+    EXPECT_EQ(select_mask(lone, {}, "it").values, select_nonzero(lone).values);
+    EXPECT_EQ(select_mask(lone, -7, "it").values, select_nonzero(lone).values);
+    EXPECT_EQ(select_mask(two, 2, "it").values, select_label(two, 2).values);
+    const auto none = image_of<std::uint8_t>(small_grid(), [](auto, auto, auto) { return 0; });
+    EXPECT_TRUE(bounding_box(select_mask(none, {}, "it")).is_empty());
+}
+
+TEST(SelectMask, RefusesWhatLeavesAChoiceAndNamesIt) {
+    const auto two = image_of<std::uint8_t>(small_grid(), [](auto i, auto, auto) { return i; });
+    const auto halves = image_of<float>(small_grid(), [](auto i, auto, auto) { return 0.5 * i; });
+    EXPECT_KONTUR_ERROR(select_mask(two, {}, "it"), ErrorKind::invalid_input, "it has 2 labels; choose one of 1, 2");
+    EXPECT_KONTUR_ERROR(select_mask(two, 3, "it"), ErrorKind::invalid_input, "it has no label 3; its labels are 1, 2");
+    EXPECT_KONTUR_ERROR(select_mask(halves, {}, "it"), ErrorKind::invalid_input, "it: the image is no label map: 20 voxels");
 }
 
 }  // namespace

@@ -78,17 +78,6 @@ void report(const std::vector<std::string>& notes, const ReadImageOptions& optio
     for (const std::string& note : notes) options.on_note(note);
 }
 
-std::string list_of(const std::map<std::int64_t, std::int64_t>& labels) {
-    constexpr std::size_t kMaxListed = 20;
-    std::string list;
-    std::size_t listed = 0;
-    for (const auto& [label, count] : labels) {
-        if (++listed > kMaxListed) return list + " and " + std::to_string(labels.size() - kMaxListed) + " more";
-        list += (list.empty() ? "" : ", ") + std::to_string(label);
-    }
-    return list.empty() ? "none" : list;
-}
-
 std::map<std::int64_t, std::int64_t> labels_of(const Image& image, const fs::path& path) {
     try {
         return count_labels(image);
@@ -214,14 +203,7 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
 Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
                const Progress& progress) {
     const Image image = read_labels(path, label, options, progress);
-    const auto labels = labels_of(image, path);
-    if (!label && labels.size() > 1)
-        throw Error(ErrorKind::invalid_input, path.string() + " has " + std::to_string(labels.size()) +
-                                                  " labels; choose one of " + list_of(labels) + " with the option label");
-    if (label && !labels.contains(*label))
-        throw Error(ErrorKind::invalid_input,
-                    path.string() + " has no label " + std::to_string(*label) + "; its labels are " + list_of(labels));
-    return label ? select_label(image, static_cast<double>(*label)) : select_nonzero(image);
+    return select_mask(image, label, path.string());
 }
 
 void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& options) {

@@ -60,8 +60,12 @@ std::string with_text(std::string png, const Provenance& provenance) {
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const RgbImage& image, const Provenance& provenance) {
+    write_file_atomically(path, encode_png(image, provenance));
+}
+
+std::string encode_png(const RgbImage& image, const Provenance& provenance) {
     check_picture(image);
-    write_file_atomically(path, with_text(encode(image), provenance));
+    return with_text(encode(image), provenance);
 }
 
 }  // namespace kontur

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/rgb_image.h"
@@ -12,5 +13,8 @@ namespace kontur {
 /// `provenance` goes into text chunks, each with the keyword "kontur NAME". Throws Error(invalid_input) for a picture
 /// without pixels or with a wrong number of bytes, Error(io) naming file and reason.
 void write_png(const std::filesystem::path& path, const RgbImage& image, const Provenance& provenance = {});
+
+/// The bytes of such a file, for what shows pictures without files. Errors as `write_png`'s but for io.
+std::string encode_png(const RgbImage& image, const Provenance& provenance = {});
 
 }  // namespace kontur

@@ -51,6 +51,17 @@ bool is_label(double value) { return std::trunc(value) == value && std::abs(valu
                                               std::to_string(first));
 }
 
+std::string list_of(const std::map<std::int64_t, std::int64_t>& labels) {
+    constexpr std::size_t kMaxListed = 20;
+    std::string list;
+    std::size_t listed = 0;
+    for (const auto& [label, count] : labels) {
+        if (++listed > kMaxListed) return list + " and " + std::to_string(labels.size() - kMaxListed) + " more";
+        list += (list.empty() ? "" : ", ") + std::to_string(label);
+    }
+    return list.empty() ? "none" : list;
+}
+
 }  // namespace
 
 Box3 bounding_box(const Mask& mask) {
@@ -118,6 +129,22 @@ std::map<std::int64_t, std::int64_t> count_labels(const Image& image, std::size_
         },
         image.samples);
     return counts;
+}
+
+Mask select_mask(const Image& image, std::optional<std::int64_t> label, const std::string& name) {
+    std::map<std::int64_t, std::int64_t> labels;
+    try {
+        labels = count_labels(image);
+    } catch (const Error& error) {
+        throw error.with_context(name);
+    }
+    if (!label && labels.size() > 1)
+        throw Error(ErrorKind::invalid_input, name + " has " + std::to_string(labels.size()) + " labels; choose one of " +
+                                                  list_of(labels) + " with the option label");
+    if (label && !labels.contains(*label))
+        throw Error(ErrorKind::invalid_input,
+                    name + " has no label " + std::to_string(*label) + "; its labels are " + list_of(labels));
+    return label ? select_label(image, static_cast<double>(*label)) : select_nonzero(image);
 }
 
 }  // namespace kontur

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -43,5 +45,10 @@ Mask select_nonzero(const Image& image);
 /// Voxel count of every value except 0. Throws Error(invalid_input) when the image is no label map: a value that is not
 /// an integer (naming it and how many) or more than `max_labels` different ones.
 std::map<std::int64_t, std::int64_t> count_labels(const Image& image, std::size_t max_labels = 4096);
+
+/// The mask that a label map stands for: the voxels with the value `label`, or without one all voxels other than 0. Throws
+/// Error(invalid_input), with `name` for the image, when it is no label map, when it holds several labels and none was
+/// chosen, or when the chosen one is not there; both list the labels.
+Mask select_mask(const Image& image, std::optional<std::int64_t> label, const std::string& name);
 
 }  // namespace kontur

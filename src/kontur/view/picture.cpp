@@ -56,16 +56,24 @@ double common_pixel_mm(const std::array<Slice, 3>& slices, const Rect& cell) {
 
 std::string volume(const TriangleMesh& mesh) { return in_ml(signed_volume_mm3(mesh) / 1000); }
 
+/// Without contours only the surface, which came without them.
+std::string subtitle(const TriangleMesh& mesh, const ContourSet& contours) {
+    const std::string surface = "surface of " + volume(mesh);
+    const std::size_t drawn = contours.contours.size();
+    return drawn == 0 ? surface : surface + " from " + std::to_string(drawn) + " drawn contours";
+}
+
 std::string extent(const TriangleMesh& mesh) {
     const Vec3 size = bounding_box(mesh.points).size();
     return rounded(size.x, 3) + " × " + rounded(size.y, 3) + " × " + rounded(size.z, 3) + " mm";
 }
 
 std::vector<PictureFact> all_facts(const TriangleMesh& mesh, const ContourSet& contours, const PictureOptions& options) {
-    std::vector<PictureFact> facts{{"Volume (surface)", volume(mesh)},
-                                   {"Extent RL × AP × SI", extent(mesh)},
-                                   {"Contours", std::to_string(contours.contours.size())},
-                                   {"Points", std::to_string(point_count(contours))}};
+    std::vector<PictureFact> facts{{"Volume (surface)", volume(mesh)}, {"Extent RL × AP × SI", extent(mesh)}};
+    if (!contours.contours.empty()) {
+        facts.push_back({"Contours", std::to_string(contours.contours.size())});
+        facts.push_back({"Points", std::to_string(point_count(contours))});
+    }
     facts.insert(facts.end(), options.facts.begin(), options.facts.end());
     return facts;
 }
@@ -170,9 +178,7 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
-    const std::string subtitle =
-        "surface of " + volume(mesh) + " from " + std::to_string(contours.contours.size()) + " drawn contours";
-    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle);
+    draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle(mesh, contours));
     picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, options.threads);
 
     const std::array<Slice, 3> slices = choose_slices(mesh, contours, image);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "segment_report.h"
-
-#include <sys/resource.h>
+#include "kontur/report.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
+#include <nlohmann/json.hpp>
 #include <span>
-#include <string>
 
-namespace kontur::app {
+#include "kontur/base/machine_memory.h"
+
+namespace kontur {
 namespace {
+
+using Facts = nlohmann::ordered_json;
 
 Facts seconds_json(const SegmentReport& report) {
     Facts seconds = Facts::object();
@@ -46,7 +46,9 @@ Facts provenance_json(const Provenance& made) {
     return facts;
 }
 
-}  // namespace
+Facts mask_json(const SegmentReport& report) {
+    return {{"voxels", report.mask_voxels}, {"volume_ml", report.mask_volume_ml}, {"components", report.mask_components}};
+}
 
 Facts report_json(const SegmentReport& report, const Provenance& made) {
     return {
@@ -78,10 +80,15 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"seconds", seconds_json(report)},
         {"peak_memory_mb", peak_memory_mb()},
         {"estimated_memory_mb", report.estimated_memory_mb},
-        {"mask",
-         {{"voxels", report.mask_voxels}, {"volume_ml", report.mask_volume_ml}, {"components", report.mask_components}}},
+        {"mask", mask_json(report)},
         {"warnings", report.warnings},
     };
+}
+
+}  // namespace
+
+std::string to_json(const SegmentReport& report, const Provenance& made) {
+    return report_json(report, made).dump(2, ' ', false, Facts::error_handler_t::replace) + "\n";
 }
 
 double total_seconds(const SegmentReport& report) {
@@ -90,14 +97,4 @@ double total_seconds(const SegmentReport& report) {
     return total;
 }
 
-double peak_memory_mb() {
-    // The highest mark of this program alone; getrusage's includes that of the program that started it.
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with("VmHWM:")) return std::strtod(line.c_str() + 6, nullptr) * 1024 / 1e6;
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;  // Linux counts kibibytes
-}
-
-}  // namespace kontur::app
+}  // namespace kontur

@@ -59,10 +59,14 @@ std::string frame_of_reference_of(const fs::path& mask) {
     return is_dicom_seg(mask) ? read_dicom_segmentation(mask).frame_of_reference_uid : "";
 }
 
+std::string frame_of_reference_of(const ImageInput& images) {
+    if (images.path.empty() || !looks_like_dicom(images.path)) return "";
+    return is_dicom_seg(images.path) ? frame_of_reference_of(images.path) : series_of(images).frame_of_reference_uid;
+}
+
 std::vector<std::string> frame_of_reference_notes(const std::string& uid, const ImageInput& images) {
-    if (uid.empty() || images.path.empty() || !looks_like_dicom(images.path)) return {};
-    const std::string other =
-        is_dicom_seg(images.path) ? frame_of_reference_of(images.path) : series_of(images).frame_of_reference_uid;
+    if (uid.empty()) return {};
+    const std::string other = frame_of_reference_of(images);
     if (other.empty() || other == uid) return {};
     return {
         fmt::format("what was drawn lies in the frame of reference {}, the images in {}; it may not fit them", uid, other)};

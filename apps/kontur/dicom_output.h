@@ -28,6 +28,9 @@ WriteRtstructOptions rtstruct_options(const std::optional<HoleEncoding>& holes, 
 /// The frame of reference that a mask names: of a DICOM segmentation; else "".
 std::string frame_of_reference_of(const std::filesystem::path& mask);
 
+/// The frame of reference of DICOM images or of a segmentation; "" when none is named.
+std::string frame_of_reference_of(const ImageInput& images);
+
 /// What the user should know, in one sentence, where contours or a mask name another frame of reference than the images;
 /// nothing where either names none.
 std::vector<std::string> frame_of_reference_notes(const std::string& uid, const ImageInput& images);

@@ -15,9 +15,11 @@
 
 #include "child_process.h"
 #include "commands.h"
+#include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/atomic_file.h"
 #include "viewer/image_identity.h"
+#include "viewer/import_doubts.h"
 #include "viewer/page.h"
 #include "viewer/server.h"
 #include "viewer/session.h"
@@ -82,6 +84,7 @@ viewer::OpenedImage open_image(const ImageInput& input, const Progress& progress
         opened.image = std::make_shared<const Image>(read_image(input.path, options, progress));
         opened.title = fs::absolute(input.path).lexically_normal().filename().string();
         opened.reference.path = fs::absolute(input.path).lexically_normal().string();
+        opened.frame_of_reference_uid = frame_of_reference_of(input);
     }
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);
     return opened;
@@ -122,16 +125,22 @@ fs::path project_path(const OpenCommand& command, const Words& words, const view
 }
 
 /// What a new project starts with: the contours of the file, or a structure to draw.
-ContourSet first_contours(const OpenCommand& command, const Words& words, Console& console) {
-    ContourSet set;
-    if (!words.contours.empty()) {
-        ReadContours read = read_contours(words.contours, command.read);
-        check_contours(read.contours);
-        console.note(read.notes);
-        set = std::move(read.contours);
-        if (set.name.empty()) set.name = bare_name(words.contours);
+ReadContours first_contours(const OpenCommand& command, const Words& words, Console& console) {
+    if (words.contours.empty()) return {};
+    ReadContours read = read_contours(words.contours, command.read);
+    check_contours(read.contours);
+    console.note(read.notes);
+    if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);
+    return read;
+}
+
+/// Whoever names image and contours together may have named the wrong ones: said here and on the page.
+void tell_doubts(const ReadContours& first, viewer::OpenedImage& image, Console& console) {
+    for (const std::string& doubt : viewer::import_doubts({first.contours}, first.frame_of_reference_uid, image.image->grid,
+                                                          image.frame_of_reference_uid)) {
+        console.warn("do these contours belong to this image? " + doubt);
+        image.notes.push_back("Do these contours belong to this image? " + doubt);
     }
-    return set;
 }
 
 /// A page that leads to the address, in a folder that nobody else can look into: all users of the machine can read the
@@ -196,11 +205,12 @@ void run(const OpenCommand& command, Console& console) {
     console.note(image.notes);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
-    std::optional<ContourSet> first;
+    std::optional<ReadContours> first;
     if (!fs::exists(project)) first = first_contours(command, words, console);
+    if (first) tell_doubts(*first, image, console);
     viewer::Session session(std::move(image), project);
     if (session.is_new()) {
-        session.begin_with(first ? *first : first_contours(command, words, console));
+        session.begin_with(first ? first->contours : first_contours(command, words, console).contours);
     } else if (!words.contours.empty()) {
         console.warn(fmt::format("{} holds the work on these contours from before; they were not read again",
                                  session.project_path().string()));

@@ -72,6 +72,8 @@ std::optional<Refusal> refusal(const RequestHead& head, const Access& access) {
     return std::nullopt;
 }
 
+bool shows_token(const RequestHead& head, const Access& access) { return has_token(head, access.token); }
+
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))

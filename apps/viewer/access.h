@@ -44,6 +44,9 @@ struct Access {
 /// The first check of docs/viewer-protocol.md that fails: Host, Origin, token, method.
 std::optional<Refusal> refusal(const RequestHead& head, const Access& access);
 
+/// Whether the request shows the secret, as only the user's own programs can.
+bool shows_token(const RequestHead& head, const Access& access);
+
 /// 128 random bits in hexadecimal.
 std::string random_token();
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "kontur/base/error.h"
+#include "kontur/shape/self_contacts.h"
 
 namespace kontur::viewer {
 namespace {
@@ -201,6 +202,21 @@ DrawnContour offset(const DrawnContour& contour, double offset_mm) {
     DrawnContour copy = moved(contour, by);
     copy.plane.origin += by;
     return copy;
+}
+
+std::vector<Vec3> self_crossings(const DrawnContour& contour, std::size_t most) {
+    Polygon2 polygon;
+    for (const Vec3& p : contour.points) {
+        const Point2 at = contour.plane.to_uv(p);
+        if (polygon.empty() || polygon.back() != at) polygon.push_back(at);
+    }
+    while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+    std::vector<Vec3> crossings;
+    if (polygon.size() < 4) return crossings;  // three points cannot cross
+    for (const SelfContact& contact : find_self_contacts(polygon).contacts)
+        if (contact.kind == SelfContact::Kind::crossing && crossings.size() < most)
+            crossings.push_back(contour.plane.from_uv(contact.position));
+    return crossings;
 }
 
 std::size_t nearest_point(const std::vector<Vec3>& points, const Vec3& p) {

@@ -39,6 +39,9 @@ DrawnContour translate(const DrawnContour& contour, const Vec3& by);
 /// The same line in the parallel plane at this distance along the normal.
 DrawnContour offset(const DrawnContour& contour, double offset_mm);
 
+/// Where the line crosses itself, in mm; where it only touches itself it does not. At most `most` places. O(n log n).
+std::vector<Vec3> self_crossings(const DrawnContour& contour, std::size_t most = 20);
+
 /// The line's point nearest to `p`.
 std::size_t nearest_point(const std::vector<Vec3>& points, const Vec3& p);
 

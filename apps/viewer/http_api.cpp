@@ -167,7 +167,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
     if (get && below("/api/mesh/")) {
         const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
-        if (!id || !session_.has_surface(*id)) return not_found();
+        if (!id) return not_found();
         return binary(session_.mesh(*id));
     }
     if (get && below("/api/export/")) return exported(target, stop);
@@ -201,7 +201,9 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     } else {
         return not_found();
     }
-    return {200, "application/json", to_text({{"structures", session_.import(request.body, upload, stop)}}), {}};
+    upload.anyway = target.parameter("anyway").has_value();
+    const ImportReply reply = session_.import(request.body, upload, stop);
+    return {200, "application/json", to_text({{"structures", reply.structures}, {"doubts", reply.doubts}}), {}};
 }
 
 }  // namespace kontur::viewer

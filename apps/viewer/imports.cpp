@@ -120,6 +120,7 @@ Imported read_rtstruct_of(const fs::path& path) {
         if (!roi.damage.empty()) imported.notes.push_back("left out: " + roi.damage);
         for (const std::string& note : roi.notes) imported.notes.push_back(roi.name + ": " + note);
         if (roi.contours.contours.empty()) continue;
+        if (imported.frame_of_reference_uid.empty()) imported.frame_of_reference_uid = roi.frame_of_reference_uid;
         check_contours(roi.contours);
         imported.sets.push_back(std::move(roi.contours));
     }
@@ -131,7 +132,7 @@ Imported read_contours_of(const fs::path& path) {
     if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
     ReadContours read = read_contours(path);
     check_contours(read.contours);
-    return {{std::move(read.contours)}, std::move(read.notes)};
+    return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }
 
 Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
@@ -154,7 +155,7 @@ json result_of(const Upload& upload) {
     const Imported imported =
         upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path);
     for (std::size_t i = 0; i < imported.sets.size(); ++i) write_contours(fmt::format("{}.json", i), imported.sets[i]);
-    return {{"sets", imported.sets.size()}, {"notes", imported.notes}};
+    return {{"sets", imported.sets.size()}, {"notes", imported.notes}, {"frame", imported.frame_of_reference_uid}};
 }
 
 json error_json(ErrorKind kind, std::string_view sentence) {
@@ -189,7 +190,8 @@ Upload upload_from(char** words) {
     const auto has = [&](char axis) { return axes.find(axis) != std::string_view::npos; };
     return {content == "mask" ? Upload::Content::mask : Upload::Content::contours,
             words[3],
-            {std::atoi(words[4]), has('a'), has('s'), has('c')}};
+            {std::atoi(words[4]), has('a'), has('s'), has('c')},
+            false};
 }
 
 // In the server
@@ -268,6 +270,7 @@ Imported result_in(const fs::path& folder, int status, const Progress& progress)
         imported.sets.push_back(read_contours(folder / fmt::format("{}.json", i)).contours);
     }
     imported.notes = result.at("notes").get<std::vector<std::string>>();
+    imported.frame_of_reference_uid = result.at("frame").get<std::string>();
     return imported;
 }
 

@@ -21,11 +21,13 @@ struct Upload {
     Content content = Content::contours;
     std::string extension;  ///< one that kontur knows; nothing else of the file's name is used
     TraceRequest trace;     ///< of a mask
+    bool anyway = false;    ///< whether it comes in though it may not belong to the image
 };
 
 struct Imported {
     std::vector<ContourSet> sets;    ///< one for each structure of the file, none of them empty
     std::vector<std::string> notes;  ///< how the file was read, for the user to see
+    std::string frame_of_reference_uid{};  ///< "" when none is named
 };
 
 /// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a

@@ -55,6 +55,7 @@ void keep_to_this_process(int descriptor) { fcntl(descriptor, F_SETFD, FD_CLOEXE
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
 class PageSocket;
+class Connection;
 
 }  // namespace
 
@@ -68,6 +69,7 @@ struct ServerCore {
     ServerOptions options;
     Access access;
     std::set<PageSocket*> sockets;
+    std::set<Connection*> requests;  ///< the connections over which requests come
     PageId last_page = 0;
     int connections = 0, imports = 0;
     Clock::time_point last_use;
@@ -79,6 +81,7 @@ struct ServerCore {
     asio::thread_pool work{kWorkers};  ///< slices, meshes, files
 
     void accept();
+    bool make_room();
     void tick();
     void broadcast(const std::string& message);
     void stop();
@@ -235,9 +238,26 @@ private:
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(ServerCore& core, tcp::socket socket)
-        : core_(core), slot_(core.connections), stream_(std::move(socket)), buffer_(128 << 10) {}
+        : core_(core), slot_(core.connections), stream_(std::move(socket)), buffer_(128 << 10) {
+        core_.requests.insert(this);
+    }
+    ~Connection() { core_.requests.erase(this); }
+
+    /// Which one goes first where there is no room for a new one: those that have never shown the token, then those between
+    /// two requests, which a browser opens again; each by how long nothing has come. Others stay.
+    bool may_go() const { return !is_known_ || is_waiting_; }
+    bool goes_before(const Connection& other) const {
+        return std::pair(is_known_, last_sign_) < std::pair(other.is_known_, other.last_sign_);
+    }
+
+    void drop() {
+        slot_.reset();
+        core_.requests.erase(this);
+        stream_.close();
+    }
 
     void wait_for_request(std::chrono::seconds patience) {
+        is_waiting_ = true;
         parser_.emplace();
         parser_->header_limit(kLargestHeader);
         // Checked again, by target, once the header is known; the parser would refuse imports by its own limit.
@@ -245,7 +265,8 @@ public:
         stream_.expires_after(patience);
         http::async_read_header(stream_, buffer_, *parser_,
                                 [self = shared_from_this()](beast::error_code error, std::size_t) {
-                                    self->core_.last_use = Clock::now();
+                                    self->is_waiting_ = false;
+                                    self->last_sign_ = self->core_.last_use = Clock::now();
                                     if (error) self->refuse_header(error);
                                     else self->check_header();
                                 });
@@ -287,6 +308,7 @@ private:
         const RequestHead head = head_of(request);
         if (const auto refused = refusal(head, core_.access))
             return finish_with(error_reply(refused->status, refused->kind, refused->message));
+        is_known_ = is_known_ || shows_token(head, core_.access);
         host_ = head.host.front();
         if (!head.target) return finish_with(error_reply(400, "invalid_input", "the address is malformed"));
         target_ = *head.target;
@@ -315,7 +337,8 @@ private:
 
     void upgrade() {
         stream_.expires_never();
-        const auto socket = std::make_shared<PageSocket>(core_, std::move(slot_), stream_.release_socket());
+        core_.requests.erase(this);
+        const auto socket = std::make_shared<PageSocket>(core_, std::move(*slot_), stream_.release_socket());
         socket->accept(parser_->get());
     }
 
@@ -355,7 +378,7 @@ private:
 
     void reply(HttpReply reply) {
         import_.reset();
-        core_.last_use = Clock::now();
+        last_sign_ = core_.last_use = Clock::now();
         response_ = {};
         response_.version(11);
         response_.result(static_cast<unsigned>(reply.status));
@@ -394,9 +417,12 @@ private:
     }
 
     ServerCore& core_;
-    Slot slot_;
+    std::optional<Slot> slot_;  ///< until it is dropped
     beast::tcp_stream stream_;
     beast::flat_buffer buffer_;
+    bool is_known_ = false;    ///< by the token, which only the user's own programs have
+    bool is_waiting_ = false;  ///< for a request's header
+    Clock::time_point last_sign_ = Clock::now();
     std::optional<http::request_parser<http::string_body>> parser_;
     http::response<http::string_body> response_;
     std::optional<Slot> import_;
@@ -412,7 +438,7 @@ private:
 void ServerCore::accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
         if (!acceptor.is_open()) return;
-        if (!error && connections < options.most_connections) {
+        if (!error && make_room()) {
             beast::error_code ignored;
             socket.set_option(tcp::no_delay(true), ignored);
             keep_to_this_process(socket.native_handle());
@@ -421,6 +447,17 @@ void ServerCore::accept() {
         }
         accept();
     });
+}
+
+/// Whoever opens connections and says nothing must not shut the page out.
+bool ServerCore::make_room() {
+    if (connections < options.most_connections) return true;
+    Connection* first = nullptr;
+    for (Connection* connection : requests)
+        if (connection->may_go() && (!first || connection->goes_before(*first))) first = connection;
+    if (!first) return false;
+    first->drop();
+    return true;
 }
 
 void ServerCore::tick() {

@@ -71,11 +71,20 @@ Commit one_contour(const std::string& label, const State& state, const DrawnCont
 
 Change<DrawnContour> removal(const DrawnContour& contour) { return {contour.id, contour, {}}; }
 
+json told_json(const Structure& structure) { return to_json(structure); }
+
+/// With what a page shows of it and no project need store.
+json told_json(const DrawnContour& contour) {
+    json told = to_json(contour);
+    told["self_crossings"] = to_json(self_crossings(contour));
+    return told;
+}
+
 template <class Row>
 json changes_json(const std::vector<Change<Row>>& changes) {
     json set = json::array(), removed = json::array();
     for (const Change<Row>& change : changes) {
-        if (change.after) set.push_back(to_json(*change.after));
+        if (change.after) set.push_back(told_json(*change.after));
         else removed.push_back(change.id);
     }
     return {{"set", std::move(set)}, {"removed", std::move(removed)}};
@@ -142,6 +151,7 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
     : image_(std::move(opened.image)),
       title_(std::move(opened.title)),
       notes_(std::move(opened.notes)),
+      frame_of_reference_uid_(std::move(opened.frame_of_reference_uid)),
       mm_to_index_(image_->grid.index_to_mm.inverse()),
       presets_(window_presets(*image_)),
       window_(suggest_window(*image_)),
@@ -189,7 +199,7 @@ std::string Session::greeting() {
     const std::scoped_lock lock(mutex_);
     json structures = json::array(), contours = json::array(), surfaces = json::array(), presets = json::array();
     for (const auto& [id, structure] : project_.state().structures) structures.push_back(to_json(structure));
-    for (const auto& [id, contour] : project_.state().contours) contours.push_back(to_json(*contour));
+    for (const auto& [id, contour] : project_.state().contours) contours.push_back(told_json(*contour));
     for (const auto& [id, surface] : surfaces_.all())
         if (project_.state().structures.contains(id)) surfaces.push_back(surface_event(*surface));
     for (const WindowPreset& preset : presets_)
@@ -346,7 +356,7 @@ json Session::put(const std::string& label, DrawnContour contour, const Members&
         if (contour.id == 0) contour.id = project_.new_id();
         commit_ahead(one_contour(label, project_.state(), contour));
     }
-    return {{"contour", to_json(contour)}};
+    return {{"contour", told_json(contour)}};
 }
 
 json Session::add_contour(const Members& m) {

@@ -32,6 +32,13 @@ struct OpenedImage {
     std::string title;
     ImageReference reference;
     std::vector<std::string> notes;  ///< what had to be decided on reading
+    std::string frame_of_reference_uid{};  ///< of DICOM images; "" when none is named
+};
+
+/// What an import came to: structures, or why the contours may not belong to the image, and then nothing has changed.
+struct ImportReply {
+    std::vector<Id> structures;
+    std::vector<std::string> doubts;
 };
 
 /// Of an open page; 0: of nobody.
@@ -66,10 +73,10 @@ public:
 
     // Replies to HTTP requests; errors are exceptions.
     std::string slice(std::string_view request);
-    bool has_surface(Id structure) const;
+    /// Without triangles, and at the stage "none", where there is no surface: it may go while it is asked for.
     std::string mesh(Id structure);
     Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {});
-    std::vector<Id> import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {});
+    ImportReply import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {});
 
     /// One structure for each set, as one step of the history.
     std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets);
@@ -145,6 +152,7 @@ private:
     const std::shared_ptr<const Image> image_;
     const std::string title_;
     const std::vector<std::string> notes_;
+    const std::string frame_of_reference_uid_;
     const Affine3 mm_to_index_;
     const std::vector<WindowPreset> presets_;
     const Window window_;

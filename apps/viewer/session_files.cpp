@@ -13,6 +13,7 @@
 #include "kontur/io/png.h"
 #include "kontur/segment.h"
 #include "kontur/view/picture.h"
+#include "viewer/import_doubts.h"
 #include "viewer/session.h"
 #include "viewer/temporary_files.h"
 
@@ -142,13 +143,19 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
     return download;
 }
 
-std::vector<Id> Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
+ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
     const StatusLine line(*this, "Importing");
     const Progress progress{{}, stop};
     const Imported imported = import_apart(bytes, upload, progress);
     progress.check();
+    if (!upload.anyway) {
+        auto doubts =
+            import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
+        if (!doubts.empty()) return {{}, std::move(doubts)};
+    }
     for (const std::string& note : imported.notes) notice("info", note);
-    return add_structures(upload.content == Upload::Content::mask ? "Import a mask" : "Import contours", imported.sets);
+    const bool is_mask = upload.content == Upload::Content::mask;
+    return {add_structures(is_mask ? "Import a mask" : "Import contours", imported.sets), {}};
 }
 
 }  // namespace kontur::viewer

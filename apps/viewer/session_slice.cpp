@@ -179,24 +179,19 @@ std::string Session::slice(std::string_view text) {
     return reply.bytes();
 }
 
-bool Session::has_surface(Id structure) const {
-    const auto surfaces = surfaces_.all();
-    const auto found = surfaces.find(structure);
-    return found != surfaces.end() && found->second->mesh && state().structures.contains(structure);
-}
-
 std::string Session::mesh(Id structure) {
     const auto surfaces = surfaces_.all();
     const auto found = surfaces.find(structure);
-    if (found == surfaces.end() || !found->second->mesh)
-        throw Error(ErrorKind::invalid_input, fmt::format("the structure {} has no surface", structure));
-    const Surface& surface = *found->second;
+    const bool is_there = found != surfaces.end() && found->second->mesh && state().structures.contains(structure);
+    const Surface none;
+    const TriangleMesh no_mesh;
+    const Surface& surface = is_there ? *found->second : none;
+    const TriangleMesh& mesh = is_there ? *surface.mesh : no_mesh;
     BinaryReply reply(
         {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}});
-    reply.add<float>("positions", floats(surface.mesh->points));
-    reply.add<float>("normals", floats(surface.mesh->normals));
-    const auto& triangles = surface.mesh->triangles;
-    reply.add("triangles", std::span(reinterpret_cast<const std::uint32_t*>(triangles.data()), 3 * triangles.size()));
+    reply.add<float>("positions", floats(mesh.points));
+    reply.add<float>("normals", floats(mesh.normals));
+    reply.add("triangles", std::span(reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), 3 * mesh.triangles.size()));
     return reply.bytes();
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a hostile web page, a scanner or a broken client may send. Each must be refused, and the server must live on."""
+import contextlib
 import json
 import os
 import random
@@ -232,17 +233,63 @@ def test_a_slow_client_is_cut_off(server):
         assert time.monotonic() - started < 25
 
 
-def test_connections_beyond_the_limit_are_closed_and_then_there_is_room_again(server):
-    many = [socket.create_connection(("127.0.0.1", server.port), timeout=15) for _ in range(40)]
-    closed = 0
-    for connection in many[32:]:
-        try:
-            closed += connection.recv(10) == b""
-        except ConnectionResetError:
-            closed += 1
+def is_closed(connection):
+    try:
+        return connection.recv(10) == b""
+    except ConnectionResetError:
+        return True
+
+
+def trickle(connection):
+    connection.sendall(b"GET / HTTP/1.1\r\nHost: ")
+
+
+def ask_without_token(server):
+    return lambda connection: connection.sendall(head(server, token=False))
+
+
+def ask_without_listening(server):
+    """For the largest file, and more often than the system's buffers hold."""
+    return lambda connection: connection.sendall(200 * head(server, target="/assets/scene.js", token=False))
+
+
+@pytest.mark.parametrize("saying", ["nothing", "a little", "no token", "no token, and deaf"])
+def test_idle_connections_do_not_shut_the_page_out(server, saying):
+    say = {"nothing": lambda _: None, "a little": trickle, "no token": ask_without_token(server), "no token, and deaf": ask_without_listening(server)}[saying]
+    page = server.page()  # is open already, and stays
+    many = []
+    try:
+        for _ in range(64):
+            many.append(socket.create_connection(("127.0.0.1", server.port), timeout=15))
+            with contextlib.suppress(ConnectionError):
+                say(many[-1])
+        assert server.request("GET", "/")[0] == 200
+        other = server.page()
+        assert other.do("ping") == {} and page.do("ping") == {}
+        other.close()
+    finally:
+        for connection in many:
+            connection.close()
+        page.close()
+
+
+def test_idle_connections_of_the_page_itself_make_room_for_another(server):
+    """A browser keeps them for a while, and opens what was closed again; what is being answered stays."""
+    many = [socket.create_connection(("127.0.0.1", server.port), timeout=15) for _ in range(32)]
+    for connection in many:
+        connection.sendall(head(server, target="/api/mesh/1"))
+        assert connection.recv(1 << 16).startswith(b"HTTP/1.1 200")
+    assert server.request("GET", "/")[0] == 200
+    assert is_closed(many[0])
     for connection in many:
         connection.close()
-    assert closed == 8
+
+
+def test_connections_beyond_the_limit_are_closed_and_then_there_is_room_again(server):
+    many = [socket.create_connection(("127.0.0.1", server.port), timeout=15) for _ in range(40)]
+    assert [is_closed(connection) for connection in many[:8]] == [True] * 8  # those that have said nothing for longest
+    for connection in many:
+        connection.close()
     for _ in range(50):
         if raw(server, head(server)) == 200:
             return

@@ -10,6 +10,7 @@ import { Socket, type ConnectionState } from "./net/socket";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
 import type { SavedSketch, Sketch } from "./tools/sketch";
+import { Pointers } from "./tools/pointers";
 import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
@@ -48,6 +49,7 @@ export class App {
   private readonly toolbar: Toolbar;
   private readonly keyboard: Keyboard;
   private readonly inputs: ViewInput[] = [];
+  private readonly pointers = new Pointers(() => void this.notices.show("info", "A pen draws here, so touches are taken for the hand that holds it, and ignored. To draw with a finger, load the page again."));
   private readonly values: Latest<Vec3>;
   private session: Session | null = null;
   private connection: ConnectionState = "connecting";
@@ -56,6 +58,7 @@ export class App {
   private saidLost = false; // since the connection was open
   private readonly closeWhenConnected: (() => void)[] = [];
   private closeUnsavedNotice = () => {};
+  private crossing: { contour: number; close: () => void } | null = null; // that is spoken of
   private hintSeen = false;
   private saveTimer = 0;
 
@@ -72,7 +75,8 @@ export class App {
       call: (name, args) => this.socket.call(name, args),
       screenOf: (view) => this.views.get(view)?.screen() ?? null,
       failed,
-      tell: (text) => this.notices.show("info", text),
+      tell: (text, remedy) => void this.notices.show("info", text, remedy),
+      made: (contour) => this.tellCrossing(contour),
       notSaved: (sketch, why) => this.tellNotSaved(sketch, why),
     });
     const shared = { navigation: this.navigation, project: this.project, editor: this.editor, http: this.http, failed };
@@ -101,6 +105,7 @@ export class App {
       redo: () => this.redo(),
       help: () => openHelp(this.session?.version ?? ""),
       leave: () => this.leave(),
+      rename: () => panel.rename(this.project.activeStructure?.id),
     });
     this.stage.append(...[...this.views.values()].map((view) => view.element), this.surface.element, this.notices.element);
     document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element);
@@ -135,17 +140,23 @@ export class App {
     editor.drawing.on(["points"], () => this.savePageSoon());
     editor.drawing.on(["points"], () => this.tellSaved());
     project.on(["selection"], () => this.tellHint());
+    project.on(["contours"], () => this.forgetCrossings());
     for (const [name, view] of this.views) {
       this.inputs.push(
         new ViewInput(view, {
           navigation,
           editor,
+          pointers: this.pointers,
           isPanning: () => this.keyboard.spaceHeld,
           pointed: (_, event) => this.pointed(view, event),
           jump: (_, event) => this.jump(view, event),
         }),
       );
-      view.element.addEventListener("pointerdown", () => this.activate(name), { capture: true });
+      const activate = (event: PointerEvent) => {
+        if (!this.pointers.ignores(event)) this.activate(name);
+      };
+      view.element.addEventListener("pointerdown", activate, { capture: true });
+      view.element.addEventListener("focusin", () => this.activate(name)); // keys are for the view that the keyboard is in
       view.header.addEventListener("dblclick", () => this.toggleSingle(name));
     }
     this.surface.header.addEventListener("dblclick", () => this.toggleSingle("surface"));
@@ -254,14 +265,34 @@ export class App {
     this.tellSaved();
   }
 
+  /** Said once it is drawn, and until it is mended or taken back. */
+  private tellCrossing(contour: Contour): void {
+    if (contour.self_crossings.length === 0 || this.crossing?.contour === contour.id) return;
+    this.crossing?.close();
+    const where = contour.self_crossings.length === 1 ? "at the ringed place" : `at ${contour.self_crossings.length} ringed places`;
+    const text = `This contour crosses itself ${where}: what is inside of it is not clear there, and the surface may leave the line.`;
+    const close = this.notices.show("warning", text, { label: "Take it back", act: () => this.undo() });
+    this.crossing = { contour: contour.id, close };
+  }
+
+  private forgetCrossings(): void {
+    if (!this.crossing || this.project.contours.get(this.crossing.contour)?.self_crossings.length) return;
+    this.crossing.close();
+    this.crossing = null;
+  }
+
   undo(): void {
     const { drawing, edits } = this.editor;
-    drawing.outbox.afterSending(() => drawing.undo() || edits.make("undo", {}));
+    drawing.outbox.afterSending(() => {
+      if (!drawing.undo()) edits.make("undo", {});
+    });
   }
 
   redo(): void {
     const { drawing, edits } = this.editor;
-    drawing.outbox.afterSending(() => drawing.redo() || edits.make("redo", {}));
+    drawing.outbox.afterSending(() => {
+      if (!drawing.redo()) edits.make("redo", {});
+    });
   }
 
   /** A new structure is for what is drawn next. */
@@ -390,7 +421,9 @@ export class App {
       const { outbox, sketch } = this.editor.drawing;
       if (this.unsaved > 0 || outbox.isSending || outbox.hasUnsaved || (sketch && this.connection !== "open")) event.preventDefault();
     });
-    window.addEventListener("pagehide", () => this.saveTimer && this.savePage());
+    window.addEventListener("pagehide", () => {
+      if (this.saveTimer) this.savePage();
+    });
   }
 
   private savePageSoon(): void {

@@ -49,6 +49,16 @@ export function sliceOnScreen(screen: Screen, slice: PixelPlane): { a: number; d
 
 export const gap = (a: Point2, b: Point2): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
+/** How wide the points lie across the direction in which they are spread most. */
+export function narrowWidth(points: readonly Point2[]): number {
+  const mean = (of: (p: Point2) => number) => points.reduce((sum, p) => sum + of(p), 0) / points.length;
+  const x0 = mean(([x]) => x), y0 = mean(([, y]) => y);
+  const xx = mean(([x]) => (x - x0) ** 2), yy = mean(([, y]) => (y - y0) ** 2), xy = mean(([x, y]) => (x - x0) * (y - y0));
+  const longest = Math.atan2(2 * xy, xx - yy) / 2; // the principal axis
+  const across = points.map(([x, y]) => (y - y0) * Math.cos(longest) - (x - x0) * Math.sin(longest));
+  return across.reduce((a, b) => Math.max(a, b)) - across.reduce((a, b) => Math.min(a, b));
+}
+
 /** The nearest point of the line from `a` to `b`: its distance, and where it lies from 0 (`a`) to 1 (`b`). */
 export function nearestOnLine(p: Point2, a: Point2, b: Point2): { distance: number; t: number } {
   const dx = b[0] - a[0], dy = b[1] - a[1];

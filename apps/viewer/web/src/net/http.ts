@@ -17,6 +17,12 @@ export class ServerError extends Error {
   }
 }
 
+/** With doubts, nothing was imported. */
+export interface ImportReply {
+  structures: number[];
+  doubts: string[];
+}
+
 export interface MeshHeader {
   structure: number;
   revision: number;
@@ -45,10 +51,10 @@ export class Http {
     return { blob: await reply.blob(), name: proposed?.[1] ?? name };
   }
 
-  async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<{ structures: number[] }> {
+  async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<ImportReply> {
     const query = new URLSearchParams({ name: file.name, ...options });
     const reply = await this.request(`import/${what}?${query}`, { method: "POST", body: file, signal: signal ?? null });
-    return (await reply.json()) as { structures: number[] };
+    return (await reply.json()) as ImportReply;
   }
 
   /** Settles when the server answers: for a file of the page it needs neither the project nor much time. */

@@ -47,6 +47,7 @@ export interface Contour {
   visible: boolean;
   points: Vec3[];
   control: ControlPoint[];
+  self_crossings: Vec3[];
 }
 
 export interface History {

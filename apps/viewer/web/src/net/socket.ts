@@ -56,8 +56,8 @@ export class Socket {
   open(): void {
     this.handlers.connection("connecting");
     const socket = new WebSocket(`ws://${location.host}/api/socket`, ["kontur", this.token]);
-    socket.onmessage = (message: MessageEvent<string>) => this.receive(JSON.parse(message.data) as Record<string, unknown>);
-    socket.onclose = () => this.lose();
+    socket.addEventListener("message", (message: MessageEvent<string>) => this.receive(JSON.parse(message.data) as Record<string, unknown>));
+    socket.addEventListener("close", () => this.lose());
     this.socket = socket;
   }
 
@@ -68,7 +68,7 @@ export class Socket {
       return Promise.reject(new ServerError("offline", "Not connected to kontur: nothing was changed.", edits));
     const seq = this.nextSeq++;
     const reply = new Promise<Result>((resolve, reject) =>
-      this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }),
+      void this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }),
     );
     this.socket.send(JSON.stringify({ seq, call: name, ...args }));
     if (edits) this.tellUnsaved(false);

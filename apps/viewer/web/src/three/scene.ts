@@ -56,12 +56,12 @@ export class Scene {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware(), alpha: true, powerPreference: "high-performance" });
     let isHeld = false;
     for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel"] as const)
-      window.addEventListener(type, (event) => (isHeld = event.buttons !== 0), { capture: true });
+      window.addEventListener(type, (event) => void (isHeld = event.buttons !== 0), { capture: true });
     this.pace = new Pace({
-      frame: () => new Promise((resolve) => requestAnimationFrame(() => resolve())),
+      frame: () => new Promise((resolve) => void requestAnimationFrame(() => resolve())),
       render: (fine) => this.render(fine),
       isHeld: () => isHeld,
-      later: (act, ms) => window.setTimeout(act, ms),
+      later: (act, ms) => void window.setTimeout(act, ms),
       now: () => performance.now(),
     });
     this.center = scale(corners.reduce(add), 1 / corners.length);
@@ -71,10 +71,10 @@ export class Scene {
     this.controls = new TrackballControls(this.camera, canvas);
     Object.assign(this.controls, { rotateSpeed: 3, zoomSpeed: 1.2, panSpeed: 0.9, staticMoving: true });
     this.controls.addEventListener("change", () => this.pace.changed());
-    this.controls.addEventListener("start", () => (this.touched = true));
+    this.controls.addEventListener("start", () => void (this.touched = true));
     this.viewFrom([0.55, -1, 0.45], this.center, this.extent_mm);
     canvas.addEventListener("pointermove", () => this.controls.update());
-    canvas.addEventListener("wheel", () => requestAnimationFrame(() => this.controls.update()));
+    canvas.addEventListener("wheel", () => void requestAnimationFrame(() => this.controls.update()));
     this.canvas.addEventListener("webglcontextrestored", () => this.pace.changed());
   }
 

@@ -31,7 +31,7 @@ const DIRECTIONS: [string, string, Vec3][] = [
 export class SurfaceView {
   readonly element: HTMLElement;
   readonly header = el("div", { class: "pane-header" });
-  private readonly canvas = el("canvas", { class: "surface-canvas" });
+  private readonly canvas = el("canvas", { class: "surface-canvas", on: { dblclick: (event) => this.pick(event) } });
   private readonly message = el("div", { class: "pane-message" });
   private readonly fetches = new Map<number, Latest<void>>();
   private readonly shownRevisions = new Map<number, number>();
@@ -43,20 +43,19 @@ export class SurfaceView {
       "div",
       { class: "look-from" },
       ...DIRECTIONS.map(([letter, title, direction]) =>
-        button({ label: letter, title, class: "letter-button", onclick: () => this.scene?.viewFrom(direction) }),
+        button({ label: letter, title, class: "letter-button", click: () => this.scene?.viewFrom(direction) }),
       ),
     );
-    const glass = button({ icon: ICONS.surface, title: "See through the surface", class: "icon-button small", onclick: () => this.toggleGlass() });
-    const frame = button({ icon: ICONS.reset, title: "Show the whole surface", class: "icon-button small", onclick: () => this.scene?.frame() });
+    const glass = button({ icon: ICONS.surface, title: "See through the surface", class: "icon-button small", click: () => this.toggleGlass() });
+    const frame = button({ icon: ICONS.reset, title: "Show the whole surface", class: "icon-button small", click: () => this.scene?.frame() });
     const enlarge = button({
       icon: ICONS.enlarge,
       title: "Show the 3D view alone, or go back (double click on its title)",
       class: "icon-button small",
-      onclick: () => this.header.dispatchEvent(new MouseEvent("dblclick")),
+      click: () => void this.header.dispatchEvent(new MouseEvent("dblclick")),
     });
     this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, glass, frame, enlarge);
     this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header);
-    this.canvas.ondblclick = (event) => this.pick(event);
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
@@ -138,22 +137,22 @@ export class SurfaceView {
   }
 
   private async fetchMesh(structure: number): Promise<void> {
+    if (!this.hasSurface(structure)) return; // it went while another mesh was on its way
     try {
       const reply = await this.services.http.mesh(structure);
-      if (!this.hasSurface(structure)) return; // it went meanwhile
+      if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
       this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles") });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();
     } catch (error) {
-      // "not_found": the surface went while it was asked for, which an event has said or will say
-      if (!(error instanceof ServerError && (error.kind === "not_found" || error.kind === "cancelled"))) this.services.failed(error);
+      if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
     }
   }
 
   /** Tests and measurements wait for what the finished frame shows. */
   private frameBegins(): () => void {
     const revisions = [...this.shownRevisions].map(([id, revision]) => `${id}:${revision}`).join(" ");
-    return () => (this.element.dataset["revisions"] = revisions);
+    return () => void (this.element.dataset["revisions"] = revisions);
   }
 
   private showHint(): void {

@@ -10,6 +10,7 @@ import type { Drawing } from "./drawing";
 import type { EditorServices } from "./editor";
 import { DRAG_PIXELS, type Gesture, type Modifiers } from "./gesture";
 import { inView, type ContourHit } from "./hit";
+import { isContourHidden } from "./sight";
 
 interface Edit {
   name: string;
@@ -32,10 +33,13 @@ export class ContourEdits {
     const { drawing, project, services } = this;
     if (drawing.outbox.isSending) return drawing.outbox.afterSending(() => this.make(name, args));
     drawing.forgetLeft();
-    services.call(name, args).catch((error: unknown) => {
-      project.refused();
-      services.failed(error);
-    });
+    services.call<{ contour?: Contour }>(name, args).then(
+      ({ contour }) => contour && services.made(contour),
+      (error: unknown) => {
+        project.refused();
+        services.failed(error);
+      },
+    );
   }
 
   press(screen: Screen, pointer: Point2, hit: ContourHit, modifiers: Modifiers): Gesture | null {
@@ -75,9 +79,11 @@ export class ContourEdits {
       this.services.tell("Begin on the line of the contour that you want to redraw.");
       return null;
     }
+    if (isContourHidden(contour, this.project, this.services)) return null;
     this.project.select({ contour: contour.id, point: null });
     const hand: Vec3[] = [toWorld(screen, pointer)];
     return {
+      isStroke: true,
       move: (at) => {
         hand.push(toWorld(screen, at));
         this.drawing.showHand(hand);
@@ -138,6 +144,7 @@ export class ContourEdits {
   async copySelected(view: ViewName, steps: number): Promise<void> {
     const contour = this.project.selectedContour;
     if (!contour) return this.services.tell("Select a contour first: click its line, or its row in the list.");
+    if (isContourHidden(contour, this.project, this.services)) return;
     try {
       const onward = Math.sign(dot(contour.plane.normal, this.navigation.direction(view))) || 1;
       const offset_mm = steps * onward * this.navigation.step(view);

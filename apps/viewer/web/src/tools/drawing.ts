@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { PixelPlane } from "../geometry/plane";
-import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { gap, narrowWidth, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Project } from "../model/project";
@@ -9,10 +9,12 @@ import type { Contour, PathResult, StretchKind } from "../net/protocol";
 import type { EditorServices } from "./editor";
 import { CLICK_PIXELS, type Gesture } from "./gesture";
 import { Outbox } from "./outbox";
+import { isHidden } from "./sight";
 import { Sketch } from "./sketch";
 
 const CLOSE_PIXELS = 11;
 const HAND_STEP_PIXELS = 1.5;
+const LEAST_WIDTH_PIXELS = 5; // of a contour drawn in one go: what is narrower is a slip of the hand
 
 /** The contour that is being drawn, or a piece of one that is not saved: its points and lines, its own undo and redo, and its closing. */
 export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
@@ -47,7 +49,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
 
   /** `kind` is that of a line from a point that is clicked. */
   press(screen: Screen, step_mm: number, pointer: Point2, kind: StretchKind): Gesture | null {
-    if (this.holdsUnsaved()) return null;
+    if (this.holdsUnsaved() || this.isOutOfSight()) return null;
     if (this.sketch && !this.sketch.liesIn(planeOf(screen), step_mm / 2)) {
       this.services.tell("The contour you began lies in another plane. Enter closes it, Esc leaves it.");
       return null;
@@ -56,6 +58,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
     let last = pointer;
     let isDrag = false;
     return {
+      isStroke: true,
       move: (at) => {
         isDrag ||= gap(at, pointer) > CLICK_PIXELS;
         if (gap(at, last) < HAND_STEP_PIXELS) return;
@@ -74,6 +77,10 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
       },
       cancel: () => this.showHand([]),
     };
+  }
+
+  private isOutOfSight(): boolean {
+    return isHidden(this.sketch?.structure ?? this.project.activeStructure?.id, this.project, this.services);
   }
 
   /** What is finished has to be saved or given up before the next is begun; says so. */
@@ -108,7 +115,8 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
     const closes = this.isNearStart(screen, at);
     if (!this.sketch && kind === "line") {
       const structure = this.project.activeStructure?.id ?? 0;
-      return this.send(Sketch.closedFree(planeOf(screen), structure, hand));
+      const drawn = Sketch.closedFree(planeOf(screen), structure, hand);
+      return this.isSlip(screen, hand) ? this.dropSlip(drawn) : this.send(drawn);
     }
     const sketch = this.begun(screen, kind);
     sketch.drawFree(hand);
@@ -117,6 +125,16 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
       return this.close();
     }
     this.pointsChanged();
+  }
+
+  private isSlip(screen: Screen, hand: Vec3[]): boolean {
+    return narrowWidth(hand.map((p) => toScreen(screen, p))) < LEAST_WIDTH_PIXELS;
+  }
+
+  private dropSlip(drawn: Sketch): void {
+    this.putAside(drawn);
+    this.changed();
+    this.services.tell(`That stroke is less than ${LEAST_WIDTH_PIXELS} pixels wide, so it was not taken for a contour. Zoom in (Ctrl + wheel) to draw small things; Ctrl + Z brings it back, and Enter then closes it.`);
   }
 
   private click(screen: Screen, at: Point2, kind: StretchKind): void {
@@ -193,6 +211,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
     const sketch = this.sketch;
     if (!sketch) return;
     if (!sketch.canClose) return this.services.tell("A contour needs at least three points.");
+    if (this.isOutOfSight()) return;
     const line = sketch.isClosed || this.placedLine.length < 2 ? sketch.finishedLine() : [...this.placedLine, sketch.first!];
     this.clear();
     this.send(sketch, line);

@@ -11,6 +11,8 @@ export interface Modifiers {
 
 /** What follows a press of the left button until it is released. */
 export interface Gesture {
+  /** Every place on the way counts, not the latest one alone: a line is drawn. */
+  readonly isStroke?: boolean;
   move(pointer: Point2): void;
   end(pointer: Point2): void;
   cancel?(): void;

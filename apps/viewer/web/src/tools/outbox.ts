@@ -70,6 +70,7 @@ export class Outbox {
     try {
       const contour = await (sketch.redraws === undefined ? this.addContour(sketch) : this.redraw(sketch));
       this.sending.delete(sketch);
+      this.services.made(contour);
       if (!this.drawing.sketch) this.project.select({ contour: contour.id, point: null });
     } catch (error) {
       this.sending.delete(sketch);

@@ -178,7 +178,7 @@ export class Sketch {
   /** Takes over where the server has moved points to the edge. */
   adopt(control: readonly ControlPoint[]): void {
     if (control.length !== this.points.length) return;
-    control.forEach((point, i) => (this.points[i]!.at = point.at));
+    control.forEach((point, i) => void (this.points[i]!.at = point.at));
   }
 
   /** What to ask the path for between the last point and the pointer: a spline bends with its neighbours. */

@@ -5,10 +5,12 @@ import type { Navigation } from "../model/navigation";
 import type { SliceView } from "../view/slice_view";
 import type { Editor } from "./editor";
 import type { Gesture } from "./gesture";
+import type { Pointers } from "./pointers";
 
 export interface InputServices {
   navigation: Navigation;
   editor: Editor;
+  pointers: Pointers; // of all views
   isPanning(): boolean; // space is held
   pointed(view: SliceView, event: PointerEvent): void;
   jump(view: SliceView, event: PointerEvent): void;
@@ -19,6 +21,7 @@ const WHEEL_STEP = 60; // of deltaY in pixels, for touchpads that send many smal
 /** Lets the mouse scroll, zoom, pan and window a view, and hands the left button to the editor. */
 export class ViewInput {
   private gesture: Gesture | null = null;
+  private tookPress = false; // the last one
   private wheelRest = 0;
 
   constructor(
@@ -29,49 +32,69 @@ export class ViewInput {
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event));
-    canvas.addEventListener("pointercancel", () => this.cancel());
-    canvas.addEventListener("pointerleave", () => this.gesture === null && services.editor.left());
-    canvas.addEventListener("dblclick", () => services.editor.doubleClick());
+    for (const type of ["pointercancel", "lostpointercapture"] as const)
+      canvas.addEventListener(type, (event) => {
+        if (services.pointers.holds(event)) this.cancel();
+      });
+    canvas.addEventListener("pointerleave", (event) => {
+      if (this.gesture === null && !services.pointers.ignores(event)) services.editor.left();
+    });
+    canvas.addEventListener("dblclick", () => {
+      if (this.tookPress) services.editor.doubleClick();
+    });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     view.element.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }
 
   /** Leaves what the pointer is doing; false when it is doing nothing. */
   cancel(): boolean {
-    const gesture = this.gesture;
-    this.gesture = null;
+    const gesture = this.release();
     gesture?.cancel?.();
     return gesture !== null;
   }
 
   private down(event: PointerEvent): void {
     const screen = this.view.screen();
-    if (!screen || this.gesture) return;
+    const { editor, pointers } = this.services;
+    this.tookPress = screen !== null && pointers.take(event, () => void this.cancel());
+    if (!screen || !this.tookPress) return;
     this.view.overlay.focus({ preventScroll: true });
     this.view.overlay.setPointerCapture(event.pointerId);
     const at = this.view.pointOf(event);
-    const { editor } = this.services;
     const modifiers = { ctrl: event.ctrlKey || event.metaKey, shift: event.shiftKey };
     if (event.button === 2) this.gesture = this.windowGesture(at);
     else if (event.button === 1 || (event.button === 0 && this.services.isPanning())) this.gesture = this.panGesture(at);
     else if (event.button === 0) this.gesture = editor.press(this.view.name, screen, at, modifiers);
+    if (!this.gesture) pointers.release();
     event.preventDefault();
   }
 
   private move(event: PointerEvent): void {
     const screen = this.view.screen();
-    if (!screen) return;
+    if (!screen || this.services.pointers.ignores(event)) return;
     const at = this.view.pointOf(event);
     this.services.pointed(this.view, event);
-    if (this.gesture) return this.gesture.move(at);
+    if (this.gesture) return this.follow(this.gesture, event);
     if (event.shiftKey && event.buttons === 0) return this.services.jump(this.view, event);
     this.services.editor.moved(this.view.name, screen, at);
   }
 
+  /** A busy page gets one event for several places of the pointer. */
+  private follow(gesture: Gesture, event: PointerEvent): void {
+    const places = gesture.isStroke ? event.getCoalescedEvents() : [];
+    for (const place of places.length > 0 ? places : [event]) gesture.move(this.view.pointOf(place));
+  }
+
   private up(event: PointerEvent): void {
+    if (!this.services.pointers.holds(event)) return;
+    this.release()?.end(this.view.pointOf(event));
+  }
+
+  private release(): Gesture | null {
     const gesture = this.gesture;
     this.gesture = null;
-    gesture?.end(this.view.pointOf(event));
+    if (gesture) this.services.pointers.release();
+    return gesture;
   }
 
   private wheel(event: WheelEvent): void {

@@ -7,11 +7,18 @@ import { ICONS } from "./icons";
 
 /** A modal window; Esc and a click beside it close it. */
 function openDialog(title: string, name: string, ...content: HTMLElement[]): HTMLDialogElement {
-  const dialog = el("dialog", { class: "dialog", "data-test": name });
-  const close = button({ icon: ICONS.close, title: "Close (Esc)", class: "icon-button small", onclick: () => dialog.close() });
+  const dialog = el("dialog", {
+    class: "dialog",
+    "data-test": name,
+    on: {
+      click: (event) => {
+        if (event.target === dialog) dialog.close();
+      },
+      close: () => dialog.remove(),
+    },
+  });
+  const close = button({ icon: ICONS.close, title: "Close (Esc)", class: "icon-button small", click: () => dialog.close() });
   dialog.append(el("div", { class: "dialog-title" }, el("h2", {}, title), close), ...content);
-  dialog.onclick = (event) => event.target === dialog && dialog.close();
-  dialog.onclose = () => dialog.remove();
   document.body.append(dialog);
   dialog.showModal();
   return dialog;
@@ -71,7 +78,7 @@ export function openExport({ http, project, editor }: ExportServices): void {
   const save = async (name: string, of: number | null): Promise<void> => {
     running?.abort();
     const own = (running = new AbortController());
-    const cancel = button({ label: "Cancel", title: "Cancel the export", class: "choice", test: "export-cancel", onclick: () => own.abort() });
+    const cancel = button({ label: "Cancel", title: "Cancel the export", class: "choice", test: "export-cancel", click: () => own.abort() });
     status.replaceChildren(`Preparing ${name} …`, cancel);
     let outcome: string;
     try {
@@ -84,7 +91,7 @@ export function openExport({ http, project, editor }: ExportServices): void {
     if (running === own) status.replaceChildren(outcome);
   };
   const entry = (name: string, label: string, extension: string, of: () => number | null): HTMLElement => {
-    const element = button({ label, title: `Save as ${extension}`, class: "choice", test: `export-${name}`, onclick: () => void save(name, of()) });
+    const element = button({ label, title: `Save as ${extension}`, class: "choice", test: `export-${name}`, click: () => void save(name, of()) });
     element.append(el("small", {}, extension));
     return element;
   };
@@ -121,18 +128,18 @@ const CONTOUR_FILES = /\.(json|dcm)$/i;
 const MASK_FILES = /\.(nii|nii\.gz|nrrd|mha)$/i;
 
 export function openImport(services: ImportServices): void {
-  const input = el("input", { type: "file", accept: ".json,.dcm,.nii,.gz,.nrrd,.mha", "data-test": "import-file" });
+  const choose = () => {
+    const file = input.files?.[0];
+    dialog.close();
+    if (file) importFile(file, services);
+  };
+  const input = el("input", { type: "file", accept: ".json,.dcm,.nii,.gz,.nrrd,.mha", title: "File to import", "data-test": "import-file", on: { change: choose } });
   const dialog = openDialog(
     "Import",
     "import-dialog",
     el("p", {}, "Contours (kontur or 3D Slicer JSON) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage) is traced into contours. You can also drop a file onto the page."),
     input,
   );
-  input.onchange = () => {
-    const file = input.files?.[0];
-    dialog.close();
-    if (file) importFile(file, services);
-  };
 }
 
 export function importFile(file: File, services: ImportServices): void {
@@ -154,7 +161,7 @@ function openMaskImport(file: File, services: ImportServices): void {
     title: "Import the mask",
     class: "primary",
     test: "import-mask",
-    onclick: () => {
+    click: () => {
       dialog.close();
       void send("mask", file, { axes: axes.value, planes: planes.value }, services);
     },
@@ -173,11 +180,33 @@ async function send(what: "contours" | "mask", file: File, options: Record<strin
   const abort = new AbortController();
   const done = services.working(`Importing ${file.name} …`, () => abort.abort());
   try {
-    services.imported(file.name, (await services.http.import(what, file, options, abort.signal)).structures);
+    const { structures, doubts } = await services.http.import(what, file, options, abort.signal);
+    if (doubts.length === 0) services.imported(file.name, structures);
+    else askDespite(doubts, file.name, () => void send(what, file, { ...options, anyway: "1" }, services));
   } catch (error) {
     if (!abort.signal.aborted) services.failed(error);
   }
   done();
+}
+
+/** Nothing has been imported yet: what lies elsewhere may be another patient's. */
+function askDespite(doubts: string[], file: string, goOn: () => void): void {
+  const close = (then?: () => void) => () => {
+    dialog.close();
+    then?.();
+  };
+  const dialog = openDialog(
+    `Does ${file} belong to this image?`,
+    "doubts-dialog",
+    ...doubts.map((doubt) => el("p", { class: "warning-text" }, doubt)),
+    el("p", {}, "Nothing has been imported yet. Of another patient, or of another scan, the contours would be in the wrong place."),
+    el(
+      "div",
+      { class: "dialog-buttons" },
+      button({ label: "Import all the same", title: "Import it as it is", class: "choice", test: "import-anyway", click: close(goOn) }),
+      button({ label: "Do not import", title: "Leave the project as it is", class: "primary", test: "import-not", click: close() }),
+    ),
+  );
 }
 
 type KeyRow = [string, string];
@@ -212,6 +241,7 @@ const HELP: [string, KeyRow[]][] = [
     "Edit",
     [
       ["V", "edit tool"],
+      ["F2, double click on a name", "rename the structure"],
       ["Drag a point or a line", "bend the contour"],
       ["Ctrl + click on a line", "insert a point"],
       ["Del", "delete the selected point, or the contour"],
@@ -252,6 +282,6 @@ export function firstHint(close: () => void): HTMLElement {
       el("li", {}, "Draw a second contour in another view. The surface follows after every edit; correct where it is wrong."),
     ),
     el("p", { class: "fine" }, "Everything is saved as you go. Press ? for mouse and keyboard."),
-    button({ label: "Start drawing", title: "Close this hint and take the live-wire tool", class: "primary", test: "hint-close", onclick: close }),
+    button({ label: "Start drawing", title: "Close this hint and take the live-wire tool", class: "primary", test: "hint-close", click: close }),
   );
 }

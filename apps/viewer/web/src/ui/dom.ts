@@ -1,20 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 
 type Child = Node | string | null | undefined;
-type Properties = Record<string, unknown>;
 
-/** An element with properties ("class" and "data-..." as attributes) and children. */
+/** What is done at an event. Unlike a property `onclick`, a listener cannot cancel the event by what it returns. */
+type Listeners = { [Type in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[Type]) => void };
+
+interface Properties {
+  on?: Listeners;
+  [name: string]: unknown;
+}
+
+export function listen(element: HTMLElement, listeners: Listeners): void {
+  for (const [type, listener] of Object.entries(listeners)) element.addEventListener(type, listener as EventListener);
+}
+
+/** An element with properties ("class" and "data-..." as attributes), listeners and children. */
 export function el<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
-  properties: Properties = {},
+  { on = {}, ...properties }: Properties = {},
   ...children: Child[]
 ): HTMLElementTagNameMap[Tag] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
     if (value === undefined || value === null) continue;
     if (name === "class" || name.includes("-")) element.setAttribute(name, String(value));
-    else (element as unknown as Properties)[name] = value;
+    else (element as unknown as Record<string, unknown>)[name] = value;
   }
+  listen(element, on);
   element.append(...children.filter((child): child is Node | string => child != null));
   return element;
 }
@@ -38,7 +50,8 @@ export interface ButtonOptions {
   title: string;
   class?: string;
   test?: string;
-  onclick: (event: MouseEvent) => void;
+  part?: string; // names it among the buttons of its row
+  click: (event: MouseEvent) => void;
 }
 
 export function button(options: ButtonOptions): HTMLButtonElement {
@@ -50,7 +63,8 @@ export function button(options: ButtonOptions): HTMLButtonElement {
       title: options.title,
       "aria-label": options.title,
       "data-test": options.test,
-      onclick: options.onclick,
+      "data-part": options.part,
+      on: { click: options.click },
     },
     options.icon ? icon(options.icon) : null,
     options.label ? el("span", {}, options.label) : null,

@@ -9,6 +9,7 @@ export interface KeyboardServices {
   redo(): void;
   help(): void;
   leave(): void;
+  rename(): void;
 }
 
 const TOOL_KEYS: Record<string, ToolName> = { v: "edit", l: "wire", f: "freehand", s: "spline", r: "redraw", m: "move" };
@@ -22,8 +23,12 @@ export class Keyboard {
 
   constructor(private readonly services: KeyboardServices) {
     window.addEventListener("keydown", (event) => this.down(event));
-    window.addEventListener("keyup", (event) => event.key === " " && (this.spaceHeld = false));
-    window.addEventListener("blur", () => (this.spaceHeld = false));
+    window.addEventListener("keyup", (event) => {
+      if (event.key === " ") this.spaceHeld = false;
+    });
+    window.addEventListener("blur", () => {
+      this.spaceHeld = false;
+    });
   }
 
   private down(event: KeyboardEvent): void {
@@ -101,6 +106,9 @@ export class Keyboard {
         return true;
       case "Home":
         navigation.resetAll();
+        return true;
+      case "F2":
+        this.services.rename();
         return true;
       case "?":
         this.services.help();

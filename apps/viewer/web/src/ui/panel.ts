@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { heightOver } from "../geometry/plane";
+import { coincide, heightOver } from "../geometry/plane";
 import { dot } from "../geometry/vec";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
@@ -8,7 +8,7 @@ import type { Contour, Structure, Surface, ViewName } from "../net/protocol";
 import { VIEW_NAMES } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { PLANE_COLORS, VIEW_TITLES } from "../view/palette";
-import { button, el } from "./dom";
+import { button, el, listen } from "./dom";
 import { ICONS } from "./icons";
 
 export interface PanelServices {
@@ -25,6 +25,8 @@ export interface PanelServices {
 
 const KIND_LABELS: Record<Contour["kind"], string> = { freehand: "freehand", spline: "spline", livewire: "live-wire", mixed: "mixed" };
 
+const SAME_PLANE_MM = 0.01;
+
 /** Structures with their contours, and how well the surface fits them. */
 export class Panel {
   readonly element = el("aside", { class: "panel", "aria-label": "Structures and contours" });
@@ -36,7 +38,7 @@ export class Panel {
 
   constructor(private readonly services: PanelServices) {
     const { project } = services;
-    const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", onclick: services.addStructure });
+    const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", click: services.addStructure });
     this.element.append(
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
       this.list,
@@ -52,54 +54,135 @@ export class Panel {
     this.queued = true;
     requestAnimationFrame(() => {
       this.queued = false;
-      // A name that is being typed must not be taken away.
-      if (!this.list.contains(document.activeElement) || document.activeElement?.tagName !== "INPUT") this.updateList();
+      this.updateList();
       this.updateActions();
       this.updateQuality();
     });
   }
 
+  /** The field in which a name is typed or a colour chosen stays where it is: taken away, it would lose the keyboard. */
   private updateList(): void {
     const { project } = this.services;
-    const entries = [...project.structures.values()].map((structure) => this.structureEntry(structure));
-    this.list.replaceChildren(...entries);
+    const field = document.activeElement instanceof HTMLInputElement ? document.activeElement.closest<HTMLElement>(".structures .structure") : null;
+    const kept = field && project.structures.has(Number(field.dataset["structure"])) ? field : null;
+    const keyboard = this.keyboardPlace();
+    for (const child of [...this.list.children]) if (child !== kept) child.remove();
+    let isBehind = false;
+    for (const structure of project.structures.values()) {
+      const isKept = kept?.dataset["structure"] === String(structure.id);
+      isBehind ||= isKept;
+      if (isKept) this.renew(kept!, structure);
+      else if (kept && !isBehind) kept.before(this.structureEntry(structure));
+      else this.list.append(this.structureEntry(structure));
+    }
     if (project.contours.size === 0)
       this.list.append(el("p", { class: "empty" }, "No contours yet. Choose Live-wire or Freehand and draw around the structure in any slice."));
+    if (keyboard) this.list.querySelector<HTMLElement>(keyboard)?.focus({ preventScroll: true });
     this.list.querySelector(".contour-row.selected")?.scrollIntoView({ block: "nearest" });
   }
 
+  /** Selects the button that the keyboard is on, to find it in the list that is made anew. */
+  private keyboardPlace(): string | null {
+    const active = document.activeElement;
+    if (!(active instanceof HTMLButtonElement) || !this.list.contains(active)) return null;
+    const contour = active.closest<HTMLElement>("[data-contour]")?.dataset["contour"];
+    const structure = active.closest<HTMLElement>("[data-structure]")?.dataset["structure"];
+    const row = contour ? `[data-contour="${contour}"]` : `[data-structure="${structure}"] > .structure-row`;
+    return `${row} [data-part="${active.dataset["part"]}"]`;
+  }
+
   private structureEntry(structure: Structure): HTMLElement {
-    const { project, call } = this.services;
-    const contours = project.contoursOf(structure.id);
-    const isActive = project.activeStructure?.id === structure.id;
-    const isOpen = !this.collapsed.has(structure.id);
-    const color = el("input", { type: "color", value: structure.color, title: "Colour", class: "color" });
-    color.onchange = () => {
-      color.blur(); // the list is not made anew around a field that has the keyboard
-      call("structure.set", { id: structure.id, color: color.value });
+    const row = el("div", { class: "structure-row" }, this.colorField(structure), this.nameLabel(structure), ...this.structureButtons(structure));
+    const choose = (event: MouseEvent) => {
+      if (event.target === row || (event.target as HTMLElement).closest(".name")) this.services.project.activate(structure.id);
     };
-    const name = el("input", { type: "text", value: structure.name, class: "name", title: "Name", spellcheck: false, maxLength: 64 });
-    name.onchange = () => name.value.trim() && call("structure.set", { id: structure.id, name: name.value.trim() });
-    name.onkeydown = (event) => event.key === "Enter" && name.blur();
-    name.onblur = () => this.update();
-    const count = button({
-      label: String(contours.length),
-      title: isOpen ? "Hide the list of contours" : "List the contours",
-      class: "count",
-      onclick: () => this.toggle(structure.id),
+    listen(row, { click: choose });
+    const entry = el("div", { class: "structure", "data-structure": structure.id }, row);
+    this.renew(entry, structure);
+    return entry;
+  }
+
+  /** All of an entry but its row's fields and buttons. */
+  private renew(entry: HTMLElement, structure: Structure): void {
+    const { project } = this.services;
+    const [row, ...contours] = entry.children;
+    const isActive = project.activeStructure?.id === structure.id;
+    row!.classList.toggle("active", isActive);
+    row!.setAttribute("title", isActive ? "New contours go into this structure" : "Click: new contours go into this structure");
+    row!.querySelector(".name")!.setAttribute("aria-current", String(isActive));
+    for (const old of contours) old.remove();
+    if (!this.collapsed.has(structure.id)) entry.append(...project.contoursOf(structure.id).map((contour) => this.contourRow(contour, structure)));
+  }
+
+  private colorField(structure: Structure): HTMLInputElement {
+    const change = () => {
+      field.blur(); // the list is not made anew around a field that has the keyboard
+      this.services.call("structure.set", { id: structure.id, color: field.value });
+    };
+    const field = el("input", { type: "color", value: structure.color, title: `Colour of ${structure.name}`, class: "color", on: { change, blur: () => this.update() } });
+    return field;
+  }
+
+  private nameLabel(structure: Structure): HTMLButtonElement {
+    const label = button({
+      label: structure.name,
+      title: "Double click or F2: rename",
+      class: "name",
+      part: "name",
+      // The list is made anew between the clicks of a double click, so no element gets a "dblclick".
+      click: ({ detail }) => {
+        if (detail >= 2) this.rename(structure.id);
+      },
     });
-    const row = el(
-      "div",
-      { class: "structure-row" + (isActive ? " active" : ""), title: isActive ? "New contours go into this structure" : "Click: new contours go into this structure" },
-      color,
-      name,
-      count,
+    label.setAttribute("aria-label", structure.name);
+    listen(label, {
+      keydown: (event) => {
+        if (event.key !== "F2") return;
+        event.stopPropagation(); // which renames the active one
+        this.rename(structure.id);
+      },
+    });
+    return label;
+  }
+
+  /** Lets the user type another name. */
+  rename(structure: number | undefined): void {
+    const known = structure === undefined ? undefined : this.services.project.structures.get(structure);
+    const label = this.list.querySelector(`[data-structure="${structure}"] > .structure-row > button.name`);
+    if (!known || !label) return;
+    const field = el("input", { type: "text", value: known.name, class: "name", title: "Name", spellcheck: false, maxLength: 64 });
+    const end = () => {
+      const name = field.value.trim();
+      if (name && name !== known.name) this.services.call("structure.set", { id: known.id, name });
+      this.update();
+    };
+    const keys: Record<string, () => void> = {
+      Enter: () => field.blur(),
+      Escape: () => {
+        field.value = known.name;
+        field.blur();
+      },
+    };
+    listen(field, { blur: end, keydown: (event) => keys[event.key]?.() });
+    label.replaceWith(field);
+    field.select();
+    field.focus();
+  }
+
+  private structureButtons(structure: Structure): HTMLElement[] {
+    const { project, call } = this.services;
+    const isOpen = !this.collapsed.has(structure.id);
+    return [
+      button({
+        label: String(project.contoursOf(structure.id).length),
+        title: isOpen ? "Hide the list of contours" : "List the contours",
+        class: "count",
+        part: "count",
+        click: () => this.toggle(structure.id),
+      }),
       eye(structure.visible, () => call("structure.set", { id: structure.id, visible: !structure.visible })),
-      button({ icon: ICONS.remove, title: "Delete the structure with its contours", class: "icon-button small", onclick: () => call("structure.remove", { id: structure.id }) }),
-    );
-    row.onclick = (event) => event.target === row && project.activate(structure.id);
-    name.onfocus = () => project.activeStructure?.id !== structure.id && project.activate(structure.id);
-    return el("div", { class: "structure", "data-structure": structure.id }, row, ...(isOpen ? contours.map((contour) => this.contourRow(contour, structure)) : []));
+      button({ icon: ICONS.remove, title: "Delete the structure with its contours", class: "icon-button small", part: "remove", click: () => call("structure.remove", { id: structure.id }) }),
+    ];
   }
 
   private toggle(structure: number): void {
@@ -115,22 +198,22 @@ export class Panel {
     const isSelected = project.selection?.contour === contour.id;
     const points = contour.control.length > 1 ? `${contour.control.length} pts` : `${contour.points.length} pts`;
     const kind = KIND_LABELS[contour.kind];
-    const row = el(
-      "div",
-      { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it` },
-      dot,
-      el("span", { class: "contour-plane" }, `${name ? VIEW_TITLES[name] : "Oblique"} ${position}`),
-      contour.hole ? el("span", { class: "hole-flag", title: "A hole" }, "hole") : null,
-      el("span", { class: "contour-points" }, points),
-      eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
-      button({ icon: ICONS.remove, title: "Delete this contour", class: "icon-button small", test: "delete-contour", onclick: () => call("contour.remove", { ids: [contour.id] }) }),
-    );
-    row.onclick = (event) => {
-      if ((event.target as HTMLElement).closest("button")) return;
+    const choose = (event: MouseEvent) => {
+      if ((event.target as HTMLElement).closest(".icon-button")) return;
       project.select({ contour: contour.id, point: null });
       show(contour);
     };
-    return row;
+    return el(
+      "div",
+      { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it`, on: { click: choose } },
+      dot,
+      el("button", { type: "button", class: "contour-plane", "data-part": "show", title: "Show this contour" }, `${name ? VIEW_TITLES[name] : "Oblique"} ${position}`),
+      contour.hole ? el("span", { class: "flag", title: "A hole" }, "hole") : null,
+      contour.self_crossings.length > 0 ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself") : null,
+      el("span", { class: "contour-points" }, points),
+      eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
+      button({ icon: ICONS.remove, title: "Delete this contour", class: "icon-button small", test: "delete-contour", part: "remove", click: () => call("contour.remove", { ids: [contour.id] }) }),
+    );
   }
 
   /** The view whose unturned planes the contour is parallel to, and where along them it lies. */
@@ -148,16 +231,15 @@ export class Panel {
     const contour = project.selectedContour;
     this.actions.hidden = !contour;
     if (!contour) return;
-    const hole = el("input", { type: "checkbox", checked: contour.hole });
-    hole.onchange = () => call("contour.set", { id: contour.id, hole: hole.checked });
-    const structure = el("select", { title: "The structure that this contour belongs to" });
+    const hole = el("input", { type: "checkbox", checked: contour.hole, on: { change: () => call("contour.set", { id: contour.id, hole: hole.checked }) } });
+    const goOver = () => call("contour.set", { id: contour.id, structure: Number(structure.value) });
+    const structure = el("select", { title: "The structure that this contour belongs to", on: { change: goOver } });
     structure.append(...[...project.structures.values()].map((entry) => el("option", { value: String(entry.id), selected: entry.id === contour.structure }, entry.name)));
-    structure.onchange = () => call("contour.set", { id: contour.id, structure: Number(structure.value) });
     this.actions.replaceChildren(
       el("span", {}, "Copy to"),
-      button({ icon: ICONS.copyDown, label: "next", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", onclick: () => copySelected(1) }),
-      button({ icon: ICONS.copyUp, label: "previous", title: "Copy to the previous slice (Shift+C)", class: "tool", onclick: () => copySelected(-1) }),
-      button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", onclick: () => editor.edits.deleteSelected() }),
+      button({ icon: ICONS.copyDown, label: "next", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", click: () => copySelected(1) }),
+      button({ icon: ICONS.copyUp, label: "previous", title: "Copy to the previous slice (Shift+C)", class: "tool", click: () => copySelected(-1) }),
+      button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", click: () => editor.edits.deleteSelected() }),
       el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       structure,
     );
@@ -167,19 +249,22 @@ export class Panel {
     const { project } = this.services;
     const structure = project.activeStructure;
     const surface = structure && project.surfaces.get(structure.id);
-    this.quality.replaceChildren(...this.qualityEntries(surface));
+    const contours = structure ? project.contoursOf(structure.id) : [];
+    this.quality.replaceChildren(...this.qualityEntries(surface, contours), ...this.selfCrossings(contours));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);
   }
 
-  private qualityEntries(surface: Surface | undefined): HTMLElement[] {
+  private qualityEntries(surface: Surface | undefined, contours: Contour[]): HTMLElement[] {
     if (!surface || surface.stage === "none") {
       const troubles = surface ? this.troubles(surface) : [];
       return troubles.length > 0 ? troubles : [el("p", { class: "empty" }, "No surface yet.")];
     }
     const entries: HTMLElement[] = [];
-    if (surface.volume_ml !== undefined) entries.push(figure("Volume", `${volume(surface.volume_ml)} ml`));
+    const guess = depthGuess(contours);
+    if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", `${volume(surface.volume_ml)} ml`, guess !== null));
+    if (guess) entries.push(el("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
     const { residual } = surface;
     if (residual) {
       entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
@@ -196,8 +281,13 @@ export class Panel {
     ];
   }
 
-  private place(label: string, at: Vec3, title: string, kind: "residual" | "conflict"): HTMLElement {
-    return button({ label, icon: kind === "conflict" ? ICONS.warning : ICONS.lines, title, class: `place ${kind}`, test: kind, onclick: () => this.services.goTo(at) });
+  private selfCrossings(contours: Contour[]): HTMLElement[] {
+    const places = contours.flatMap((contour) => contour.self_crossings.slice(0, 1));
+    return places.map((at) => this.place("a contour crosses itself", at, "Go to where it crosses itself", "self-crossing"));
+  }
+
+  private place(label: string, at: Vec3, title: string, kind: "residual" | "conflict" | "self-crossing"): HTMLElement {
+    return button({ label, icon: kind === "residual" ? ICONS.lines : ICONS.warning, title, class: kind === "residual" ? "place" : "place warning", test: kind, click: () => this.services.goTo(at) });
   }
 }
 
@@ -215,8 +305,16 @@ export function crosshairOnto(contour: Contour, crosshair: Vec3): Vec3 {
 
 const volume = (ml: number): string => (ml >= 100 ? ml.toFixed(0) : ml.toPrecision(3));
 
-const figure = (label: string, value: string): HTMLElement => el("div", { class: "figure" }, el("span", {}, label), el("strong", {}, value));
+/** What no line says of the object that these contours make; null where they say enough. */
+function depthGuess(contours: readonly Contour[]): string | null {
+  const [first] = contours;
+  if (!first || !contours.every(({ plane }) => coincide(plane, first.plane, SAME_PLANE_MM))) return null;
+  return `${contours.length === 1 ? "One contour" : "All contours lie in one plane"}: the depth is a guess. Draw another one across, or on another slice.`;
+}
 
-function eye(visible: boolean, onclick: () => void): HTMLButtonElement {
-  return button({ icon: visible ? ICONS.eye : ICONS.eyeOff, title: visible ? "Hide" : "Show", class: "icon-button small" + (visible ? "" : " dimmed"), onclick });
+const figure = (label: string, value: string, isGuess = false): HTMLElement =>
+  el("div", { class: isGuess ? "figure guess" : "figure" }, el("span", {}, label), el("strong", {}, value));
+
+function eye(visible: boolean, click: () => void): HTMLButtonElement {
+  return button({ icon: visible ? ICONS.eye : ICONS.eyeOff, title: visible ? "Hide" : "Show", class: "icon-button small" + (visible ? "" : " dimmed"), part: "eye", click });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { ConnectionState } from "../net/socket";
 import type { Notice } from "../net/protocol";
+import type { Remedy } from "../tools/editor";
 import { button, el } from "./dom";
 
 /** The line at the bottom: cursor, what to do next, what is computed, whether all is saved. */
@@ -57,18 +58,18 @@ export class StatusBar {
 const NOTICE_MS = 6000;
 const MOST_NOTICES = 4;
 
-/** Sentences for the user, at the top of the views; errors stay until they are closed. */
+/** Sentences for the user, at the top of the views; errors, and what he can do something about, stay until they are closed. */
 export class Notices {
   readonly element = el("div", { class: "notices", role: "status" });
 
   /** Returns what takes the notice away. */
-  show(level: Notice["level"], text: string): () => void {
-    for (const old of this.element.children) if (old.textContent === text) old.remove();
-    const notice = el("div", { class: `notice ${level}`, title: "Click to close" }, text);
-    notice.onclick = () => notice.remove();
+  show(level: Notice["level"], text: string, remedy?: Remedy): () => void {
+    for (const old of this.element.querySelectorAll<HTMLElement>(".notice")) if (old.dataset["text"] === text) old.remove();
+    const notice = el("div", { class: `notice ${level}`, title: "Click to close", "data-text": text, on: { click: () => notice.remove() } }, el("span", {}, text));
+    if (remedy) notice.append(button({ label: remedy.label, title: remedy.label, class: "choice", test: "remedy", click: remedy.act }));
     this.element.append(notice);
     while (this.element.children.length > MOST_NOTICES) this.leastImportant().remove();
-    if (level !== "error") setTimeout(() => notice.remove(), NOTICE_MS);
+    if (level !== "error" && !remedy) setTimeout(() => notice.remove(), NOTICE_MS);
     return () => notice.remove();
   }
 
@@ -79,7 +80,7 @@ export class Notices {
 
   /** Something that takes its time, with a button to end it. Returns what takes the notice away. */
   working(text: string, cancel: () => void): () => void {
-    const stop = button({ label: "Cancel", title: "Cancel", class: "choice", test: "cancel", onclick: cancel });
+    const stop = button({ label: "Cancel", title: "Cancel", class: "choice", test: "cancel", click: cancel });
     const notice = el("div", { class: "notice working" }, el("span", {}, text), stop);
     this.element.append(notice);
     return () => notice.remove();

@@ -43,26 +43,21 @@ export class Toolbar {
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
   private readonly link: HTMLButtonElement;
-  private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets" });
-  private readonly center = el("input", { type: "number", class: "number", title: "Window: centre (drag with the right button over a slice)" });
-  private readonly width = el("input", { type: "number", class: "number", title: "Window: width", min: "0" });
+  private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets", on: { change: () => this.choosePreset() } });
+  private readonly center = this.windowField("Window: centre (drag with the right button over a slice)");
+  private readonly width = this.windowField("Window: width");
   private readonly title = el("span", { class: "file-title" });
   private presetList: Preset[] = [];
 
   constructor(private readonly services: ToolbarServices) {
     const { navigation, editor } = services;
     for (const [tool, label, key, title] of TOOLS)
-      this.tools.set(tool, button({ icon: ICONS[tool], label, title: `${title} (${key})`, class: MINOR.has(tool) ? "tool minor" : "tool", test: `tool-${tool}`, onclick: () => editor.choose(tool) }));
+      this.tools.set(tool, button({ icon: ICONS[tool], label, title: `${title} (${key})`, class: MINOR.has(tool) ? "tool minor" : "tool", test: `tool-${tool}`, click: () => editor.choose(tool) }));
     for (const [layout, path, title] of LAYOUTS)
-      this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, onclick: () => navigation.setLayout(layout) }));
-    this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", onclick: services.undo });
-    this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", onclick: services.redo });
-    this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", onclick: () => navigation.toggleLinked() });
-    this.presets.onchange = () => this.choosePreset();
-    for (const field of [this.center, this.width]) {
-      field.onchange = () => this.typeWindow();
-      field.onkeydown = (event) => event.key === "Enter" && field.blur(); // keys are the tools' again
-    }
+      this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, click: () => navigation.setLayout(layout) }));
+    this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", click: services.undo });
+    this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", click: services.redo });
+    this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", click: () => navigation.toggleLinked() });
     this.element.append(
       el("span", { class: "brand" }, "kontur"),
       this.title,
@@ -72,13 +67,13 @@ export class Toolbar {
       group(el("label", { class: "window-label" }, "Window"), this.presets, this.center, this.width),
       group(...this.layouts.values()),
       group(
-        button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", onclick: () => editor.toggleLines() }),
+        button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", click: () => editor.toggleLines() }),
         this.link,
       ),
       group(
-        button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", onclick: services.openImport }),
-        button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool minor", test: "export", onclick: services.openExport }),
-        button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", onclick: services.openHelp }),
+        button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", click: services.openImport }),
+        button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool minor", test: "export", click: services.openExport }),
+        button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", click: services.openHelp }),
       ),
     );
     editor.on(["tool"], () => this.update());
@@ -112,6 +107,23 @@ export class Toolbar {
     if (document.activeElement !== this.width) this.width.value = short(width);
     const preset = this.presetList.findIndex((entry) => short(entry.center) === short(center) && short(entry.width) === short(width));
     this.presets.value = preset < 0 ? "" : String(preset);
+  }
+
+  private windowField(title: string): HTMLInputElement {
+    const field = el("input", {
+      type: "number",
+      class: "number",
+      title,
+      step: "any",
+      on: {
+        change: () => this.typeWindow(),
+        blur: () => this.update(), // what is no window is not kept
+        keydown: (event) => {
+          if (event.key === "Enter") field.blur(); // keys are the tools' again
+        },
+      },
+    });
+    return field;
   }
 
   private choosePreset(): void {

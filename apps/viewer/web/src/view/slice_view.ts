@@ -43,7 +43,7 @@ export class SliceView {
   readonly overlay = el("canvas", { class: "overlay", tabIndex: 0 });
   readonly header: HTMLElement;
   private readonly image = el("canvas", { class: "image" });
-  private readonly slider = el("input", { type: "range", class: "slice-slider", title: "Slice (mouse wheel, arrow keys)" });
+  private readonly slider = el("input", { type: "range", class: "slice-slider", title: "Slice (mouse wheel, arrow keys)", on: { input: () => this.slid() } });
   private readonly position = el("span", { class: "slice-number" });
   private readonly bitmap = document.createElement("canvas");
   private bitmapPlane: PixelPlane | null = null;
@@ -75,21 +75,22 @@ export class SliceView {
       title: "Turn and zoom this view back to where it began",
       class: "icon-button small",
       test: `reset-${name}`,
-      onclick: () => navigation.resetView(name),
+      click: () => navigation.resetView(name),
     });
     const enlarge = button({
       icon: ICONS.enlarge,
       title: "Show this view alone, or go back (double click on its title)",
       class: "icon-button small",
       test: `enlarge-${name}`,
-      onclick: () => this.header.dispatchEvent(new MouseEvent("dblclick")),
+      click: () => void this.header.dispatchEvent(new MouseEvent("dblclick")),
     });
+    this.overlay.setAttribute("role", "img");
+    this.overlay.setAttribute("aria-label", `${VIEW_TITLES[name]} slice`);
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[name];
     this.header.append(dot, el("span", { class: "pane-title" }, VIEW_TITLES[name]), this.position, el("span", { class: "spring" }), reset, enlarge);
     this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image, this.overlay, this.header, this.slider);
     this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
-    this.slider.oninput = () => navigation.scrollTo(name, Number(this.slider.value));
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
@@ -236,7 +237,7 @@ export class SliceView {
 
   /** A request that another one overtook is not answered, and what it asked for is still wanted. */
   private async askAgain(pixels: boolean): Promise<void> {
-    if (!this.requests.hasNext) await new Promise((resolve) => setTimeout(resolve, ASK_AGAIN_MS));
+    if (!this.requests.hasNext) await new Promise((resolve) => void setTimeout(resolve, ASK_AGAIN_MS));
     this.requests.send({ pixels });
   }
 
@@ -259,6 +260,10 @@ export class SliceView {
     context.putImageData(this.pixels, 0, 0);
     this.bitmapPlane = plane;
     ++this.images;
+  }
+
+  private slid(): void {
+    this.services.navigation.scrollTo(this.name, Number(this.slider.value));
   }
 
   private updateSlider(): void {
@@ -316,9 +321,9 @@ export class SliceView {
     }
     this.paintLines(painter, screen);
     this.paintContours(painter, screen);
-    for (const surface of project.surfaces.values())
-      for (const { at } of surface.conflicts ?? [])
-        if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
+    const crossings = project.shownContours().flatMap((contour) => contour.self_crossings);
+    for (const at of [...crossings, ...[...project.surfaces.values()].flatMap((surface) => surface.conflicts ?? []).map((conflict) => conflict.at)])
+      if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
     this.paintSketch(painter, screen);
     if (this.slice) painter.letters(this.slice.header.letters);
     painter.scaleBar();

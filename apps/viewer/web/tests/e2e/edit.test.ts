@@ -172,7 +172,7 @@ describe("structures", () => {
     const whole = await viewer.volume();
     await drawBall("axial", 0.5 * BALL_RADIUS_MM, 3);
     await page.keyboard.press("h");
-    await page.waitForSelector(".hole-flag");
+    await page.waitForSelector(".flag");
     await viewer.surfaceShown();
     const hollow = await viewer.volume();
     assert.ok(hollow < 0.97 * whole, `${hollow} of ${whole} ml`);

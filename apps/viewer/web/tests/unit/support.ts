@@ -52,6 +52,6 @@ export function square(id: number, changes: Partial<Contour> = {}): Contour {
   const points: Vec3[] = [[-10, -10, 0], [10, -10, 0], [10, 10, 0], [-10, 10, 0]];
   return {
     id, structure: 1, kind: "spline", plane: { ...AXIAL, origin: [0, 0, 0] }, hole: false, visible: true, points,
-    control: points.map((at, index) => ({ at, kind: "line", index })), ...changes,
+    control: points.map((at, index) => ({ at, kind: "line", index })), self_crossings: [], ...changes,
   };
 }

@@ -115,6 +115,7 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
     screenOf: () => screen,
     failed: (error) => (server.refusal ? complaints.push(String(error)) : assert.fail(String(error))),
     tell: (text) => complaints.push(text),
+    made: () => undefined,
     notSaved: (_, why) => complaints.push(why),
   });
   editor.choose(tool);

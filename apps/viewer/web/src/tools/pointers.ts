@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+
+type Pointer = Pick<PointerEvent, "pointerId" | "pointerType">;
+
+/** Which pointer works on the views: one at a time, so that a second finger neither ends nor bends the line of the first, and no hand that rests beside a pen. */
+export class Pointers {
+  private holder: { pointer: Pointer; leave: () => void } | null = null;
+  private knowsPen = false;
+  private saidSo = false;
+
+  /** `tellOfPen` is called once: when the first touch is not taken because of a pen. */
+  constructor(private readonly tellOfPen: () => void) {}
+
+  /** Whether the pointer may begin something. `leave` gives that up where a pen comes after its hand. */
+  take(pointer: Pointer, leave: () => void): boolean {
+    if (this.isPalm(pointer)) {
+      if (!this.saidSo) this.tellOfPen();
+      this.saidSo = true;
+      return false;
+    }
+    const isPalmBelow = pointer.pointerType === "pen" && this.holder?.pointer.pointerType === "touch";
+    if (this.isOther(pointer) && !isPalmBelow) return false;
+    this.holder?.leave();
+    this.holder = { pointer, leave };
+    return true;
+  }
+
+  holds({ pointerId }: Pointer): boolean {
+    return this.holder?.pointer.pointerId === pointerId;
+  }
+
+  release(): void {
+    this.holder = null;
+  }
+
+  /** Whether its moves and presses mean nothing: another pointer works, or it is the hand that holds the pen. */
+  ignores(pointer: Pointer): boolean {
+    return this.isPalm(pointer) || this.isOther(pointer);
+  }
+
+  private isOther({ pointerId }: Pointer): boolean {
+    return this.holder !== null && this.holder.pointer.pointerId !== pointerId;
+  }
+
+  /** Who has a pen rests his hand on the screen: for good, since it touches at any time, and often before the pen does. */
+  private isPalm({ pointerType }: Pointer): boolean {
+    this.knowsPen ||= pointerType === "pen";
+    return pointerType === "touch" && this.knowsPen;
+  }
+}

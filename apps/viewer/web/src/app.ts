@@ -58,7 +58,7 @@ export class App {
   private saidLost = false; // since the connection was open
   private readonly closeWhenConnected: (() => void)[] = [];
   private closeUnsavedNotice = () => {};
-  private crossing: { contour: number; close: () => void } | null = null; // that is spoken of
+  private closeCrossingNotice = () => {};
   private hintSeen = false;
   private saveTimer = 0;
 
@@ -140,7 +140,7 @@ export class App {
     editor.drawing.on(["points"], () => this.savePageSoon());
     editor.drawing.on(["points"], () => this.tellSaved());
     project.on(["selection"], () => this.tellHint());
-    project.on(["contours"], () => this.forgetCrossings());
+    project.on(["contours"], () => this.closeCrossingNotice());
     for (const [name, view] of this.views) {
       this.inputs.push(
         new ViewInput(view, {
@@ -265,20 +265,12 @@ export class App {
     this.tellSaved();
   }
 
-  /** Said once it is drawn, and until it is mended or taken back. */
+  /** Said until the next edit, as long as undo takes back this one. */
   private tellCrossing(contour: Contour): void {
-    if (contour.self_crossings.length === 0 || this.crossing?.contour === contour.id) return;
-    this.crossing?.close();
+    if (contour.self_crossings.length === 0) return;
     const where = contour.self_crossings.length === 1 ? "at the ringed place" : `at ${contour.self_crossings.length} ringed places`;
     const text = `This contour crosses itself ${where}: what is inside of it is not clear there, and the surface may leave the line.`;
-    const close = this.notices.show("warning", text, { label: "Take it back", act: () => this.undo() });
-    this.crossing = { contour: contour.id, close };
-  }
-
-  private forgetCrossings(): void {
-    if (!this.crossing || this.project.contours.get(this.crossing.contour)?.self_crossings.length) return;
-    this.crossing.close();
-    this.crossing = null;
+    this.closeCrossingNotice = this.notices.show("warning", text, { label: "Take it back", act: () => this.undo() });
   }
 
   undo(): void {

@@ -134,7 +134,8 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
   private dropSlip(drawn: Sketch): void {
     this.putAside(drawn);
     this.changed();
-    this.services.tell(`That stroke is less than ${LEAST_WIDTH_PIXELS} pixels wide, so it was not taken for a contour. Zoom in (Ctrl + wheel) to draw small things; Ctrl + Z brings it back, and Enter then closes it.`);
+    const text = `That stroke is less than ${LEAST_WIDTH_PIXELS} pixels wide, so it was not taken for a contour. Zoom in (Ctrl + wheel) to draw small things.`;
+    this.services.tell(text, { label: "Take it all the same", act: () => this.send(drawn) });
   }
 
   private click(screen: Screen, at: Point2, kind: StretchKind): void {

@@ -56,9 +56,10 @@ export class StatusBar {
 }
 
 const NOTICE_MS = 6000;
+const REMEDY_MS = 15_000; // to read, and to reach for the button
 const MOST_NOTICES = 4;
 
-/** Sentences for the user, at the top of the views; errors, and what he can do something about, stay until they are closed. */
+/** Sentences for the user, at the top of the views; errors, and warnings of what he can mend, stay until they are closed. */
 export class Notices {
   readonly element = el("div", { class: "notices", role: "status" });
 
@@ -69,7 +70,8 @@ export class Notices {
     if (remedy) notice.append(button({ label: remedy.label, title: remedy.label, class: "choice", test: "remedy", click: remedy.act }));
     this.element.append(notice);
     while (this.element.children.length > MOST_NOTICES) this.leastImportant().remove();
-    if (level !== "error" && !remedy) setTimeout(() => notice.remove(), NOTICE_MS);
+    const stays = level === "error" || (level === "warning" && remedy);
+    if (!stays) setTimeout(() => notice.remove(), remedy ? REMEDY_MS : NOTICE_MS);
     return () => notice.remove();
   }
 

@@ -203,10 +203,9 @@ describe("structures", () => {
     await page.click("[data-test=add-structure]");
     await page.waitForSelector(".structure:nth-child(2) .structure-row.active");
     const second = page.locator(".structure").nth(1);
-    await second.locator(".name").fill("Lesion");
-    await page.keyboard.press("Enter");
+    await viewer.rename(1, "Lesion");
     await viewer.waitForStep("undo", "Rename");
-    await second.locator(".color").fill("#3366ff");
+    await viewer.pickColor(second.locator(".color"), "#3366ff");
     await viewer.waitForStep("undo", "Colour Lesion");
     await drawBall("coronal", 0.8 * BALL_RADIUS_MM, 2);
     assert.equal(await second.locator(".contour-row").count(), 1);
@@ -312,8 +311,9 @@ describe("views", () => {
     const [darker, wider] = await numbers();
     assert.ok(darker! > center! && wider! > width!, `${darker} / ${wider} from ${center} / ${width}`);
     const before = await viewer.pane("axial").screenshot();
-    await page.locator(".toolbar .number").nth(1).fill("20");
+    await viewer.type(page.locator(".toolbar .number").nth(1), "20");
     await page.keyboard.press("Enter");
+    assert.equal((await numbers())[1], 20);
     await page.keyboard.press("l");
     await page.waitForSelector("[data-test=tool-wire][aria-pressed=true]");
     await viewer.slicesShown();
@@ -434,8 +434,7 @@ describe("files", () => {
     const drawn = await viewer.volume();
     const mask = join(folder.path, "ball mask.nii.gz");
     writeFileSync(mask, (await viewer.export("mask.nii.gz")).bytes);
-    await viewer.page.click("[data-test=import]");
-    await viewer.page.setInputFiles("[data-test=import-file]", mask);
+    await viewer.import(mask);
     await viewer.page.click("[data-test=import-mask]");
     await viewer.page.waitForFunction(() => document.querySelectorAll(".structure").length === 2);
     await viewer.page.waitForFunction(() => document.querySelectorAll(".contour-row").length > 15);

@@ -178,11 +178,9 @@ describe("the page", () => {
   });
 
   test("imports contours as a new structure, and shows its surface", async () => {
-    const { page } = viewer;
-    await page.click("[data-test=import]");
-    await page.setInputFiles("[data-test=import-file]", join(folder.path, "contours.json"));
+    await viewer.import(join(folder.path, "contours.json"));
     await viewer.waitForContours(4);
-    assert.equal(await page.locator(".structure").count(), 2);
+    assert.equal(await viewer.page.locator(".structure").count(), 2);
     await viewer.surfaceShown();
   });
 
@@ -190,8 +188,7 @@ describe("the page", () => {
     const { page } = viewer;
     const path = join(folder.path, "broken.json");
     writeFileSync(path, "{ no contours");
-    await page.click("[data-test=import]");
-    await page.setInputFiles("[data-test=import-file]", path);
+    await viewer.import(path);
     const notice = page.locator(".notice.error");
     await notice.waitFor();
     assert.ok((await notice.textContent())!.length > 20);

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { after } from "node:test";
-import { chromium, type Browser, type Page } from "playwright-core";
+import { chromium, type Browser, type Locator, type Page } from "playwright-core";
 
 export const KONTUR = process.env["KONTUR_CLI"] ?? "kontur";
 const CHROMIUM = process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium";
@@ -238,6 +238,39 @@ export class Viewer {
 
   async saved(): Promise<void> {
     await this.page.waitForSelector("[data-test=saved][data-state=saved]");
+  }
+
+  /** Clicks into a field, and types over what is there. */
+  async type(field: Locator, text: string): Promise<void> {
+    await field.click();
+    await this.page.keyboard.press("Control+a");
+    await this.page.keyboard.type(text);
+  }
+
+  /** Renames a structure, from 0, by a double click on its name. */
+  async rename(structure: number, name: string): Promise<void> {
+    await this.page.locator(".structure-row button.name").nth(structure).dblclick();
+    await this.page.keyboard.type(name);
+    await this.page.keyboard.press("Enter");
+  }
+
+  /** Imports by the dialog, and the file chooser that a click on its field opens. */
+  async import(path: string): Promise<void> {
+    await this.page.click("[data-test=import]");
+    const chooser = this.page.waitForEvent("filechooser");
+    await this.page.click("[data-test=import-file]");
+    await (await chooser).setFiles(path);
+  }
+
+  /** The click has to open the browser's colour picker, a window of its own that no test reaches: what is chosen there is set. */
+  async pickColor(field: Locator, color: string): Promise<void> {
+    await this.page.evaluate(() => window.addEventListener("click", (event) => (document.body.dataset["clicked"] = event.defaultPrevented ? "cancelled" : "through"), { once: true }));
+    await field.click();
+    assert.equal(await this.page.evaluate(() => document.body.dataset["clicked"]), "through", "the click opens the colour picker");
+    await field.evaluate((input: HTMLInputElement, chosen) => {
+      input.value = chosen;
+      for (const type of ["input", "change"]) input.dispatchEvent(new Event(type, { bubbles: true }));
+    }, color);
   }
 
   /** Exports by the dialog. */

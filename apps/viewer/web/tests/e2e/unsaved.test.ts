@@ -293,13 +293,12 @@ describe("without a connection", () => {
     const { page } = viewer;
     await server.end("SIGKILL");
     await saved("lost");
-    await page.locator(".structure .color").fill("#3366ff");
+    await viewer.pickColor(page.locator(".structure .color"), "#3366ff");
     await notice("nothing was changed").waitFor();
     await page.waitForFunction(() => document.querySelector<HTMLInputElement>(".structure .color")!.value !== "#3366ff");
     const path = join(folder.path, "contours.json");
     writeFileSync(path, "{}");
-    await page.click("[data-test=import]");
-    await page.setInputFiles("[data-test=import-file]", path);
+    await viewer.import(path);
     await notice("kontur does not answer").waitFor();
     await restart();
     await saved("unsaved");

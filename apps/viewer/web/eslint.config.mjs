@@ -4,11 +4,12 @@
 import tseslint from "typescript-eslint";
 
 const HANDLER = "Attach handlers by addEventListener, as `on` of el() does: what a handler property returns can cancel the event.";
+const NAME = "/^on(?!(ce|e|ly|line)$)[a-z]+$/";
 
 const handlerProperties = [
-  { selector: "AssignmentExpression > MemberExpression.left > Identifier.property[name=/^on[a-z]+$/]", message: HANDLER },
-  { selector: "AssignmentExpression > MemberExpression.left > Literal.property[value=/^on[a-z]+$/]", message: HANDLER },
-  { selector: "Property > Identifier.key[name=/^on[a-z]+$/]", message: HANDLER },
+  { selector: `AssignmentExpression > MemberExpression.left > Identifier.property[name=${NAME}]`, message: HANDLER },
+  { selector: `AssignmentExpression > MemberExpression.left > Literal.property[value=${NAME}]`, message: HANDLER },
+  { selector: `Property > Identifier.key[name=${NAME}]`, message: HANDLER },
 ];
 
 export default tseslint.config(

@@ -59,7 +59,7 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
       if (isDone && Object.keys(state.shown).length === panes.length) state.refined ||= performance.now() - state.start;
     });
     for (const element of [...panes, panel]) observer.observe(element, { attributes: true });
-    window.addEventListener(type, (event) => void (state.start = event.timeStamp), { capture: true, once: true });
+    window.addEventListener(type, (event) => (state.start = event.timeStamp), { capture: true, once: true });
     Object.assign(window, { edit: state });
   }, from);
 }

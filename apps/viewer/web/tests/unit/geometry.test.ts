@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { boxSection, coincide, commonDirection, heightOver, rotatedAxes } from "../../src/geometry/plane";
 import { scaleBar } from "../../src/geometry/scale_bar";
-import { clippedLine, nearestOnLine, slicePlane, sliceOnScreen, toScreen, toWorld, type Screen } from "../../src/geometry/screen";
+import { clippedLine, narrowWidth, nearestOnLine, slicePlane, sliceOnScreen, toScreen, toWorld, type Screen } from "../../src/geometry/screen";
 import { add, cross, dot, length, rotated, scale, type Vec3 } from "../../src/geometry/vec";
 import { AXIAL, CORONAL, near, session, SKEW } from "./support";
 
@@ -79,6 +79,15 @@ test("the nearest point of a line is its end where the pointer is beyond it", ()
   near(Object.values(nearestOnLine([3, 4], [0, 0], [10, 0])), [4, 0.3]);
   near(Object.values(nearestOnLine([13, 4], [0, 0], [10, 0])), [5, 1]);
   near(Object.values(nearestOnLine([3, 4], [0, 0], [0, 0])), [5, 0]);
+});
+
+test("the narrow width of points is that of the rectangle they lie in, however it is turned", () => {
+  const corners: [number, number][] = [[0, 0], [80, 0], [80, 3], [0, 3], [40, 1]];
+  for (let angle = 0; angle < 3.2; angle += 0.1)
+    near([narrowWidth(corners.map(([x, y]) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)]))], [3], 0.05);
+  near([narrowWidth([[1, 2], [4, 6], [7, 10]])], [0], 1e-9);
+  const ring = Array.from({ length: 40 }, (_, i): [number, number] => [10 * Math.cos(i), 10 * Math.sin(i)]);
+  assert.ok(narrowWidth(ring) > 19);
 });
 
 test("a line is clipped to the view, and gone when it passes by", () => {

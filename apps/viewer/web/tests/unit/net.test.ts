@@ -61,11 +61,18 @@ class FakeWebSocket {
   static last: FakeWebSocket;
   readyState = FakeWebSocket.OPEN;
   readonly sent: { seq: number; call: string }[] = [];
-  onmessage: (message: { data: string }) => void = () => undefined;
-  onclose: () => void = () => undefined;
+  private readonly listeners = new Map<string, (event: { data: string }) => void>();
 
   constructor() {
     FakeWebSocket.last = this;
+  }
+
+  addEventListener(type: string, listener: (event: { data: string }) => void): void {
+    this.listeners.set(type, listener);
+  }
+
+  close(): void {
+    this.listeners.get("close")!({ data: "" });
   }
 
   send(text: string): void {
@@ -77,7 +84,7 @@ class FakeWebSocket {
   }
 
   tell(message: object): void {
-    this.onmessage({ data: JSON.stringify(message) });
+    this.listeners.get("message")!({ data: JSON.stringify(message) });
   }
 }
 
@@ -123,7 +130,7 @@ test("of a connection's calls none is sent before the session is known, and lost
   FakeWebSocket.last.answer();
   assert.equal(await first, "done");
   const under_way = [socket.call("undo"), socket.call("contour.pull", { draft: true })].map(failure);
-  FakeWebSocket.last.onclose();
+  FakeWebSocket.last.close();
   assert.deepEqual(await Promise.all(under_way), ["lost, an edit", "lost"]);
   assert.deepEqual(told, ["connecting", "open", "session", "1", "0 acknowledged", "1", "lost", "0"]);
 });
@@ -193,7 +200,7 @@ test("a silent connection that is lost is opened again, and silent only after as
   FakeWebSocket.last.tell(session());
   const edit = failure(socket.call("undo"));
   for (let i = 0; i < 4; ++i) timers.tick();
-  FakeWebSocket.last.onclose();
+  FakeWebSocket.last.close();
   assert.equal(await edit, "lost, an edit");
   socket.open();
   FakeWebSocket.last.tell(session());

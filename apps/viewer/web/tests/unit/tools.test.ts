@@ -6,7 +6,7 @@ import type { Vec3 } from "../../src/geometry/vec";
 import { Project } from "../../src/model/project";
 import { ServerError } from "../../src/net/http";
 import type { Contour, SketchPoint } from "../../src/net/protocol";
-import { Editor, type ToolName } from "../../src/tools/editor";
+import { Editor, type Remedy, type ToolName } from "../../src/tools/editor";
 import type { Gesture } from "../../src/tools/gesture";
 import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
 import { Sketch } from "../../src/tools/sketch";
@@ -101,6 +101,7 @@ interface Call {
 function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 => p) {
   const calls: Call[] = [];
   const complaints: string[] = [];
+  const remedies: Remedy[] = [];
   const server: { refusal: ServerError | null } = { refusal: null };
   const project = new Project();
   project.start(session({ contours }));
@@ -114,7 +115,10 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
     },
     screenOf: () => screen,
     failed: (error) => (server.refusal ? complaints.push(String(error)) : assert.fail(String(error))),
-    tell: (text) => complaints.push(text),
+    tell: (text, remedy) => {
+      complaints.push(text);
+      if (remedy) remedies.push(remedy);
+    },
     made: () => undefined,
     notSaved: (_, why) => complaints.push(why),
   });
@@ -139,7 +143,7 @@ function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 
     assert.equal(edits().length, 2);
     assert.deepEqual(first!.args, second!.args);
   };
-  return { editor, drawing, outbox: drawing.outbox, project, navigation, calls, press, drag, settled, edits, server, complaints, savedByTryingAgain };
+  return { editor, drawing, outbox: drawing.outbox, project, navigation, calls, press, drag, settled, edits, server, complaints, remedies, savedByTryingAgain };
 }
 
 const round = (count: number, radius: number): Point2[] =>
@@ -153,6 +157,59 @@ test("the freehand tool makes a contour when the button is released", async () =
   const [point] = edits()[0]!.args["control"] as SketchPoint[];
   near(point!.at, [45, 0, 0], 1e-9);
   assert.ok(point!.path!.length > 30);
+});
+
+test("a slip of the hand is no contour, unless the user insists; a small thing drawn large is one", async () => {
+  const { drag, edits, settled, remedies, complaints } = editing("freehand", []);
+  drag([200, 200], [203, 203], [207, 202]);
+  drag([100, 200], [200, 201], [300, 203], [200, 202]);
+  await settled();
+  assert.deepEqual(edits(), []);
+  assert.match(complaints[0]!, /less than 5 pixels wide/);
+  remedies[0]!.act();
+  await settled();
+  assert.equal(edits().length, 1);
+  drag(...round(12, 4));
+  await settled();
+  assert.equal(edits().length, 2);
+});
+
+test("a slip comes back by undo, and Enter makes a contour of it", async () => {
+  const { drawing, drag, edits, settled } = editing("freehand", []);
+  drag([200, 200], [203, 203], [207, 202]);
+  assert.equal(drawing.undoLabel, "Leave the contour");
+  drawing.undo();
+  drawing.close();
+  await settled();
+  assert.equal(edits().length, 1);
+});
+
+test("nothing is drawn into a hidden structure, copied or redrawn where it is not seen, until it is shown", async () => {
+  const { editor, drawing, project, drag, edits, settled, complaints, remedies } = editing("freehand");
+  const [liver] = project.structures.values();
+  project.select({ contour: 5, point: null });
+  project.apply({ event: "changed", structures: { set: [{ ...liver!, visible: false }] }, history: { undo: null, redo: null } });
+  drag(...round(40, 90));
+  await editor.edits.copySelected("axial", 1);
+  editor.choose("redraw");
+  drag(...round(40, 90));
+  await settled();
+  assert.deepEqual(edits(), []);
+  assert.equal(complaints.filter((text) => text.startsWith("Liver is hidden")).length, 3);
+  remedies[0]!.act();
+  assert.deepEqual(edits().map(({ name, args }) => [name, args]), [["structure.set", { id: 1, visible: true }]]);
+  assert.equal(drawing.sketch, null);
+});
+
+test("a hidden structure takes no contour that was begun before, and keeps what is drawn of it", async () => {
+  const { drawing, project, drag, edits, settled } = editing("spline", []);
+  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  const [liver] = project.structures.values();
+  project.apply({ event: "changed", structures: { set: [{ ...liver!, visible: false }] }, history: { undo: null, redo: null } });
+  drawing.close();
+  await settled();
+  assert.deepEqual(edits(), []);
+  assert.equal(drawing.sketch!.points.length, 3);
 });
 
 test("clicks place points of the tool's kind, and a click on the first point closes", async () => {

@@ -172,6 +172,34 @@ TEST_F(ContourEdits, WhatHasNoAreaIsNoContour) {
     EXPECT_KONTUR_ERROR(draw_contour(point, kPlane, edges, kNoSnap), ErrorKind::invalid_input, "three points");
 }
 
+TEST(SelfCrossings, AreTheCrossingOfAFigureOfEightAndNoneOfACircleOrATouch) {
+    const auto drawn = [](const std::vector<std::array<double, 2>>& corners) {
+        DrawnContour contour = freehand_circle(20);
+        contour.points.clear();
+        for (const auto& [u, v] : corners) contour.points.push_back(kPlane.from_uv(u, v));
+        return contour;
+    };
+    EXPECT_TRUE(self_crossings(freehand_circle(100)).empty());
+    const std::vector<Vec3> eight = self_crossings(drawn({{-4, -3}, {4, 3}, {4, -3}, {-4, 3}}));
+    ASSERT_EQ(eight.size(), 1u);
+    EXPECT_LT(distance(eight[0], kPlane.origin), 1e-12);
+    EXPECT_TRUE(self_crossings(drawn({{-4, -3}, {0, 0}, {4, -3}, {4, 3}, {0, 0}, {-4, 3}})).empty()) << "a touch";
+    // What was read from a file may repeat points, also the first one at the end.
+    EXPECT_EQ(self_crossings(drawn({{-4, -3}, {-4, -3}, {4, 3}, {4, -3}, {4, -3}, {-4, 3}, {-4, -3}})).size(), 1u);
+    EXPECT_TRUE(self_crossings(drawn({{0, 0}, {0, 0}, {0, 0}, {1, 0}, {1, 0}})).empty());
+}
+
+TEST(SelfCrossings, AreNoMoreThanWereAskedFor) {
+    std::vector<Vec3> zigzag;
+    for (int i = 0; i < 40; ++i) zigzag.push_back(kPlane.from_uv(i, i % 2 == 0 ? -5 : 5));
+    zigzag.push_back(kPlane.from_uv(50, 0));
+    zigzag.push_back(kPlane.from_uv(-9, 0.3));
+    DrawnContour contour = freehand_circle(20);
+    contour.points = zigzag;
+    EXPECT_GT(self_crossings(contour, 1000).size(), 20u);
+    EXPECT_EQ(self_crossings(contour).size(), 20u);
+}
+
 TEST(Thinned, KeepsEndsAndStaysWithinItsTolerance) {
     std::vector<Vec3> line;
     for (int i = 0; i <= 500; ++i) line.push_back({0.1 * i, 3 * std::sin(0.02 * i), 0});

@@ -441,6 +441,56 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 422 and str(tmp_path) not in body.decode()
 
 
+def test_contours_that_may_not_belong_to_the_image_come_in_only_when_told_so(server):
+    page = server.page()
+    far = json.dumps(rings(31, 3, 20, x=900.0)).encode()
+    before = len(page.structures)
+    status, _, body = server.request("POST", "/api/import/contours?name=a.json", far)
+    reply = json.loads(body)
+    assert status == 200 and reply["structures"] == []
+    assert len(reply["doubts"]) == 1 and "Rings lies" in reply["doubts"][0] and "mm outside of the image" in reply["doubts"][0]
+    page.do("ping")
+    assert len(page.structures) == before and page.history["undo"] is None
+    status, _, body = server.request("POST", "/api/import/contours?name=a.json&anyway=1", far)
+    assert status == 200 and json.loads(body)["doubts"] == [] and len(json.loads(body)["structures"]) == 1
+    page.do("ping")
+    assert len(page.structures) == before + 1
+    assert page.do("undo")["label"] == "Import contours"
+
+
+def test_contours_beside_the_image_are_named_when_both_are_opened(tmp_path, image):
+    contours = tmp_path / "rings.json"
+    contours.write_text(json.dumps(rings(31, 3, 20, x=900.0)))
+    with running(tmp_path, image, contours) as server:
+        (note,) = server.page().session["image"]["notes"]
+        assert "Rings lies" in note and "outside of the image" in note
+
+
+def test_a_structure_without_a_surface_has_an_empty_mesh(server):
+    """It may go while it is asked for, which is no error."""
+    page = server.page()
+    for structure in (the_structure(page), 987654):
+        head, arrays = server.binary("GET", f"/api/mesh/{structure}")
+        assert head["stage"] == "none" and head["revision"] == 0 and head["structure"] == structure
+        assert all(array.size == 0 for array in arrays.values())
+    assert server.request("GET", "/api/mesh/x")[0] == 404
+
+
+def test_where_a_contour_crosses_itself_is_told(server):
+    page = server.page()
+    plane = {**page.session["views"]["axial"]["plane"]}
+    origin, u, v = (numpy.array(plane[key]) for key in ("origin", "u", "v"))
+    corners = [(origin + x * u + y * v).tolist() for x, y in ((-6, -5), (6, 5), (6, -5), (-6, 5))]
+    control = [{"at": at, "kind": "line"} for at in corners]
+    contour = page.do("contour.add", structure=the_structure(page), plane={**plane, "mm_per_pixel": 1}, control=control)["contour"]
+    (place,) = contour["self_crossings"]
+    assert place == pytest.approx(origin.tolist(), abs=1e-9)
+    assert page.contours[contour["id"]]["self_crossings"] == [place]
+    assert server.page().contours[contour["id"]]["self_crossings"] == [place]
+    straight = page.do("contour.move_point", id=contour["id"], index=1, to=(origin + 6 * u - 8 * v).tolist())["contour"]
+    assert straight["self_crossings"] == [] and page.contours[contour["id"]]["self_crossings"] == []
+
+
 def rings(z, count, points, radius=10.0, x=0.0):
     """A contour file of axial circles."""
     planes = [{"origin": [0, 0, z + k], "normal": [0, 0, 1], "u": [1, 0, 0], "v": [0, 1, 0]} for k in range(count)]
@@ -461,7 +511,7 @@ def test_what_could_not_be_opened_again_is_refused(tmp_path, image, document, pa
     assert begun.returncode == 65 and "a contour of Rings cannot be kept" in begun.stderr and part in begun.stderr
     with running(tmp_path, image, "--project", tmp_path / "work.kontur") as server:
         page = server.page()
-        status, _, body = server.request("POST", "/api/import/contours?name=a.json", contours.read_bytes())
+        status, _, body = server.request("POST", "/api/import/contours?name=a.json&anyway=1", contours.read_bytes())
         assert status == 400 and part in json.loads(body)["error"]["message"]
         ids = draw_ball(page, the_structure(page))
         assert "cannot be kept" in page.refused("contour.copy", id=ids[0], offset_mm=1e7)["message"]

@@ -14,7 +14,9 @@ constexpr std::size_t kMostNamed = 5;  ///< structures; a set of another patient
 
 /// How many voxels a point lies from the image's outermost faces; 0 inside.
 double voxels_outside(const Vec3& index, const Index3& size) {
-    const auto beyond = [](double at, std::int64_t n) { return std::max({-0.5 - at, at - static_cast<double>(n) + 0.5, 0.0}); };
+    const auto beyond = [](double at, std::int64_t n) {
+        return std::max({-0.5 - at, at - static_cast<double>(n) + 0.5, 0.0});
+    };
     return std::max({beyond(index.x, size.i), beyond(index.y, size.j), beyond(index.z, size.k)});
 }
 
@@ -50,7 +52,8 @@ std::vector<std::string> import_doubts(const std::vector<ContourSet>& sets, cons
                                        const FrameUid& image_frame, double most_outside) {
     std::vector<std::string> doubts;
     if (!frame.empty() && !image_frame.empty() && frame != image_frame)
-        doubts.push_back(fmt::format("It was drawn in another frame of reference ({}) than the image's ({}).", frame, image_frame));
+        doubts.push_back(
+            fmt::format("It was drawn in another frame of reference ({}) than the image's ({}).", frame, image_frame));
     std::size_t outside = 0;
     for (const ContourSet& set : sets)
         if (auto sentence = doubt(set, image, most_outside); sentence && ++outside <= kMostNamed)

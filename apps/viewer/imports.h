@@ -25,8 +25,8 @@ struct Upload {
 };
 
 struct Imported {
-    std::vector<ContourSet> sets;    ///< one for each structure of the file, none of them empty
-    std::vector<std::string> notes;  ///< how the file was read, for the user to see
+    std::vector<ContourSet> sets;          ///< one for each structure of the file, none of them empty
+    std::vector<std::string> notes;        ///< how the file was read, for the user to see
     std::string frame_of_reference_uid{};  ///< "" when none is named
 };
 

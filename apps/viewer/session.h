@@ -31,7 +31,7 @@ struct OpenedImage {
     std::shared_ptr<const Image> image;
     std::string title;
     ImageReference reference;
-    std::vector<std::string> notes;  ///< what had to be decided on reading
+    std::vector<std::string> notes;        ///< what had to be decided on reading
     std::string frame_of_reference_uid{};  ///< of DICOM images; "" when none is named
 };
 

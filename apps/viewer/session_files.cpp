@@ -149,8 +149,7 @@ ImportReply Session::import(const std::string& bytes, const Upload& upload, cons
     const Imported imported = import_apart(bytes, upload, progress);
     progress.check();
     if (!upload.anyway) {
-        auto doubts =
-            import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
+        auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
         if (!doubts.empty()) return {{}, std::move(doubts)};
     }
     for (const std::string& note : imported.notes) notice("info", note);

@@ -191,7 +191,8 @@ std::string Session::mesh(Id structure) {
         {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}});
     reply.add<float>("positions", floats(mesh.points));
     reply.add<float>("normals", floats(mesh.normals));
-    reply.add("triangles", std::span(reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), 3 * mesh.triangles.size()));
+    reply.add("triangles",
+              std::span(reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), 3 * mesh.triangles.size()));
     return reply.bytes();
 }
 

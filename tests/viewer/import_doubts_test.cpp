@@ -20,8 +20,7 @@ ContourSet moved(double by_mm, const std::string& name = "Liver") {
     return {name, {circle}, {}, {}};
 }
 
-Sentences doubts_of(const std::vector<ContourSet>& sets, const FrameUid& frame = "",
-                                   const FrameUid& image_frame = "") {
+Sentences doubts_of(const std::vector<ContourSet>& sets, const FrameUid& frame = "", const FrameUid& image_frame = "") {
     return import_doubts(sets, frame, test::flat_image()->grid, image_frame);
 }
 

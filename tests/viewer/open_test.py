@@ -665,7 +665,9 @@ def test_an_rtstruct_brings_every_region_that_has_contours(server, tmp_path):
     script = pathlib.Path(__file__).parent.parent / "support" / "make_rtstruct.py"
     subprocess.run([sys.executable, script, "good", file], check=True)
     page = server.page()
-    status, _, body = server.request("POST", "/api/import/contours?name=plan.dcm", file.read_bytes())
+    asked = json.loads(server.request("POST", "/api/import/contours?name=plan.dcm", file.read_bytes())[2])
+    assert asked["structures"] == [] and asked["doubts"]  # it was drawn on another image
+    status, _, body = server.request("POST", "/api/import/contours?name=plan.dcm&anyway=1", file.read_bytes())
     assert status == 200, body
     page.do("ping")
     ids = json.loads(body)["structures"]

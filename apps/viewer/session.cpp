@@ -21,6 +21,7 @@ constexpr std::size_t kMostControlPoints = 10'000;
 constexpr std::size_t kLongestName = 100;
 constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 constexpr std::size_t kLargestPageState = 64 << 10;
+constexpr std::size_t kMostCheckedPoints = 100'000;  ///< for crossings, at some microseconds each
 
 /// Told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
 constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7"};
@@ -71,20 +72,29 @@ Commit one_contour(const std::string& label, const State& state, const DrawnCont
 
 Change<DrawnContour> removal(const DrawnContour& contour) { return {contour.id, contour, {}}; }
 
-json told_json(const Structure& structure) { return to_json(structure); }
+/// Objects as pages are told of them: with what they show and no project need store. For one message, which must not take
+/// seconds where a project holds millions of points: beyond `kMostCheckedPoints` contours count as crossing themselves
+/// nowhere.
+class Told {
+public:
+    json operator()(const Structure& structure) { return to_json(structure); }
+    json operator()(const DrawnContour& contour) {
+        points_ += contour.points.size();
+        json told = to_json(contour);
+        told["self_crossings"] = points_ <= kMostCheckedPoints ? to_json(self_crossings(contour)) : json::array();
+        return told;
+    }
 
-/// With what a page shows of it and no project need store.
-json told_json(const DrawnContour& contour) {
-    json told = to_json(contour);
-    told["self_crossings"] = to_json(self_crossings(contour));
-    return told;
-}
+private:
+    std::size_t points_ = 0;
+};
 
 template <class Row>
 json changes_json(const std::vector<Change<Row>>& changes) {
     json set = json::array(), removed = json::array();
+    Told told;
     for (const Change<Row>& change : changes) {
-        if (change.after) set.push_back(told_json(*change.after));
+        if (change.after) set.push_back(told(*change.after));
         else removed.push_back(change.id);
     }
     return {{"set", std::move(set)}, {"removed", std::move(removed)}};
@@ -198,8 +208,9 @@ void Session::notice(std::string_view level, const std::string& text) {
 std::string Session::greeting() {
     const std::scoped_lock lock(mutex_);
     json structures = json::array(), contours = json::array(), surfaces = json::array(), presets = json::array();
+    Told told;
     for (const auto& [id, structure] : project_.state().structures) structures.push_back(to_json(structure));
-    for (const auto& [id, contour] : project_.state().contours) contours.push_back(told_json(*contour));
+    for (const auto& [id, contour] : project_.state().contours) contours.push_back(told(*contour));
     for (const auto& [id, surface] : surfaces_.all())
         if (project_.state().structures.contains(id)) surfaces.push_back(surface_event(*surface));
     for (const WindowPreset& preset : presets_)
@@ -356,7 +367,7 @@ json Session::put(const std::string& label, DrawnContour contour, const Members&
         if (contour.id == 0) contour.id = project_.new_id();
         commit_ahead(one_contour(label, project_.state(), contour));
     }
-    return {{"contour", told_json(contour)}};
+    return {{"contour", Told()(contour)}};
 }
 
 json Session::add_contour(const Members& m) {

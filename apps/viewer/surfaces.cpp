@@ -13,7 +13,6 @@ namespace kontur::viewer {
 namespace {
 
 constexpr std::size_t kMostConflicts = 20;
-constexpr double kSamePlaceMm = 0.1;
 
 /// The contour's point where the surface passes farthest.
 Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
@@ -22,16 +21,6 @@ Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
     const auto worst =
         std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     return contour.points[static_cast<std::size_t>(worst - values.begin())];
-}
-
-/// A contour that crosses itself meets another one at the same place more than once.
-void drop_repeated(std::vector<Conflict>& conflicts) {
-    std::vector<Conflict> once;
-    for (const Conflict& conflict : conflicts)
-        if (std::none_of(once.begin(), once.end(),
-                         [&](const Conflict& other) { return distance(other.at, conflict.at) < kSamePlaceMm; }))
-            once.push_back(conflict);
-    conflicts = std::move(once);
 }
 
 /// Places where contours disagree by more than careful hands do, in large organs more than in small ones.
@@ -44,7 +33,6 @@ std::vector<Conflict> conflicts(const SurfaceTask& task) {
                              0.5 * (crossing.position + crossing.other_position), crossing.disagreement_mm});
     std::stable_sort(found.begin(), found.end(),
                      [](const Conflict& a, const Conflict& b) { return a.disagreement_mm > b.disagreement_mm; });
-    drop_repeated(found);
     if (found.size() > kMostConflicts) found.resize(kMostConflicts);
     return found;
 }

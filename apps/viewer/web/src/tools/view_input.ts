@@ -81,7 +81,7 @@ export class ViewInput {
 
   /** A busy page gets one event for several places of the pointer. */
   private follow(gesture: Gesture, event: PointerEvent): void {
-    const places = gesture.isStroke ? event.getCoalescedEvents() : [];
+    const places = gesture.isStroke ? (event.getCoalescedEvents?.() ?? []) : []; // older browsers have none
     for (const place of places.length > 0 ? places : [event]) gesture.move(this.view.pointOf(place));
   }
 

@@ -14,6 +14,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_start.h"
 #include "kontur/io/input_file.h"
 
 namespace kontur {
@@ -109,6 +110,9 @@ public:
     }
 
     void set_inflated() { inflated_ = true; }
+
+    /// Bytes read and skipped.
+    std::uint64_t position() const { return at_; }
 
 private:
     /// Some programs fill the file up with zeros behind the last element.
@@ -232,8 +236,11 @@ Meta read_meta(Scanner& meta) {
     return {syntax, has_length ? std::nullopt : std::optional(tag)};
 }
 
-void scan(InputFile& file) {
-    file.skip(132);
+constexpr std::uint64_t kPreambleBytes = 132;
+
+void scan(InputFile& file, const DicomStart& start) {
+    if (start.has_preamble) file.skip(kPreambleBytes);
+    if (!start.has_meta) return Scanner(file, {start.explicit_vr, false}).scan({});
     Scanner meta(file, {});
     auto [syntax, next] = read_meta(meta);
     Scanner scanner(file, {syntax != "1.2.840.10008.1.2", syntax == "1.2.840.10008.1.2.2"});
@@ -264,11 +271,29 @@ std::uint64_t item_count(const std::filesystem::path& path) {
 
 }  // namespace
 
-void check_dicom_nesting(const std::filesystem::path& path) {
+DicomMeta read_dicom_meta(const std::filesystem::path& path) {
+    const std::optional<DicomStart> start = dicom_start(path);
+    if (!start || !start->has_meta) return {};
     InputFile file(path);
-    if (file.stored_bytes_left() < 132) return;
+    const std::uint64_t begin = start->has_preamble ? kPreambleBytes : 0;
+    file.skip(begin);
+    Scanner scanner(file, {});
+    constexpr std::uint64_t kTagBytes = 4;
     try {
-        scan(file);
+        const Meta meta = read_meta(scanner);
+        return {meta.syntax, begin + scanner.position() - (meta.next ? kTagBytes : 0)};
+    } catch (const End&) {
+    } catch (const Disorder&) {
+    }
+    throw Error(ErrorKind::corrupt_file, path.string() + ": its meta information breaks off");
+}
+
+void check_dicom_nesting(const std::filesystem::path& path) {
+    const std::optional<DicomStart> start = dicom_start(path);
+    if (!start) return;
+    InputFile file(path);
+    try {
+        scan(file, *start);
     } catch (const End&) {
     } catch (const Disorder& disorder) {
         if (disorder.inflated || item_count(path) > kMostDisorderlyItems)

@@ -18,7 +18,7 @@ struct DicomStack {
 };
 
 /// Groups by series, size, orientation, pixel spacing and frame of reference; where slices would then share positions, by
-/// temporal position, echo, echo time, b-value, frame type or acquisition, and at last, unless they are frames, by their
+/// dose grid, temporal position, echo, echo time, b-value, frame type or acquisition, and at last, unless they are frames, by their
 /// rank in trigger time and instance number at each position. File names and instance numbers never decide the order of
 /// slices. Slices that nothing tells apart stay together, to be refused by `stack_grid`. Stacks come in the order of their
 /// series UIDs.

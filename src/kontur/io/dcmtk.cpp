@@ -157,14 +157,16 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kNewerSy
 }};
 
 std::string name_of_syntax(const std::string& uid) {
-    const auto found = std::find_if(kNewerSyntaxes.begin(), kNewerSyntaxes.end(), [&](const auto& s) { return s.first == uid; });
+    const auto found =
+        std::find_if(kNewerSyntaxes.begin(), kNewerSyntaxes.end(), [&](const auto& s) { return s.first == uid; });
     return found == kNewerSyntaxes.end() ? uid : std::string(found->second);
 }
 
 bool is_known(const std::string& uid) { return uid.empty() || DcmXfer(uid.c_str()).getXfer() != EXS_Unknown; }
 
 /// Reads the data set as if its pixels were run-length coded; they are not touched before they are decoded.
-OFCondition load_unknown(DcmFileFormat& file, const std::filesystem::path& path, const DicomMeta& meta, const DcmTagKey& stop) {
+OFCondition load_unknown(DcmFileFormat& file, const std::filesystem::path& path, const DicomMeta& meta,
+                         const DcmTagKey& stop) {
     DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(meta.data_offset));
     if (stream.status().bad()) return stream.status();
     file.getMetaInfo()->putAndInsertString(DCM_TransferSyntaxUID, meta.syntax.c_str());
@@ -193,8 +195,8 @@ void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKe
     const OFCondition loaded = known ? load_known(file, path, stop) : load_unknown(file, path, meta, stop);
     if (loaded.good()) return;
     if (!known)
-        throw Error(ErrorKind::unsupported,
-                    fmt::format("{}: the transfer syntax '{}' is not supported", path.string(), name_of_syntax(meta.syntax)));
+        throw Error(ErrorKind::unsupported, fmt::format("{}: the transfer syntax '{}' is not supported", path.string(),
+                                                        name_of_syntax(meta.syntax)));
     throw Error(ErrorKind::corrupt_file, path.string() + ": not a complete DICOM file (" + loaded.text() + ")");
 }
 

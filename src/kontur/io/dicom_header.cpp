@@ -151,7 +151,8 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmFileFormat& 
     header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
     header.instance_number = integer_if_any(dataset, DCM_InstanceNumber);
     if (dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData))
-        throw Error(ErrorKind::unsupported, "its pixels are floating-point numbers, as of a parametric map, which are not read");
+        throw Error(ErrorKind::unsupported,
+                    "its pixels are floating-point numbers, as of a parametric map, which are not read");
     check_pixels_fit(header, DcmXfer(dataset.getOriginalXfer()), dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
     return header;
 }
@@ -168,7 +169,8 @@ std::vector<double> dose_heights(DcmDataset& dataset, const SlicePlacement& firs
     if (std::abs(offsets.front()) <= kSameMm) return offsets;
     const double upwards = first.normal().z;
     if (std::abs(std::abs(upwards) - 1) > kAxial || std::abs(offsets.front() - first.position.z) > kSameMm)
-        throw corrupt(dcmtk::tag_name(DCM_GridFrameOffsetVector) + " begins neither with 0 nor with the z of an axial plane");
+        throw corrupt(dcmtk::tag_name(DCM_GridFrameOffsetVector) +
+                      " begins neither with 0 nor with the z of an axial plane");
     for (double& offset : offsets) offset = (offset - first.position.z) * (upwards > 0 ? 1 : -1);
     return offsets;
 }
@@ -223,7 +225,8 @@ std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmFileF
 std::optional<NotAnImage> reason_to_skip(DcmDataset& dataset) {
     std::string modality = dcmtk::text(dataset, DCM_Modality);
     if (modality == "SEG") return NotAnImage{modality};
-    if (!dataset.tagExists(DCM_Rows)) return NotAnImage{modality.empty() ? "DICOM without an image" : modality, "it has no pixels"};
+    if (!dataset.tagExists(DCM_Rows))
+        return NotAnImage{modality.empty() ? "DICOM without an image" : modality, "it has no pixels"};
     if (has_placed_frames(dataset)) return std::nullopt;
     const std::string missing = missing_for_place(dataset);
     const bool several = modality != "RTDOSE" && dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1;

@@ -91,9 +91,9 @@ std::string name_of(const DicomHeader& slice);
 
 /// Reads everything before the pixels: one header for each slice in the file, in the order of its frames. Damaged is an
 /// image with a contradictory header (orientation vectors that are not perpendicular unit vectors, a spacing that is not
-/// positive, a slope of 0, or more uncompressed pixels than the file has bytes: Error(corrupt_file) naming file and element),
-/// one that ends within its header or cannot be parsed, and a mosaic of slices (Error(unsupported)). Throws Error(io) for
-/// what cannot be read.
+/// positive, a slope of 0, or more uncompressed pixels than the file has bytes: Error(corrupt_file) naming file and
+/// element), one that ends within its header or cannot be parsed, and a mosaic of slices (Error(unsupported)). Throws
+/// Error(io) for what cannot be read.
 std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path);
 
 }  // namespace kontur

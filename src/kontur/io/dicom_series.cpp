@@ -114,9 +114,8 @@ void refuse_file(const DicomContent& content, const fs::path& file) {
         if (image.path.filename() == file.filename()) throw image.error;
     for (const auto& [path, why] : content.others)
         if (path.filename() == file.filename())
-            throw Error(ErrorKind::invalid_input,
-                        fmt::format("{} makes no volume: {}{}{}", file.string(), why.reason, why.detail.empty() ? "" : "; ",
-                                    why.detail));
+            throw Error(ErrorKind::invalid_input, fmt::format("{} makes no volume: {}{}{}", file.string(), why.reason,
+                                                              why.detail.empty() ? "" : "; ", why.detail));
 }
 
 void refuse_damage_of(const std::string& series, const DicomContent& content) {

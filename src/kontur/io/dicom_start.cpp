@@ -37,7 +37,8 @@ std::optional<Element> element_at(Bytes head, std::size_t at, bool explicit_vr) 
     const std::string_view vr(reinterpret_cast<const char*>(&head[at + 4]), 2);
     const bool is_long = is_one_of(vr, "OB UN UT SQ");
     if (explicit_vr && !is_long && !is_one_of(vr, "AE AS CS DA DT IS LO LT PN SH ST TM UI UL US")) return std::nullopt;
-    const std::size_t length = !explicit_vr || is_long ? number(head, at + (explicit_vr ? 8 : 4), 4) : number(head, at + 6, 2);
+    const std::size_t length =
+        !explicit_vr || is_long ? number(head, at + (explicit_vr ? 8 : 4), 4) : number(head, at + 6, 2);
     if (length > kHeadBytes) return std::nullopt;
     found.end = at + (explicit_vr && is_long ? 12 : 8) + length;
     return found;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dcmtk.h"
 
+#include <dcmtk/dcmdata/dcistrmb.h>
 #include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dcspchrs.h>
@@ -27,6 +28,7 @@
 #include "kontur/io/decimal_string.h"
 #include "kontur/io/dicom_nesting.h"
 #include "kontur/io/dicom_start.h"
+#include "kontur/io/input_file.h"
 
 namespace kontur::dcmtk {
 namespace {
@@ -183,16 +185,33 @@ OFCondition load_known(DcmFileFormat& file, const std::filesystem::path& path, c
     return file.loadFileUntilTag(OFFilename(path.c_str()), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, mode, stop);
 }
 
+/// As if the file ended at `end`, behind which DCMTK would take zeros for elements.
+OFCondition load_first(DcmFileFormat& file, const std::filesystem::path& path, std::uint64_t end) {
+    std::vector<unsigned char> bytes(end);
+    InputFile(path).read(bytes.data(), bytes.size());
+    DcmInputBufferStream stream;
+    stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+    stream.setEos();
+    file.transferInit();
+    OFCondition loaded = file.read(stream);
+    file.transferEnd();
+    if (loaded.good()) loaded = file.loadAllDataIntoMemory();
+    return loaded;
+}
+
 }  // namespace
 
 void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop) {
     set_up();
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) throw Error(ErrorKind::io, path.string() + ": no such file");
-    check_dicom_nesting(path);
+    const std::optional<std::uint64_t> padding = check_dicom_nesting(path);
     const DicomMeta meta = read_dicom_meta(path);
     const bool known = is_known(meta.syntax);
-    const OFCondition loaded = known ? load_known(file, path, stop) : load_unknown(file, path, meta, stop);
+    const bool is_cut = padding && known && stop == DCM_UndefinedTagKey;
+    const OFCondition loaded = is_cut  ? load_first(file, path, *padding)
+                               : known ? load_known(file, path, stop)
+                                       : load_unknown(file, path, meta, stop);
     if (loaded.good()) return;
     if (!known)
         throw Error(ErrorKind::unsupported, fmt::format("{}: the transfer syntax '{}' is not supported", path.string(),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace kontur {
@@ -22,7 +23,7 @@ DicomMeta read_dicom_meta(const std::filesystem::path& path);
 /// would exhaust the stack and end the process. Also for a deflated one whose elements claim more than there is, or than
 /// 128 MB beside the pixels, or cannot be followed: DCMTK takes what memory an element claims. Reads the heads of elements
 /// and skips their values (deflated files: inflates all). What is no DICOM file, or ends early, passes: DCMTK says so
-/// better. Internal to io.
-void check_dicom_nesting(const std::filesystem::path& path);
+/// better. Returns where zeros begin that fill the file up behind its last element. Internal to io.
+std::optional<std::uint64_t> check_dicom_nesting(const std::filesystem::path& path);
 
 }  // namespace kontur

@@ -42,8 +42,8 @@ inline Truth read_truth(const std::filesystem::path& folder) {
 class DicomSeriesTest : public testing::Test {
 protected:
     /// Generates a case and returns the folder with its files.
-    std::filesystem::path make(const std::string& name) {
-        const auto made = run_python("make_dicom_series.py", {name, (folder_ / name).string()});
+    std::filesystem::path make(const std::string& name, const std::string& script = "make_dicom_series.py") {
+        const auto made = run_python(script, {name, (folder_ / name).string()});
         if (made.exit_code != 0) throw std::runtime_error(made.output);
         return folder_ / name / "dicom";
     }

@@ -59,7 +59,8 @@ TEST_F(DicomDoseTest, SeveralGridsOfOneSeriesAreVolumes) {
 
 TEST_F(DicomDoseTest, RefusesContradictoryGrids) {
     EXPECT_REFUSED(refusal(make_dose("irregular")), unsupported, "the slice spacing is irregular");
-    EXPECT_REFUSED(refusal(make_dose("short")), corrupt_file, "it has 6 frames, and GridFrameOffsetVector (3004,000c) has 5");
+    EXPECT_REFUSED(refusal(make_dose("short")), corrupt_file,
+                   "it has 6 frames, and GridFrameOffsetVector (3004,000c) has 5");
     EXPECT_REFUSED(refusal(make_dose("neither")), corrupt_file, "begins neither with 0 nor with the z of an axial plane");
     EXPECT_REFUSED(refusal(make_dose("unscaled")), corrupt_file, "DoseGridScaling (3004,000e) is missing or not positive");
 }

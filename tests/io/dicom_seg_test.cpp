@@ -309,11 +309,12 @@ TEST_F(ReadDicomSeg, ReadsWhatIsRunLengthCodedOrDeflated) {
     }
 }
 
-TEST_F(ReadDicomSeg, ReadsJpeg2000JpegLsAndLosslessJpeg) {
+TEST_F(ReadDicomSeg, ReadsJpeg2000AndLosslessJpeg) {
     const fs::path apart = folder_ / "apart";
     fs::create_directory(apart);
     for (const char* name : {"labelmap", "labelmap_16", "fractional"})
-        for (const E_TransferSyntax syntax : {EXS_JPEG2000LosslessOnly, EXS_JPEGLSLossless, EXS_JPEGProcess14SV1}) {
+        // Not JPEG-LS: of so small frames, DCMTK 3.6.7's encoder writes behind its buffer (valgrind).
+        for (const E_TransferSyntax syntax : {EXS_JPEG2000LosslessOnly, EXS_JPEGProcess14SV1}) {
             SCOPED_TRACE(std::string(name) + " in " + DcmXfer(syntax).getXferName());
             const Image plain = read_dicom_seg(make(name)).labels;
             fs::rename(path(), apart / "seg.dcm");

@@ -8,6 +8,7 @@
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
+#include "kontur/io/rtstruct.h"
 #include "support/damage.h"
 #include "support/dicom_series_fixture.h"
 
@@ -182,6 +183,29 @@ TEST_F(DicomFolderTest, ReadsElementsOfUnknownTypePaddingAndBareFiles) {
         EXPECT_TRUE(volume.notes.empty());
         EXPECT_EQ(volume.series.modality, "CT");
     }
+}
+
+TEST_F(DicomFolderTest, ReadsStructureSetsAndSegmentationsWithoutPreamble) {
+    const fs::path bare = folder_ / "bare.dcm";
+    const auto strip = [&](const std::string& script, const std::string& name, const Sentences& more) {
+        const fs::path whole = folder_ / "whole.dcm";
+        Sentences arguments{name, whole.string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(test::run_python(script, arguments).exit_code, 0);
+        test::write_bytes(bare, test::read_bytes(whole).substr(132));
+        return whole;
+    };
+    for (const char* name : {"good", "explicit"}) {
+        const StructureSet whole = read_rtstruct(strip("make_rtstruct.py", name, {}));
+        EXPECT_TRUE(is_rtstruct(bare));
+        const StructureSet read = read_rtstruct(bare);
+        ASSERT_EQ(read.rois.size(), whole.rois.size());
+        for (std::size_t n = 0; n < read.rois.size(); ++n)
+            EXPECT_EQ(read.rois[n].contours.contours.size(), whole.rois[n].contours.contours.size());
+    }
+    const fs::path seg = strip("make_dicom_seg.py", "shuffled", {(folder_ / "truth").string()});
+    EXPECT_TRUE(is_dicom_seg(bare));
+    EXPECT_EQ(read_dicom_seg(bare).labels.samples, read_dicom_seg(seg).labels.samples);
 }
 
 TEST_F(DicomFolderTest, WhatFollowsThePixelsIsPaddingOnlyIfItIsOneByteOverAndOver) {

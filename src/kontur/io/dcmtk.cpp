@@ -180,9 +180,13 @@ OFCondition load_unknown(DcmFileFormat& file, const std::filesystem::path& path,
 }
 
 OFCondition load_known(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop) {
-    const auto start = dicom_start(path);
-    const E_FileReadMode mode = start && !start->has_preamble ? ERM_autoDetect : ERM_fileOnly;
-    return file.loadFileUntilTag(OFFilename(path.c_str()), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, mode, stop);
+    const DicomStart start = dicom_start(path).value_or(DicomStart{});
+    // Not left to DCMTK, whose guess may differ from what was scanned for nesting.
+    const E_TransferSyntax syntax = start.has_meta      ? EXS_Unknown
+                                    : start.explicit_vr ? EXS_LittleEndianExplicit
+                                                        : EXS_LittleEndianImplicit;
+    const E_FileReadMode mode = start.has_preamble ? ERM_fileOnly : start.has_meta ? ERM_autoDetect : ERM_dataset;
+    return file.loadFileUntilTag(OFFilename(path.c_str()), syntax, EGL_noChange, DCM_MaxReadLength, mode, stop);
 }
 
 /// As if the file ended at `end`, behind which DCMTK would take zeros for elements.

@@ -180,7 +180,7 @@ OFCondition load_unknown(DcmFileFormat& file, const std::filesystem::path& path,
 }
 
 OFCondition load_known(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop) {
-    const DicomStart start = dicom_start(path).value_or(DicomStart{});
+    const DicomStart start = *dicom_start(path);
     // Not left to DCMTK, whose guess may differ from what was scanned for nesting.
     const E_TransferSyntax syntax = start.has_meta      ? EXS_Unknown
                                     : start.explicit_vr ? EXS_LittleEndianExplicit
@@ -209,6 +209,8 @@ void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKe
     set_up();
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) throw Error(ErrorKind::io, path.string() + ": no such file");
+    if (!dicom_start(path))  // which DCMTK might read all the same, unchecked
+        throw Error(ErrorKind::corrupt_file, path.string() + ": not a complete DICOM file (it does not begin as one)");
     const std::optional<std::uint64_t> padding = check_dicom_nesting(path);
     const DicomMeta meta = read_dicom_meta(path);
     const bool known = is_known(meta.syntax);

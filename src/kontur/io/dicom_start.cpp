@@ -45,10 +45,11 @@ std::optional<Element> element_at(Bytes head, std::size_t at, bool explicit_vr) 
 }
 
 bool starts_with_elements(Bytes head, bool explicit_vr) {
-    constexpr int kElements = 3;
+    // Meta information is always explicit, and what follows it may not be.
+    const int elements = head.size() >= 2 && number(head, 0, 2) == kMetaGroup ? 2 : 3;
     std::size_t at = 0;
     std::uint32_t last = 0;
-    for (int n = 0; n < kElements; ++n) {
+    for (int n = 0; n < elements; ++n) {
         const auto element = element_at(head, at, explicit_vr);
         if (!element || (element->group != kMetaGroup && element->group != kIdentifyingGroup)) return false;
         const std::uint32_t tag = std::uint32_t{element->group} << 16 | element->element;

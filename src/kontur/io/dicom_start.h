@@ -15,9 +15,9 @@ struct DicomStart {
     bool explicit_vr = true;   ///< of the elements that come first; little-endian
 };
 
-/// nullopt for a file that does not begin as DICOM does: with the preamble or, without it, with three elements of group 2 or
-/// 8 in ascending order, explicit or implicit, as no text and no other format does. Throws Error(io) for what cannot be read
-/// or is no regular file.
+/// nullopt for a file that does not begin as DICOM does: with the preamble or, without it, with elements in ascending order,
+/// two of group 2 or three of group 8, explicit or implicit, as no text and no other format does. Throws Error(io) for what
+/// cannot be read or is no regular file.
 std::optional<DicomStart> dicom_start(const std::filesystem::path& path);
 
 }  // namespace kontur

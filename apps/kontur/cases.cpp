@@ -16,6 +16,7 @@
 #include "files.h"
 #include "kontur/base/error.h"
 #include "kontur/base/sha256.h"
+#include "kontur/io/dicom_folder.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -125,9 +126,9 @@ void note_inputs(const Case& one, const fs::path& folder, std::size_t line, Line
 
 /// The line that names what writing to `place` would replace.
 std::optional<std::size_t> line_that_reads(const fs::path& place, const Lines& inputs) {
-    const auto file = inputs.find(place), series = inputs.find(place.parent_path());
-    if (file != inputs.end()) return file->second;
-    if (series != inputs.end() && is_dicom_slice(place)) return series->second;
+    if (const auto file = inputs.find(place); file != inputs.end()) return file->second;
+    for (fs::path above = place.parent_path(); above.has_relative_path(); above = above.parent_path())
+        if (const auto series = inputs.find(above); series != inputs.end() && is_dicom_slice(place)) return series->second;
     return std::nullopt;
 }
 
@@ -167,17 +168,35 @@ std::string text_of_detached_header(const fs::path& input) {
     return text;
 }
 
-/// Names, sizes and times of the files of a folder for which `counts` holds, as a digest: a series may have thousands.
+/// Names, sizes and times of files below a folder, as a digest: a series may have thousands.
+std::string state_of(const std::vector<fs::path>& files, const fs::path& folder) {
+    Sha256 hash;
+    for (const fs::path& file : files) {
+        const std::string line = fmt::format("{} {}\n", file.lexically_relative(folder).string(), size_and_time(file));
+        hash.update(std::as_bytes(std::span(line)));
+    }
+    return hash.hex();
+}
+
+/// Of the files of a folder for which `counts` holds.
 std::string folder_state(const fs::path& folder, const std::function<bool(const fs::path&)>& counts) {
-    std::vector<std::string> lines;
+    std::vector<fs::path> files;
     std::error_code failure;
     for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
-        if (counts(entry->path()))
-            lines.push_back(fmt::format("{} {}\n", entry->path().filename().string(), size_and_time(entry->path())));
-    std::sort(lines.begin(), lines.end());
-    Sha256 hash;
-    for (const std::string& line : lines) hash.update(std::as_bytes(std::span(line)));
-    return hash.hex();
+        if (counts(entry->path())) files.push_back(entry->path());
+    std::sort(files.begin(), files.end());
+    return state_of(files, folder);
+}
+
+/// Of the slices of a DICOM series, in its folder or in those below it.
+std::string series_state(const fs::path& folder) {
+    try {
+        std::vector<fs::path> files = dicom_folder(folder).files;
+        std::erase_if(files, [](const fs::path& file) { return !is_dicom_slice(file); });
+        return state_of(files, folder);
+    } catch (const Error& error) {  // the case's own failure, which it tells itself
+        return error.what();
+    }
 }
 
 }  // namespace
@@ -241,7 +260,7 @@ std::string fingerprint(const Case& one, const fs::path& folder) {
         const fs::path path = folder / input;
         if (const fs::path series = series_folder(path); !series.empty()) {
             // Whatever else is put there, a mask in DICOM or a folder with results, changes no case.
-            text.append(1, '\n').append(folder_state(series, is_dicom_slice));
+            text.append(1, '\n').append(series_state(series));
             continue;
         }
         text.append(1, '\n').append(size_and_time(path));

@@ -42,6 +42,10 @@ void Console::warn(std::string_view sentence) {
     print_stderr(fmt::format("kontur: warning: {}\n", sentence));
 }
 
+void Console::warn_once(std::string_view sentence) {
+    if (warned_.emplace(sentence).second) warn(sentence);
+}
+
 void Console::note(std::span<const std::string> sentences) {
     if (quiet_) return;
     clear_bar();
@@ -50,6 +54,7 @@ void Console::note(std::span<const std::string> sentences) {
 
 ReadImageOptions Console::noting(ReadImageOptions options) {
     options.on_note = [this](std::string_view sentence) { note(std::array{std::string(sentence)}); };
+    options.on_warning = [this](std::string_view sentence) { warn_once(sentence); };
     return options;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <set>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -37,9 +39,11 @@ public:
     void print(std::string_view text);
     /// One line on stderr, "kontur: warning: SENTENCE".
     void warn(std::string_view sentence);
+    /// The same, unless it was said before: some inputs are read twice.
+    void warn_once(std::string_view sentence);
     /// What was decided for the user, one line each on stderr, unless quiet.
     void note(std::span<const std::string> sentences);
-    /// The options with what their reader decides told as notes.
+    /// The options with what their reader decides told as notes, and what it doubts as warnings.
     ReadImageOptions noting(ReadImageOptions options);
 
 private:
@@ -49,6 +53,7 @@ private:
     bool quiet_;
     bool has_bar_;
     std::stop_token stop_;
+    std::set<std::string, std::less<>> warned_;
     std::string bar_;  ///< what stands on the terminal's last line; empty: nothing
 };
 

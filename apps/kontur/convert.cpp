@@ -73,7 +73,7 @@ Structures structures_of(const ConvertCommand& command, Console& console) {
 
 void convert_image(const ConvertCommand& command, const fs::path& output, const Provenance& made, Console& console) {
     const ImageInput input{command.input.path, console.noting(command.input.options)};
-    const ImageInput images{command.image, command.input.options};
+    const ImageInput images{command.image, console.noting(command.input.options)};
     if (is_dicom_name(output))
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.input.path), images))
             console.warn(note);
@@ -92,7 +92,7 @@ void convert(const ConvertCommand& command, FileKind kind, const fs::path& outpu
         case FileKind::contours: {
             const ReadContours loaded = read_contours(command.input.path, command.contours);
             console.note(loaded.notes);
-            const ImageInput images{command.image, command.input.options};
+            const ImageInput images{command.image, console.noting(command.input.options)};
             for (const std::string& note : frame_of_reference_notes(loaded.frame_of_reference_uid, images))
                 console.warn(note);
             return console.note(write_contours(output, loaded.contours, images, rtstruct_options(command.holes, made)));

@@ -12,7 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-DicomSeries series_of(const ImageInput& images) { return read_dicom_grid(images.path, images.options.dicom).series; }
+/// Also tells `on_warning` what the reader doubts; its notes are said where the images are read for more than this.
+DicomSeries series_of(const ImageInput& images) {
+    DicomGrid found = read_dicom_grid(images.path, images.options.dicom);
+    if (images.options.on_warning)
+        for (const std::string& warning : found.warnings) images.options.on_warning(warning);
+    return std::move(found.series);
+}
 
 /// What makes a fit reproducible.
 std::string parameters(const SegmentReport& report, const Provenance& provenance) {

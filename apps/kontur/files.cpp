@@ -53,6 +53,14 @@ fs::path series_folder(const fs::path& input) {
     return is_dicom_slice(input) ? fs::absolute(input).parent_path() : fs::path();
 }
 
+bool is_within(const fs::path& path, const fs::path& folder) {
+    std::error_code ignored;
+    fs::path above = fs::weakly_canonical(fs::absolute(path), ignored);
+    for (; above != above.parent_path(); above = above.parent_path())
+        if (fs::equivalent(above, folder, ignored)) return true;
+    return fs::equivalent(above, folder, ignored);
+}
+
 bool is_dicom_name(const fs::path& path) { return has_extension(path, ".dcm"); }
 
 std::optional<FileKind> output_kind(const fs::path& path) {

@@ -36,6 +36,9 @@ bool is_dicom_slice(const std::filesystem::path& path);
 /// The folder whose slices are read when a DICOM series is given by its folder or by one of its slices; "" for another file.
 std::filesystem::path series_folder(const std::filesystem::path& input);
 
+/// Whether `path` is this folder or lies below it; links are followed. False for an empty folder.
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 /// A name for DICOM output: it ends with .dcm.
 bool is_dicom_name(const std::filesystem::path& path);
 

@@ -39,10 +39,14 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
 Facts inspect_image(const InspectCommand& command, const fs::path& path, Console& console) {
     std::vector<std::string> notes;
     ReadImageOptions options = command.read;
+    std::vector<std::string> warnings;
     options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
+    options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
     Facts facts = {{"kind", "image"}};
     facts.update(describe(read_image(path, options, console.progress())));
     facts["notes"] = notes;
+    if (!warnings.empty()) facts["warnings"] = warnings;
+    for (const std::string& warning : warnings) console.warn_once(warning);
     return facts;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -72,16 +73,21 @@ Image phantom_image(const Progress& progress) {
     return make_phantom_image(scan->grid, {}, progress);
 }
 
-viewer::OpenedImage open_image(const ImageInput& input, const Progress& progress) {
+viewer::OpenedImage open_image(const ImageInput& input, Console& console) {
     viewer::OpenedImage opened;
     if (input.path == kPhantom) {
-        opened.image = std::make_shared<const Image>(phantom_image(progress));
+        opened.image = std::make_shared<const Image>(phantom_image(console.progress()));
         opened.title = "Phantom: upper abdomen";
         opened.reference.path = kPhantom;
     } else {
         ReadImageOptions options = input.options;
+        std::vector<std::string> warnings;
         options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
-        opened.image = std::make_shared<const Image>(read_image(input.path, options, progress));
+        options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
+        opened.image = std::make_shared<const Image>(read_image(input.path, options, console.progress()));
+        console.note(opened.notes);
+        for (const std::string& warning : warnings) console.warn(warning);
+        std::move(warnings.begin(), warnings.end(), std::back_inserter(opened.notes));
         opened.title = fs::absolute(input.path).lexically_normal().filename().string();
         opened.reference.path = fs::absolute(input.path).lexically_normal().string();
         opened.frame_of_reference_uid = frame_of_reference_of(input);
@@ -201,8 +207,7 @@ void run(const OpenCommand& command, Console& console) {
     if (input.path.empty() && !words.project.empty()) input.path = viewer::image_of_project(words.project).path;
     if (input.path.empty()) input.path = kPhantom;
 
-    viewer::OpenedImage image = open_image(input, progress);
-    console.note(image.notes);
+    viewer::OpenedImage image = open_image(input, console);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
     std::optional<ReadContours> first;

@@ -59,7 +59,7 @@ void check_output(const fs::path& target, std::span<const fs::path> inputs) {
     for (const fs::path& input : inputs) {
         if (fs::equivalent(path, input, ignored))
             refuse(fmt::format("{} is an input, which an output may not replace", target.string()));
-        if (fs::equivalent(folder, series_folder(input), ignored) && is_dicom_slice(path))
+        if (is_within(folder, series_folder(input)) && is_dicom_slice(path))
             refuse(fmt::format("{} is a slice of the input {}, which an output may not replace", target.string(),
                                input.string()));
     }

@@ -14,8 +14,9 @@ namespace kontur::app {
 std::filesystem::path destination(const std::filesystem::path& target);
 
 /// Throws, before any work is done, what writing to `target` would throw after it: Error(invalid_input) when it is one of
-/// the `inputs` or a slice of a DICOM series among them (given by its folder or one slice), Error(io) when its folder does
-/// not exist or may not be written to, or it is no regular file or write-protected. Empty paths are left out.
+/// the `inputs` or a slice of a DICOM series among them (given by its folder, one above it, or one slice), Error(io) when
+/// its folder does not exist or may not be written to, or it is no regular file or write-protected. Empty paths are left
+/// out.
 void check_output(const std::filesystem::path& target, std::span<const std::filesystem::path> inputs);
 
 /// The same for all outputs of a command, of which no two may be one file.

@@ -49,8 +49,8 @@ void run(const TraceCommand& command, Console& console) {
     check(command);
     const Progress progress = console.progress();
     const std::vector<Plane> planes = read_planes(command, console, progress);
-    for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), command.image))
-        console.warn(note);
+    const ImageInput images{command.image.path, console.noting(command.image.options)};
+    for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
     const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), progress);
     ContourSet set = trace(mask, planes, command.options, progress);
     if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));
@@ -59,7 +59,7 @@ void run(const TraceCommand& command, Console& console) {
     const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, progress));
     Outputs outputs;
     outputs.write(command.output,
-                  [&](const std::filesystem::path& path) { console.note(write_contours(path, set, command.image, write)); });
+                  [&](const std::filesystem::path& path) { console.note(write_contours(path, set, images, write)); });
     outputs.commit();
     console.print(fmt::format("{}: {} contours with {} points in {} planes\n", command.output.string(), set.contours.size(),
                               point_count(set), planes.size()));

@@ -73,7 +73,7 @@ std::string filled_in(std::string help, const std::string& options) {
     As for `segment`.
 )"},
         {"@on_note\n", R"(on_note : callable, optional
-    Called with each sentence on what the reader decided for you; when left out they are warnings of the logger 'kontur'.
+    Called with each sentence on what the reader decided for you or doubts; when left out they are warnings of the logger 'kontur'.
 )"},
         {"@provenance\n", R"(provenance : dict of str to str, optional
     How it was made, for the file's text, such as what `provenance` gives; in DICOM the description of kontur's contribution.

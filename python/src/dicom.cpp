@@ -36,10 +36,14 @@ void bind_series(py::module_& m) {
     volume.def_readonly("image", &DicomVolume::image, "Image: modality units (Hounsfield units for CT).");
     volume.def_readonly("series", &DicomVolume::series, "DicomSeries");
     volume.def_readonly("notes", &DicomVolume::notes, "list of str: gantry tilt, files left out, ...");
+    volume.def_readonly(
+        "warnings", &DicomVolume::warnings,
+        "list of str: what may be wrong with it, such as files that could be slices of it and cannot be read.");
     py::class_<DicomGrid> grid(m, "DicomGrid", "The same without voxels.");
     grid.def_readonly("grid", &DicomGrid::grid, "Grid");
     grid.def_readonly("series", &DicomGrid::series, "DicomSeries");
     grid.def_readonly("notes", &DicomGrid::notes, "list of str");
+    grid.def_readonly("warnings", &DicomGrid::warnings, "list of str");
 }
 
 Roi roi_from(ContourSet contours, std::string name, const std::optional<std::array<std::uint8_t, 3>>& color,

@@ -111,6 +111,20 @@ def test_notes_go_to_the_caller_or_to_the_log(tmp_path, caplog):
     assert notes and [record.getMessage() for record in caplog.records] == notes
 
 
+def test_a_slice_that_may_be_missing_is_told_and_one_that_may_not_be_read_is_an_error(tmp_path, caplog):
+    make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1])))
+    (tmp_path / "4.dcm").write_bytes(b"")
+    warning = "left out 1 file, named like the slices but no DICOM: 4.dcm (0 bytes); the volume may lack a slice"
+    assert kontur.read_image(tmp_path).samples.shape[0] == 4
+    assert [record.getMessage() for record in caplog.records] == [warning]
+    assert kontur.read_dicom_series(tmp_path).warnings == kontur.read_dicom_grid(tmp_path).warnings == [warning]
+    (tmp_path / "4.dcm").unlink()
+    (tmp_path / "4.dcm").symlink_to("/proc/self/mem")  # a regular file of which nobody may read the first byte
+    for read in (kontur.read_image, kontur.read_grid, kontur.read_dicom_series, kontur.list_dicom_series):
+        with pytest.raises(kontur.FileError, match="cannot read .*4.dcm"):
+            read(tmp_path)
+
+
 def test_a_picture(tmp_path, case, kidney):
     pixels = kontur.make_picture(kidney.mesh, case.contours, width_px=400, height_px=250, facts=[("Made by", "a test")])
     assert (pixels.shape, pixels.dtype) == ((250, 400, 3), numpy.uint8)

@@ -57,6 +57,28 @@ TEST(DicomNesting, AcceptsAHundredLevelsAndRefusesMoreHoweverTheyAreWritten) {
         }
 }
 
+TEST(DicomNesting, CountsWithoutPreambleAndWithoutMetaInformation) {
+    const test::TemporaryFolder folder;
+    const auto without_meta = [](bool is_explicit) {
+        const auto plain = [&](int number, const std::string& value) {
+            return is_explicit ? element(8, number, "UI", value)
+                               : le(8, 2) + le(static_cast<unsigned>(number), 2) + le(value.size(), 4) + value;
+        };
+        return plain(0x14, "1.2.3.40") + plain(0x16, "1.2.3.40") + plain(0x18, "1.2.3.40");
+    };
+    for (const bool is_explicit : {true, false})
+        for (const int levels : {100, 101}) {
+            const std::string inner = nested(levels, is_explicit, false);
+            for (const std::string& start :
+                 {without_meta(is_explicit),
+                  head(is_explicit ? kExplicit : kImplicit).substr(132) + without_meta(is_explicit)}) {
+                test::write_bytes(folder / "a", start + inner);
+                if (levels == 100) EXPECT_NO_THROW(check_dicom_nesting(folder / "a"));
+                else EXPECT_KONTUR_ERROR(check_dicom_nesting(folder / "a"), ErrorKind::corrupt_file, "more than 100 deep");
+            }
+        }
+}
+
 TEST(DicomNesting, SequencesHiddenInUnknownElementsCount) {
     const test::TemporaryFolder folder;
     const std::string unknown = le(9, 2) + le(0x1001, 2) + "UN" + le(0, 2) + le(~0u, 4) + kItem + le(~0u, 4);

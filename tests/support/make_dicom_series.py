@@ -6,10 +6,12 @@ FOLDER/truth.raw the values in modality units (float64, i fastest, slices ascend
 """
 
 import random
+import struct
 import sys
 from pathlib import Path
 
 import numpy as np
+from pydicom import dcmread
 from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
 from pydicom.encaps import encapsulate
 from pydicom.sequence import Sequence
@@ -61,6 +63,35 @@ def set_pixels(d, values, dtype="<i2"):
 def place(d, orientation, position):
     d.ImageOrientationPatient = [f"{v:.9f}" for v in orientation]
     d.ImagePositionPatient = [f"{v:.6f}" if abs(v) < 1e6 else f"{v:.3e}" for v in position]
+
+
+MPEG2 = "1.2.840.10008.1.2.4.100"
+NEW_SYNTAXES = {
+    "htj2k": "1.2.840.10008.1.2.4.201",
+    "jpeg_xl": "1.2.840.10008.1.2.4.110",
+    "private": "1.2.826.0.1.3680043.9.1",
+}
+
+
+def hide_types(path):
+    """Stores elements as ones of unknown type (VR UN), as archives do that do not know them."""
+    content = path.read_bytes()
+    for group, element, vr in [(0x20, 0xE, "UI"), (0x20, 0x32, "DS"), (0x28, 4, "CS"), (0x28, 0x10, "US"), (0x28, 0x30, "DS"), (0x28, 0x1052, "DS")]:
+        at = content.index(struct.pack("<HH", group, element) + vr.encode())
+        length = struct.unpack_from("<H", content, at + 6)[0]
+        content = content[: at + 4] + b"UN\0\0" + struct.pack("<I", length) + content[at + 8 :]
+    path.write_bytes(content)
+
+
+def strip_start(path, case):
+    """Takes away the preamble ("bare"), and the meta information ("bare_data"; "bare_implicit": in implicit VR)."""
+    d = dcmread(path)
+    if case == "bare":
+        path.write_bytes(path.read_bytes()[132:])
+        return
+    d.is_implicit_VR = case == "bare_implicit"
+    d.preamble, d.file_meta = None, FileMetaDataset()
+    d.save_as(path, write_like_original=True)
 
 
 def make(case, folder):
@@ -130,7 +161,7 @@ def make(case, folder):
         if case == "inverted":
             d.PhotometricInterpretation = "MONOCHROME1"
         if case == "mpeg":  # refused by name, so the pixels need not be real
-            d.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.100"
+            d.file_meta.TransferSyntaxUID = MPEG2
             d.PixelData = encapsulate([b"\0" * 64])
             d["PixelData"].is_undefined_length = True
         if case == "colour":
@@ -149,8 +180,26 @@ def make(case, folder):
             d.RescaleSlope = 0
         if case == "numbered":
             d.InstanceNumber = 54321
+        if case == "patients":
+            d.PatientID = "P1" if k < 5 else "P2"
+        if case == "padded":
+            d.PixelData += bytes(128)
+        if case == "trailing":
+            d.add_new(0xFFFCFFFC, "OB", bytes(100))
+        if case in NEW_SYNTAXES:  # refused by name, so the pixels need not be real
+            d.file_meta.TransferSyntaxUID = MPEG2  # of the same length, and known to pydicom
+            d.PixelData = encapsulate([b"\0" * 64])
+            d["PixelData"].is_undefined_length = True
         name = f"f{names[k]:04d}.dcm"
         save(d, name)
+        if case in NEW_SYNTAXES:
+            (files / name).write_bytes((files / name).read_bytes().replace(MPEG2.encode(), NEW_SYNTAXES[case].encode()))
+        if case == "unknown_types":
+            hide_types(files / name)
+        if case == "filled":
+            (files / name).write_bytes((files / name).read_bytes() + bytes(510))
+        if case.startswith("bare"):
+            strip_start(files / name, case)
         if case == "truncated" and k == 5:
             content = (files / name).read_bytes()
             (files / name).write_bytes(content[:-100])
@@ -158,6 +207,9 @@ def make(case, folder):
             (files / name).write_bytes((files / name).read_bytes().replace(b"54321", b"543.0"))
         if case == "duplicated" and k == 5:
             (files / "copy.dcm").write_bytes((files / name).read_bytes())
+        if case == "doubled" and k == 5:
+            d.SOPInstanceUID = d.file_meta.MediaStorageSOPInstanceUID = uid(case, "another")
+            save(d, "copy.dcm")
         if case in ("echoes", "times", "other_series"):
             series = "other" if case == "other_series" else "only"
             d2 = new_slice(case, f"{k} again", series)

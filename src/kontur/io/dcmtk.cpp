@@ -1,34 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dcmtk.h"
 
+#include <dcmtk/dcmdata/dcistrmb.h>
+#include <dcmtk/dcmdata/dcistrmf.h>
 #include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dcspchrs.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
 #include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/oflog/oflog.h>
 
+#include <fmt/format.h>
 #include <iconv.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/decimal_string.h"
 #include "kontur/io/dicom_nesting.h"
+#include "kontur/io/dicom_start.h"
+#include "kontur/io/input_file.h"
 
 namespace kontur::dcmtk {
 namespace {
 
+/// Numbers in a row, little-endian as all of unknown type are (PS3.5 6.2.2), as text.
+template <class Number>
+std::string numbers_as_text(std::span<const Uint8> bytes) {
+    std::string text;
+    for (std::size_t at = 0; at + sizeof(Number) <= bytes.size(); at += sizeof(Number)) {
+        Number number;
+        std::memcpy(&number, &bytes[at], sizeof(Number));
+        text += fmt::format("{}{}", text.empty() ? "" : "\\", number);
+    }
+    return text;
+}
+
+/// Of an element of unknown type (VR UN), as which some archives keep what they did not know: what the dictionary says
+/// about it. DCMTK would do so by itself, but then for sequences, too, behind the check of their nesting.
+std::string text_of_unknown(DcmElement& element, const DcmTagKey& tag) {
+    Uint8* found = nullptr;
+    if (element.getUint8Array(found).bad() || !found) return {};
+    const std::span<const Uint8> bytes(found, element.getLength());
+    switch (DcmTag(tag).getEVR()) {
+        case EVR_US:
+        case EVR_xs:
+            return numbers_as_text<std::uint16_t>(bytes);
+        case EVR_SS:
+            return numbers_as_text<std::int16_t>(bytes);
+        case EVR_UL:
+            return numbers_as_text<std::uint32_t>(bytes);
+        case EVR_SL:
+            return numbers_as_text<std::int32_t>(bytes);
+        case EVR_FL:
+            return numbers_as_text<float>(bytes);
+        case EVR_FD:
+            return numbers_as_text<double>(bytes);
+        default:
+            return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+}
+
 std::string raw_text(DcmItem& item, const DcmTagKey& tag) {
+    DcmElement* element = nullptr;
+    if (item.findAndGetElement(tag, element).bad() || element->getLength() == 0) return {};
     OFString value;
-    if (item.findAndGetOFStringArray(tag, value).bad()) return {};
-    std::string text(value.c_str(), value.length());
+    const bool unknown = element->ident() == EVR_UN;
+    if (!unknown && element->getOFStringArray(value).bad()) return {};
+    std::string text = unknown ? text_of_unknown(*element, tag) : std::string(value.c_str(), value.length());
     while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
     text.erase(0, text.find_first_not_of(' '));
     return text;
@@ -91,18 +139,98 @@ void set_up() {
         throw Error(ErrorKind::io, "DCMTK's data dictionary was not found; set DCMDICTPATH to its file dicom.dic");
 }
 
+namespace {
+
+/// Newer than DCMTK 3.6.7 (PS3.6 A-1).
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kNewerSyntaxes{{
+    {"1.2.840.10008.1.2.1.98", "Encapsulated Uncompressed Explicit VR Little Endian"},
+    {"1.2.840.10008.1.2.4.110", "JPEG XL Lossless"},
+    {"1.2.840.10008.1.2.4.111", "JPEG XL JPEG Recompression"},
+    {"1.2.840.10008.1.2.4.112", "JPEG XL"},
+    {"1.2.840.10008.1.2.4.201", "High-Throughput JPEG 2000 (Lossless Only)"},
+    {"1.2.840.10008.1.2.4.202", "High-Throughput JPEG 2000 with RPCL Options (Lossless Only)"},
+    {"1.2.840.10008.1.2.4.203", "High-Throughput JPEG 2000"},
+    {"1.2.840.10008.1.2.4.204", "JPIP HTJ2K Referenced"},
+    {"1.2.840.10008.1.2.4.205", "JPIP HTJ2K Referenced Deflate"},
+    {"1.2.840.10008.1.2.7.1", "SMPTE ST 2110-20 Uncompressed Progressive Active Video"},
+    {"1.2.840.10008.1.2.7.2", "SMPTE ST 2110-20 Uncompressed Interlaced Active Video"},
+    {"1.2.840.10008.1.2.7.3", "SMPTE ST 2110-30 PCM Digital Audio"},
+    {"1.2.840.10008.1.2.8.1", "Deflated Image Frame Compression"},
+}};
+
+std::string name_of_syntax(const std::string& uid) {
+    const auto found =
+        std::find_if(kNewerSyntaxes.begin(), kNewerSyntaxes.end(), [&](const auto& s) { return s.first == uid; });
+    return found == kNewerSyntaxes.end() ? uid : std::string(found->second);
+}
+
+bool is_known(const std::string& uid) { return uid.empty() || DcmXfer(uid.c_str()).getXfer() != EXS_Unknown; }
+
+/// Reads the data set as if its pixels were run-length coded; they are not touched before they are decoded.
+OFCondition load_unknown(DcmFileFormat& file, const std::filesystem::path& path, const DicomMeta& meta,
+                         const DcmTagKey& stop) {
+    DcmInputFileStream stream(OFFilename(path.c_str()), static_cast<offile_off_t>(meta.data_offset));
+    if (stream.status().bad()) return stream.status();
+    file.getMetaInfo()->putAndInsertString(DCM_TransferSyntaxUID, meta.syntax.c_str());
+    DcmDataset& dataset = *file.getDataset();
+    dataset.transferInit();
+    const OFCondition loaded = dataset.readUntilTag(stream, EXS_RLELossless, EGL_noChange, DCM_MaxReadLength, stop);
+    dataset.transferEnd();
+    return loaded;
+}
+
+OFCondition load_known(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop) {
+    const DicomStart start = *dicom_start(path);
+    // Not left to DCMTK, whose guess may differ from what was scanned for nesting.
+    const E_TransferSyntax syntax = start.has_meta      ? EXS_Unknown
+                                    : start.explicit_vr ? EXS_LittleEndianExplicit
+                                                        : EXS_LittleEndianImplicit;
+    const E_FileReadMode mode = start.has_preamble ? ERM_fileOnly : start.has_meta ? ERM_autoDetect : ERM_dataset;
+    return file.loadFileUntilTag(OFFilename(path.c_str()), syntax, EGL_noChange, DCM_MaxReadLength, mode, stop);
+}
+
+/// As if the file ended at `end`, behind which DCMTK would take zeros for elements.
+OFCondition load_first(DcmFileFormat& file, const std::filesystem::path& path, std::uint64_t end) {
+    std::vector<unsigned char> bytes(end);
+    InputFile(path).read(bytes.data(), bytes.size());
+    DcmInputBufferStream stream;
+    stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+    stream.setEos();
+    file.transferInit();
+    OFCondition loaded = file.read(stream);
+    file.transferEnd();
+    if (loaded.good()) loaded = file.loadAllDataIntoMemory();
+    return loaded;
+}
+
+}  // namespace
+
 void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop) {
     set_up();
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) throw Error(ErrorKind::io, path.string() + ": no such file");
-    check_dicom_nesting(path);
-    const OFCondition loaded =
-        file.loadFileUntilTag(OFFilename(path.c_str()), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_fileOnly, stop);
+    if (!dicom_start(path))  // which DCMTK might read all the same, unchecked
+        throw Error(ErrorKind::corrupt_file, path.string() + ": not a complete DICOM file (it does not begin as one)");
+    const std::optional<std::uint64_t> padding = check_dicom_nesting(path);
+    const DicomMeta meta = read_dicom_meta(path);
+    const bool known = is_known(meta.syntax);
+    const bool is_cut = padding && known && stop == DCM_UndefinedTagKey;
+    const OFCondition loaded = is_cut  ? load_first(file, path, *padding)
+                               : known ? load_known(file, path, stop)
+                                       : load_unknown(file, path, meta, stop);
     if (loaded.good()) return;
-    std::FILE* readable = std::fopen(path.c_str(), "rb");
-    if (!readable) throw Error(ErrorKind::io, path.string() + ": cannot be opened for reading");
-    std::fclose(readable);
+    if (!known)
+        throw Error(ErrorKind::unsupported, fmt::format("{}: the transfer syntax '{}' is not supported", path.string(),
+                                                        name_of_syntax(meta.syntax)));
     throw Error(ErrorKind::corrupt_file, path.string() + ": not a complete DICOM file (" + loaded.text() + ")");
+}
+
+Syntax syntax_of(DcmFileFormat& file) {
+    OFString uid;
+    file.getMetaInfo()->findAndGetOFString(DCM_TransferSyntaxUID, uid);
+    if (const std::string written(uid.c_str()); !is_known(written)) return {written, name_of_syntax(written), false};
+    const DcmXfer syntax(file.getDataset()->getOriginalXfer());
+    return {syntax.getXferID(), syntax.getXferName(), true};
 }
 
 std::string text(DcmItem& item, const DcmTagKey& tag) {
@@ -118,7 +246,7 @@ std::optional<std::int64_t> integer(DcmItem& item, const DcmTagKey& tag) {
     Uint16 number = 0;
     DcmElement* element = nullptr;
     if (item.findAndGetElement(tag, element).bad() || element->getLength() == 0) return std::nullopt;
-    if (element->getUint16(number).good()) return number;
+    if (element->ident() != EVR_UN && element->getUint16(number).good()) return number;
     const std::string value = raw_text(item, tag);
     if (value.empty()) return std::nullopt;
     const std::string_view first = std::string_view(value).substr(0, value.find('\\'));

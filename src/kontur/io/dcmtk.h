@@ -19,11 +19,22 @@ namespace kontur::dcmtk {
 /// dictionary, without which implicit-VR files cannot be understood. Cheap after the first call; safe from any thread.
 void set_up();
 
-/// Loads the file up to, not including, `stop` (default: all of it). Throws Error(io) when it cannot be opened and
-/// Error(corrupt_file) when it is truncated or malformed.
+/// Loads the file up to, not including, `stop` (default: all of it), with or without a preamble. One in a transfer syntax
+/// that DCMTK does not know is taken for explicit little-endian elements with compressed pixels, as all the newer ones are.
+/// Throws Error(io) when it cannot be opened, Error(corrupt_file) when it is truncated or malformed, and Error(unsupported),
+/// naming the syntax, when an unknown one does not lie in the file as thought.
 void load(DcmFileFormat& file, const std::filesystem::path& path, const DcmTagKey& stop = DCM_UndefinedTagKey);
 
-/// All values of a text element, trimmed, as valid UTF-8; "" when absent. Bytes that are no characters of the declared set,
+/// The transfer syntax of a loaded file: its UID, the name that DICOM gives it or else the UID again, and whether DCMTK
+/// knows it.
+struct Syntax {
+    std::string uid, name;
+    bool known = true;
+};
+Syntax syntax_of(DcmFileFormat& file);
+
+/// All values of a text element, trimmed, as valid UTF-8; "" when absent. Here and below, an element of unknown type (VR UN)
+/// is what DICOM's dictionary says it is. Bytes that are no characters of the declared set,
 /// or of any where none is declared, are taken for UTF-8, else for Latin-1.
 std::string text(DcmItem& item, const DcmTagKey& tag);
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_frames.h"
+#include "kontur/io/dicom_start.h"
 
 namespace kontur {
 namespace {
@@ -23,9 +23,15 @@ DicomRescale read_rescale(DcmItem& item) {
     return rescale;
 }
 
-void read_transfer_syntax(const DcmXfer& syntax, DicomHeader& header) {
-    header.transfer_syntax = syntax.getXferName();
-    switch (syntax.getXfer()) {
+void read_transfer_syntax(DcmFileFormat& file, DicomHeader& header) {
+    const dcmtk::Syntax syntax = dcmtk::syntax_of(file);
+    const E_TransferSyntax known = file.getDataset()->getOriginalXfer();
+    header.transfer_syntax = syntax.name;
+    if (!syntax.known) {
+        header.decodable = false;
+        return;
+    }
+    switch (known) {
         case EXS_JPEGProcess1:
         case EXS_JPEGProcess2_4:
         case EXS_JPEGProcess14:
@@ -38,7 +44,7 @@ void read_transfer_syntax(const DcmXfer& syntax, DicomHeader& header) {
             header.decodable = true;
             break;
         default:
-            header.decodable = !syntax.isEncapsulated();
+            header.decodable = !DcmXfer(known).isEncapsulated();
     }
 }
 
@@ -52,10 +58,14 @@ void check_pixels_fit(const DicomHeader& header, const DcmXfer& syntax, std::int
                       std::to_string(held) + " bytes");
 }
 
-bool is_placed(DcmDataset& dataset) {
-    return dataset.tagExistsWithValue(DCM_ImagePositionPatient) && dataset.tagExistsWithValue(DCM_ImageOrientationPatient) &&
-           dataset.tagExistsWithValue(DCM_PixelSpacing);
+/// The first element without which nobody knows where the image lies; "": all are there.
+std::string missing_for_place(DcmDataset& dataset) {
+    for (const DcmTagKey& tag : {DCM_ImagePositionPatient, DCM_ImageOrientationPatient, DCM_PixelSpacing})
+        if (!dataset.tagExistsWithValue(tag)) return dcmtk::tag_name(tag) + " is missing";
+    return "";
 }
+
+bool is_placed(DcmDataset& dataset) { return missing_for_place(dataset).empty(); }
 
 /// Some scanners put a sequence of frames beside the placement of a single one, which then counts.
 bool has_placed_frames(DcmDataset& dataset) {
@@ -105,16 +115,18 @@ std::optional<std::int64_t> integer_if_any(DcmItem& item, const DcmTagKey& tag) 
 }
 
 /// All but the placement.
-DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dataset, const DcmXfer& syntax) {
+DicomHeader read_image_header(const std::filesystem::path& path, DcmFileFormat& file) {
+    DcmDataset& dataset = *file.getDataset();
     DicomHeader header;
     header.path = path;
     header.sop_class_uid = dcmtk::text(dataset, DCM_SOPClassUID);
     header.sop_instance_uid = dcmtk::text(dataset, DCM_SOPInstanceUID);
     header.series_uid = dcmtk::text(dataset, DCM_SeriesInstanceUID);
     header.frame_of_reference_uid = dcmtk::text(dataset, DCM_FrameOfReferenceUID);
+    header.patient_id = dcmtk::text(dataset, DCM_PatientID);
     header.modality = dcmtk::text(dataset, DCM_Modality);
     header.description = dcmtk::text(dataset, DCM_SeriesDescription);
-    read_transfer_syntax(syntax, header);
+    read_transfer_syntax(file, header);
     header.rows = dcmtk::integer(dataset, DCM_Rows).value_or(0);
     header.columns = dcmtk::integer(dataset, DCM_Columns).value_or(0);
     constexpr std::int64_t kMostRows = 65535;  // of their 16 bits; a file may store them as text of any length
@@ -138,12 +150,57 @@ DicomHeader read_image_header(const std::filesystem::path& path, DcmDataset& dat
     header.echo_number = integer_if_any(dataset, DCM_EchoNumbers);
     header.trigger_time_ms = dcmtk::first_decimal(dataset, DCM_TriggerTime);
     header.instance_number = integer_if_any(dataset, DCM_InstanceNumber);
-    check_pixels_fit(header, syntax, dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
+    if (dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData))
+        throw Error(ErrorKind::unsupported,
+                    "its pixels are floating-point numbers, as of a parametric map, which are not read");
+    check_pixels_fit(header, DcmXfer(dataset.getOriginalXfer()), dcmtk::integer(dataset, DCM_BitsAllocated).value_or(0));
     return header;
 }
 
-std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmDataset& dataset) {
-    DicomHeader header = read_image_header(path, dataset, DcmXfer(dataset.getOriginalXfer()));
+/// The heights of a dose grid's planes above the first one, along the normal, in mm (PS3.3 C.8.8.3.2): GridFrameOffsetVector
+/// counts from the first plane, or, where it begins with that plane's z, from the origin.
+std::vector<double> dose_heights(DcmDataset& dataset, const SlicePlacement& first, std::int64_t frames) {
+    if (frames == 1) return {0};
+    std::vector<double> offsets = dcmtk::decimals(dataset, DCM_GridFrameOffsetVector);
+    if (static_cast<std::int64_t>(offsets.size()) != frames)
+        throw corrupt("it has " + std::to_string(frames) + " frames, and " + dcmtk::tag_name(DCM_GridFrameOffsetVector) +
+                      " has " + std::to_string(offsets.size()) + " values");
+    constexpr double kSameMm = 1e-3, kAxial = 1e-4;
+    if (std::abs(offsets.front()) <= kSameMm) return offsets;
+    const double upwards = first.normal().z;
+    if (std::abs(std::abs(upwards) - 1) > kAxial || std::abs(offsets.front() - first.position.z) > kSameMm)
+        throw corrupt(dcmtk::tag_name(DCM_GridFrameOffsetVector) +
+                      " begins neither with 0 nor with the z of an axial plane");
+    for (double& offset : offsets) offset = (offset - first.position.z) * (upwards > 0 ? 1 : -1);
+    return offsets;
+}
+
+/// The planes of a dose grid, in the unit of the dose.
+std::vector<DicomHeader> read_dose_planes(DicomHeader header, DcmDataset& dataset) {
+    const double scaling = dcmtk::first_decimal(dataset, DCM_DoseGridScaling).value_or(0);
+    if (!(scaling > 0) || !std::isfinite(scaling))
+        throw corrupt(dcmtk::tag_name(DCM_DoseGridScaling) + " is missing or not positive");
+    header.rescale = {scaling, 0};
+    header.placement = dcmtk::read_placement(dataset, dataset, dataset);
+    header.dose = dcmtk::text(dataset, DCM_DoseType) + " " + dcmtk::text(dataset, DCM_DoseSummationType);
+    header.dose_unit = dcmtk::text(dataset, DCM_DoseUnits);
+    std::vector<DicomHeader> planes;
+    const SlicePlacement first = header.placement;
+    for (const double height : dose_heights(dataset, first, header.frames)) {
+        header.placement.position = first.position + height * first.normal();
+        if (header.frames > 1) header.frame = static_cast<std::int64_t>(planes.size()) + 1;
+        planes.push_back(header);
+    }
+    // Several grids of one series are told apart by their files; planes in files of their own belong together.
+    if (planes.size() > 1)
+        for (DicomHeader& plane : planes) plane.dose += " in " + plane.path.filename().string();
+    return planes;
+}
+
+std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmFileFormat& file) {
+    DcmDataset& dataset = *file.getDataset();
+    DicomHeader header = read_image_header(path, file);
+    if (header.modality == "RTDOSE") return read_dose_planes(std::move(header), dataset);
     if (!has_placed_frames(dataset)) {
         if (dcmtk::text(dataset, DCM_ImageType).find("MOSAIC") != std::string::npos)
             throw Error(ErrorKind::unsupported,
@@ -164,37 +221,37 @@ std::vector<DicomHeader> read_slices(const std::filesystem::path& path, DcmDatas
     return slices;
 }
 
-/// Empty for an image that can be placed in space.
-std::string reason_to_skip(DcmDataset& dataset) {
+/// nullopt for an image that can be placed in space.
+std::optional<NotAnImage> reason_to_skip(DcmDataset& dataset) {
     std::string modality = dcmtk::text(dataset, DCM_Modality);
-    if (modality == "SEG" || modality == "RTDOSE") return modality;
-    if (!dataset.tagExists(DCM_Rows)) return modality.empty() ? "DICOM without an image" : modality;
-    if (has_placed_frames(dataset)) return "";
-    if (dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1) return "frames without a position in space";
-    return is_placed(dataset) ? "" : "image without a position in space";
+    if (modality == "SEG") return NotAnImage{modality};
+    if (!dataset.tagExists(DCM_Rows))
+        return NotAnImage{modality.empty() ? "DICOM without an image" : modality, "it has no pixels"};
+    if (has_placed_frames(dataset)) return std::nullopt;
+    const std::string missing = missing_for_place(dataset);
+    const bool several = modality != "RTDOSE" && dcmtk::integer(dataset, DCM_NumberOfFrames).value_or(1) > 1;
+    if (several) return NotAnImage{"frames without a position in space", missing};
+    if (missing.empty()) return std::nullopt;
+    return NotAnImage{"image without a position in space", missing};
+}
+
+/// What is left of a file that cannot be parsed to its pixels.
+DamagedImage damaged_image(const std::filesystem::path& path, const Error& error) {
+    std::optional<std::string> series;
+    try {
+        DcmFileFormat file;
+        dcmtk::load(file, path, DCM_StudyID);  // the element after SeriesInstanceUID
+        series = dcmtk::text(*file.getDataset(), DCM_SeriesInstanceUID);
+    } catch (const Error& again) {
+        if (again.kind() == ErrorKind::io) throw;
+    }
+    if (series && series->empty()) series.reset();
+    return {path, series, error};
 }
 
 }  // namespace
 
-bool has_dicom_prefix(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 132> start{};
-    return file.read(start.data(), start.size()) && std::string_view(&start[128], 4) == "DICM";
-}
-
-namespace {
-
-/// Starts with an element of group 2 or 8 as DICOM's first ones are: its number, then its type in two capitals.
-bool looks_like_dicom_without_preamble(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 6> start{};
-    if (!file.read(start.data(), start.size())) return false;
-    const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
-    return (start[0] == 2 || start[0] == 8) && start[1] == 0 && start[3] == 0 && is_capital(start[4]) &&
-           is_capital(start[5]);
-}
-
-}  // namespace
+bool has_dicom_prefix(const std::filesystem::path& path) { return dicom_start(path).has_value(); }
 
 std::string name_of(const DicomHeader& slice) {
     const std::string name = slice.path.filename().string();
@@ -202,15 +259,18 @@ std::string name_of(const DicomHeader& slice) {
 }
 
 std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path) {
-    if (!has_dicom_prefix(path))
-        return NotAnImage{looks_like_dicom_without_preamble(path) ? "DICOM without its preamble, which is not read"
-                                                                  : "not a DICOM file"};
+    if (!has_dicom_prefix(path)) return NotAnImage{"not a DICOM file", "", false};
     DcmFileFormat file;
-    dcmtk::load(file, path, DCM_PixelData);
+    try {
+        dcmtk::load(file, path, DCM_PixelData);
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::io) throw;
+        return damaged_image(path, error);
+    }
     DcmDataset& dataset = *file.getDataset();
     try {
-        if (std::string reason = reason_to_skip(dataset); !reason.empty()) return NotAnImage{std::move(reason)};
-        return read_slices(path, dataset);
+        if (auto reason = reason_to_skip(dataset)) return std::move(*reason);
+        return read_slices(path, file);
     } catch (const Error& error) {
         return DamagedImage{path, dcmtk::text(dataset, DCM_SeriesInstanceUID), error.with_context(path.string())};
     }

@@ -39,6 +39,7 @@ struct DicomHeader {
     std::string sop_instance_uid;
     std::string series_uid;
     std::string frame_of_reference_uid;
+    std::string patient_id;
     std::string modality;
     std::string description;
     std::string transfer_syntax;  ///< its name, such as "JPEG 2000 (Lossless only)"
@@ -56,6 +57,8 @@ struct DicomHeader {
     std::optional<double> thickness_mm;
     // What tells slices at one position apart (time, echo, acquisition, ...).
     std::string frame_type;  ///< such as "ORIGINAL\\PRIMARY\\M\\NONE"; of frames only
+    std::string dose;        ///< of dose grids, each of which is a volume: such as "PHYSICAL PLAN in RD.dcm"
+    std::string dose_unit;   ///< "GY" or "RELATIVE"
     std::optional<double> echo_time_ms;
     std::optional<double> b_value;
     std::optional<std::int64_t> temporal_position;
@@ -68,16 +71,19 @@ struct DicomHeader {
 /// Why a file takes no part in a series, such as "not a DICOM file" or "RTSTRUCT".
 struct NotAnImage {
     std::string reason;
+    std::string detail = "";  ///< what it lacks, such as an element; may be empty
+    bool is_dicom = true;
 };
 
-/// An image that cannot be read, of a series that it does name.
+/// A DICOM file that cannot be read. nullopt: it breaks off before it names its series.
 struct DamagedImage {
     std::filesystem::path path;
-    std::string series_uid;
+    std::optional<std::string> series_uid;
     Error error;
 };
 
-/// True when the file starts as a DICOM file does (preamble and "DICM").
+/// True when the file starts as a DICOM file does, with a preamble or without one (`dicom_start`). Throws Error(io) when it
+/// cannot be read.
 bool has_dicom_prefix(const std::filesystem::path& path);
 
 /// "slice.dcm", or "enhanced.dcm, frame 7".
@@ -85,8 +91,9 @@ std::string name_of(const DicomHeader& slice);
 
 /// Reads everything before the pixels: one header for each slice in the file, in the order of its frames. Damaged is an
 /// image with a contradictory header (orientation vectors that are not perpendicular unit vectors, a spacing that is not
-/// positive, a slope of 0, or more uncompressed pixels than the file has bytes: Error(corrupt_file) naming file and element)
-/// and a mosaic of slices (Error(unsupported)). Throws Error(corrupt_file), naming the file, for a truncated header.
+/// positive, a slope of 0, or more uncompressed pixels than the file has bytes: Error(corrupt_file) naming file and
+/// element), one that ends within its header or cannot be parsed, and a mosaic of slices (Error(unsupported)). Throws
+/// Error(io) for what cannot be read.
 std::variant<std::vector<DicomHeader>, NotAnImage, DamagedImage> read_dicom_headers(const std::filesystem::path& path);
 
 }  // namespace kontur

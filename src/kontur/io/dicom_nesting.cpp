@@ -14,6 +14,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_start.h"
 #include "kontur/io/input_file.h"
 
 namespace kontur {
@@ -110,9 +111,16 @@ public:
 
     void set_inflated() { inflated_ = true; }
 
+    /// Bytes read and skipped.
+    std::uint64_t position() const { return at_; }
+
+    /// Where the zeros begin that fill the file up, counted as `position`; nullopt: there are none.
+    const std::optional<std::uint64_t>& padding() const { return padding_; }
+
 private:
     /// Some programs fill the file up with zeros behind the last element.
     void skip_zeros() {
+        padding_ = at_ - 4;
         while (number(1) == 0) {
         }
         throw Disorder{inflated_};
@@ -200,6 +208,7 @@ private:
     std::vector<Level> levels_;
     std::uint64_t at_ = 0;
     bool inflated_ = false;
+    std::optional<std::uint64_t> padding_;
     std::uint64_t claimed_ = 0;  ///< bytes of values but pixels, of inflated content
 };
 
@@ -232,20 +241,39 @@ Meta read_meta(Scanner& meta) {
     return {syntax, has_length ? std::nullopt : std::optional(tag)};
 }
 
-void scan(InputFile& file) {
-    file.skip(132);
+constexpr std::uint64_t kPreambleBytes = 132;
+
+/// To the end; returns where the zeros begin that fill the file up.
+std::optional<std::uint64_t> scan_data(Scanner& scanner, std::optional<Tag> first, std::uint64_t offset) {
+    try {
+        scanner.scan(first);
+    } catch (const End&) {
+        if (scanner.padding()) return offset + *scanner.padding();
+    }
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> scan(InputFile& file, const DicomStart& start) {
+    const std::uint64_t begin = start.has_preamble ? kPreambleBytes : 0;
+    file.skip(begin);
+    if (!start.has_meta) {
+        Scanner data(file, {start.explicit_vr, false});
+        return scan_data(data, {}, begin);
+    }
     Scanner meta(file, {});
     auto [syntax, next] = read_meta(meta);
     Scanner scanner(file, {syntax != "1.2.840.10008.1.2", syntax == "1.2.840.10008.1.2.2"});
     if (next && scanner.coding().big_endian)
         next = Tag{static_cast<std::uint16_t>(next->group << 8 | next->group >> 8),
                    static_cast<std::uint16_t>(next->element << 8 | next->element >> 8)};
-    if (syntax == "1.2.840.10008.1.2.1.99") {
+    constexpr std::string_view kDeflated = "1.2.840.10008.1.2.1.99";
+    if (syntax == kDeflated) {
         if (next) throw Disorder{true};  // what was read as a tag is deflated
         file.inflate_raw();
         scanner.set_inflated();
     }
-    scanner.scan(next);
+    const auto padding = scan_data(scanner, next, begin + meta.position());
+    return syntax == kDeflated ? std::nullopt : padding;
 }
 
 /// Items in all of the file, in either byte order.
@@ -264,11 +292,29 @@ std::uint64_t item_count(const std::filesystem::path& path) {
 
 }  // namespace
 
-void check_dicom_nesting(const std::filesystem::path& path) {
+DicomMeta read_dicom_meta(const std::filesystem::path& path) {
+    const std::optional<DicomStart> start = dicom_start(path);
+    if (!start || !start->has_meta) return {};
     InputFile file(path);
-    if (file.stored_bytes_left() < 132) return;
+    const std::uint64_t begin = start->has_preamble ? kPreambleBytes : 0;
+    file.skip(begin);
+    Scanner scanner(file, {});
+    constexpr std::uint64_t kTagBytes = 4;
     try {
-        scan(file);
+        const Meta meta = read_meta(scanner);
+        return {meta.syntax, begin + scanner.position() - (meta.next ? kTagBytes : 0)};
+    } catch (const End&) {
+    } catch (const Disorder&) {
+    }
+    throw Error(ErrorKind::corrupt_file, path.string() + ": its meta information breaks off");
+}
+
+std::optional<std::uint64_t> check_dicom_nesting(const std::filesystem::path& path) {
+    const std::optional<DicomStart> start = dicom_start(path);
+    if (!start) return std::nullopt;
+    InputFile file(path);
+    try {
+        return scan(file, *start);
     } catch (const End&) {
     } catch (const Disorder& disorder) {
         if (disorder.inflated || item_count(path) > kMostDisorderlyItems)
@@ -276,6 +322,7 @@ void check_dicom_nesting(const std::filesystem::path& path) {
     } catch (const Error& error) {
         throw std::string_view(error.what()).starts_with(path.string()) ? error : error.with_context(path.string());
     }
+    return std::nullopt;
 }
 
 }  // namespace kontur

@@ -73,12 +73,20 @@ std::span<const Uint8> pixel_bytes(DcmDataset& dataset, std::int64_t expected) {
     return {bytes, static_cast<std::size_t>(expected)};
 }
 
+/// One byte over and over, less than a frame of it, as some programs fill their files up.
+bool is_padding(DcmElement& pixels, std::int64_t claimed, std::int64_t frame_bytes) {
+    const std::int64_t held = pixels.getLength();
+    Uint8* bytes = nullptr;
+    if (held - claimed >= frame_bytes || pixels.getUint8Array(bytes).bad() || !bytes) return false;
+    return std::all_of(bytes + claimed, bytes + held, [&](Uint8 byte) { return byte == bytes[claimed]; });
+}
+
 /// A header that claims less than the file holds would make a part of the image into all of it.
-void check_no_more(DcmDataset& dataset, std::int64_t claimed, std::int64_t row_bytes) {
+void check_no_more(DcmDataset& dataset, std::int64_t claimed, std::int64_t row_bytes, std::int64_t frame_bytes) {
     DcmElement* element = nullptr;
     if (dataset.findAndGetElement(DCM_PixelData, element).bad()) return;
     const std::int64_t held = element->getLength();
-    if (held - claimed >= std::max<std::int64_t>(row_bytes, 2))
+    if (held - claimed >= std::max<std::int64_t>(row_bytes, 2) && !is_padding(*element, claimed, frame_bytes))
         throw corrupt(fmt::format("the pixel data has {} bytes, the header claims {}", held, claimed));
 }
 
@@ -107,7 +115,9 @@ public:
         // A decoder may change the layout, so it counts as it stands after decoding.
         layout_ = read_layout(dataset());
         if (is_jpeg2000(dataset())) compressed_.emplace(dataset(), any_slice.frames);
-        else check_no_more(dataset(), pixels * layout_.bytes, any_slice.columns * layout_.bytes);
+        else
+            check_no_more(dataset(), pixels * layout_.bytes, any_slice.columns * layout_.bytes,
+                          any_slice.rows * any_slice.columns * layout_.bytes);
     }
 
     const std::filesystem::path& path() const { return path_; }

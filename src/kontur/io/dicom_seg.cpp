@@ -11,6 +11,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/cie_lab.h"
 #include "kontur/io/dicom_frames.h"
+#include "kontur/io/dicom_seg_pixels.h"
 
 namespace kontur {
 namespace {
@@ -23,7 +24,7 @@ Error corrupt(const std::string& message) { return Error(ErrorKind::corrupt_file
 
 struct SegFrame {
     SlicePlacement placement;
-    std::int64_t segment = 0;
+    std::int64_t segment = 0;  ///< 0: the frame is a label map, whose pixels name their segments
     std::int64_t k = 0;
 };
 
@@ -36,7 +37,9 @@ public:
         read_segments();
         read_frames();
         place_frames(max_voxels);
-        check_pixels();
+        const Grid& grid = description_.grid;
+        pixels_ = SegPixels(file_, path, {bits_, grid.size.i, grid.size.j, static_cast<std::int64_t>(frames_.size())});
+        if (kind_ == Kind::label_map) check_labels();
     }
 
     const DicomSegmentation& description() const { return description_; }
@@ -44,16 +47,18 @@ public:
     std::size_t index_of(std::int64_t number) const { return index_of_.at(number); }
     const DicomSegment& segment(std::int64_t number) const { return description_.segments[index_of(number)]; }
 
-    /// Calls `visit(n)` for every pixel n of the frame that is inside.
+    /// Calls `visit(n, segment)` for every pixel n of the frame that is inside of a segment.
     template <class Visit>
     void for_each_inside(std::size_t frame, const Visit& visit) const {
-        const auto pixels = static_cast<std::size_t>(description_.grid.size.i * description_.grid.size.j);
-        const std::size_t first = frame * pixels;
+        const std::size_t pixels = pixels_per_frame();
+        const std::int64_t segment = frames_[frame].segment;
         for (std::size_t n = 0; n < pixels; ++n) {
-            const std::size_t at = first + n;
-            // Bits follow one another without a gap between frames, the lowest bit of a byte first (PS3.5 8.1.1).
-            const bool inside = binary_ ? (pixels_[at >> 3] >> (at & 7) & 1) != 0 : pixels_[at] >= threshold_;
-            if (inside) visit(n);
+            const std::uint16_t value = pixels_.value(frame, n);
+            if (kind_ != Kind::label_map) {
+                if (value >= threshold_) visit(n, segment);
+            } else if (is_segment_[value]) {
+                visit(n, value);
+            }
         }
     }
 
@@ -72,7 +77,7 @@ private:
         std::vector<std::int64_t> owner(static_cast<std::size_t>(description_.grid.size.i * description_.grid.size.j));
         const auto visit_all = [&](const auto& visit) {
             for (const std::size_t f : frames)
-                for_each_inside(f, [&, number = frames_[f].segment](std::size_t n) { visit(number, owner[n]); });
+                for_each_inside(f, [&](std::size_t n, std::int64_t number) { visit(number, owner[n]); });
         };
         visit_all([](std::int64_t number, std::int64_t& its_owner) {
             its_owner = its_owner == 0 || its_owner == number ? number : kShared;
@@ -100,13 +105,18 @@ private:
             throw Error(ErrorKind::invalid_input, fmt::format("is no segmentation but DICOM of modality '{}'", modality));
         const std::string kind = dcmtk::text(dataset(), DCM_SegmentationType);
         const std::int64_t bits = dcmtk::integer(dataset(), DCM_BitsAllocated).value_or(0);
-        binary_ = kind == "BINARY" && bits == 1;
-        if (!binary_ && !(kind == "FRACTIONAL" && bits == 8))
+        bits_ = static_cast<int>(bits == 1 || bits == 8 || bits == 16 ? bits : 0);
+        if (kind == "BINARY" && bits_ == 1) return;
+        if (kind == "LABELMAP" && (bits_ == 8 || bits_ == 16)) {
+            kind_ = Kind::label_map;
+            background_ = dcmtk::integer(dataset(), DCM_PixelPaddingValue).value_or(0);
+            return;
+        }
+        if (kind != "FRACTIONAL" || bits_ != 8)
             refuse(
-                fmt::format("a segmentation of type '{}' with {} bits per pixel is not supported; BINARY with 1 and "
-                            "FRACTIONAL with 8 are",
+                fmt::format("a segmentation of type '{}' with {} bits per pixel is not supported; BINARY with 1, "
+                            "FRACTIONAL with 8 and LABELMAP with 8 or 16 are",
                             kind, bits));
-        if (binary_) return;
         const std::int64_t most = dcmtk::integer(dataset(), DCM_MaximumFractionalValue).value_or(255);
         if (most < 1 || most > 255)
             throw corrupt(fmt::format("its MaximumFractionalValue is {}; 1 to 255 are possible", most));
@@ -122,6 +132,9 @@ private:
             segment.algorithm_type = dcmtk::text(*item, DCM_SegmentAlgorithmType);
             segment.algorithm_name = dcmtk::text(*item, DCM_SegmentAlgorithmName);
             segment.color = read_color(*item);
+            if (kind_ == Kind::label_map && segment.number == background_) continue;
+            if (kind_ == Kind::label_map && segment.number == 0)
+                refuse("its segment 0 cannot be told from what lies in no segment");
             if (segment.number < 1 || segment.number > 65535)
                 throw corrupt(fmt::format("a segment has the number {}", segment.number));
             if (!index_of_.emplace(segment.number, description_.segments.size()).second)
@@ -145,6 +158,10 @@ private:
         for (std::size_t n = 0; n < frames.size(); ++n) try {
                 SegFrame frame;
                 frame.placement = frames[n].placement();
+                if (kind_ == Kind::label_map) {
+                    frames_.push_back(frame);
+                    continue;
+                }
                 DcmItem& about = frames[n].required_group(DCM_SegmentIdentificationSequence);
                 frame.segment = dcmtk::integer(about, DCM_ReferencedSegmentNumber).value_or(0);
                 if (!index_of_.contains(frame.segment))
@@ -251,29 +268,34 @@ private:
                                kOffLatticeMm));
     }
 
-    void check_pixels() {
-        const auto pixels = static_cast<std::uint64_t>(description_.grid.size.i * description_.grid.size.j) * frames_.size();
-        const std::uint64_t needed = binary_ ? (pixels + 7) / 8 : pixels;
-        DcmDataset& all = *file_.getDataset();
-        if (DcmXfer(all.getCurrentXfer()).isEncapsulated() &&
-            all.chooseRepresentation(EXS_LittleEndianExplicit, nullptr).bad())
-            refuse(fmt::format("its pixels are compressed ({})", DcmXfer(all.getOriginalXfer()).getXferName()));
-        DcmElement* element = nullptr;
-        Uint8* bytes = nullptr;
-        if (all.findAndGetElement(DCM_PixelData, element).bad() || element->getLength() < needed ||
-            element->getUint8Array(bytes).bad() || !bytes)
-            throw corrupt(fmt::format("its pixel data is shorter than the {} bytes of its frames", needed));
-        pixels_ = {bytes, static_cast<std::size_t>(needed)};
+    std::size_t pixels_per_frame() const {
+        return static_cast<std::size_t>(description_.grid.size.i * description_.grid.size.j);
+    }
+
+    /// Each value must be a segment or the background.
+    void check_labels() {
+        is_segment_.resize(std::size_t{1} << bits_);
+        for (const auto& [number, index] : index_of_)
+            if (static_cast<std::size_t>(number) < is_segment_.size()) is_segment_[static_cast<std::size_t>(number)] = true;
+        for (std::size_t f = 0; f < frames_.size(); ++f)
+            for (std::size_t n = 0; n < pixels_per_frame(); ++n)
+                if (const std::uint16_t value = pixels_.value(f, n);
+                    value != 0 && value != background_ && !is_segment_[value])
+                    throw corrupt(
+                        fmt::format("frame {}: a pixel has the value {}, which is no segment's number", f + 1, value));
     }
 
     DcmFileFormat file_;
     DicomSegmentation description_;
     std::map<std::int64_t, std::size_t> index_of_;  ///< of a segment's number
+    std::vector<bool> is_segment_;                  ///< by the values of a label map
     std::vector<SegFrame> frames_;
     std::optional<double> spacing_, thickness_;
-    bool binary_ = true;
+    enum class Kind { one_segment_each, label_map } kind_ = Kind::one_segment_each;  ///< of the frames
+    int bits_ = 1;
     int threshold_ = 1;
-    std::span<const Uint8> pixels_;
+    std::int64_t background_ = 0;  ///< in label maps, what lies in no segment
+    SegPixels pixels_;
 };
 
 std::string listed(const std::vector<DicomSegment>& segments) {
@@ -296,15 +318,14 @@ std::vector<T> label_map(const SegFile& file, std::optional<std::int64_t> only, 
     for (std::size_t f = 0; f < file.frames().size(); ++f) {
         progress.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
         const SegFrame& frame = file.frames()[f];
-        if (only && frame.segment != *only) continue;
         T* const slice = labels.data() + grid.offset(0, 0, frame.k);
-        file.for_each_inside(f, [&](std::size_t n) {
-            if (slice[n] != 0 && slice[n] != frame.segment)
-                throw Error(
-                    ErrorKind::invalid_input,
-                    fmt::format("the segments {} '{}' and {} '{}' overlap; choose one with the option label", +slice[n],
-                                file.segment(slice[n]).label, frame.segment, file.segment(frame.segment).label));
-            slice[n] = static_cast<T>(frame.segment);
+        file.for_each_inside(f, [&](std::size_t n, std::int64_t segment) {
+            if (only && segment != *only) return;
+            if (slice[n] != 0 && slice[n] != segment)
+                throw Error(ErrorKind::invalid_input,
+                            fmt::format("the segments {} '{}' and {} '{}' overlap; choose one with the option label",
+                                        +slice[n], file.segment(slice[n]).label, segment, file.segment(segment).label));
+            slice[n] = static_cast<T>(segment);
         });
     }
     return labels;
@@ -320,9 +341,9 @@ std::vector<Mask> masks_of(const SegFile& file, std::int64_t max_voxels, const P
                             {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))});
     for (std::size_t f = 0; f < file.frames().size(); ++f) {
         progress.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
-        const SegFrame& frame = file.frames()[f];
-        std::uint8_t* const slice = masks[file.index_of(frame.segment)].values.data() + grid.offset(0, 0, frame.k);
-        file.for_each_inside(f, [&](std::size_t n) { slice[n] = 1; });
+        const auto offset = static_cast<std::size_t>(grid.offset(0, 0, file.frames()[f].k));
+        file.for_each_inside(
+            f, [&](std::size_t n, std::int64_t segment) { masks[file.index_of(segment)].values[offset + n] = 1; });
     }
     return masks;
 }

@@ -38,10 +38,11 @@ struct DicomSegmentation {
 /// True for a file that starts as a DICOM file does and says that it is a segmentation. Reads a few elements only.
 bool is_dicom_seg(const std::filesystem::path& path);
 
-/// Reads all but the voxels' places; a note says which segments overlap. Binary segmentations and fractional ones, which
-/// count as inside from one half on (a note says so). Frames lie in any order, with any slices left out. Throws
-/// Error(unsupported) for other kinds of segmentation, frames that are not parallel or not on one regular lattice;
-/// Error(corrupt_file) and Error(too_large).
+/// Reads all but the voxels' places; a note says which segments overlap. Binary segmentations, fractional ones, which
+/// count as inside from one half on (a note says so), and label maps, in which PixelPaddingValue or else 0 is no segment.
+/// Compressed ones as RLE, JPEG 2000, JPEG-LS, lossless JPEG, or deflated as a whole or frame by frame. Frames lie in any
+/// order, with any slices left out. Throws Error(unsupported) for other kinds of segmentation, frames that are not parallel
+/// or not on one regular lattice; Error(corrupt_file) and Error(too_large).
 DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000);
 
 struct DicomSeg {

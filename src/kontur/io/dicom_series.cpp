@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "kontur/base/error.h"
+#include "kontur/io/dicom_content.h"
+#include "kontur/io/dicom_doubts.h"
+#include "kontur/io/dicom_folder.h"
 #include "kontur/io/dicom_grid.h"
 #include "kontur/io/dicom_header.h"
 #include "kontur/io/dicom_pixels.h"
@@ -19,53 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kVolumesListed = 20;
-
-using LeftOut = std::map<std::string, std::vector<std::string>>;  ///< file names by reason
-
-/// Regular files in order of their names, so that nothing depends on how the file system lists them.
-struct FolderFiles {
-    std::vector<fs::path> files;
-    LeftOut unreachable;  ///< links in a circle
-};
-
-FolderFiles files_in(const fs::path& folder) {
-    FolderFiles found;
-    std::error_code failure, unreachable;
-    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
-        if (entry->is_regular_file(unreachable)) found.files.push_back(entry->path());
-        if (unreachable && unreachable != std::errc::no_such_file_or_directory)
-            found.unreachable[unreachable.message()].push_back(entry->path().filename().string());
-    }
-    if (failure) throw Error(ErrorKind::io, fmt::format("{}: {}", folder.string(), failure.message()));
-    std::sort(found.files.begin(), found.files.end());
-    for (auto& [reason, names] : found.unreachable) std::sort(names.begin(), names.end());
-    return found;
-}
-
-struct FolderContent {
-    std::vector<DicomStack> stacks;
-    std::vector<std::string> notes;
-    std::vector<DamagedImage> damaged;
-};
-
-FolderContent read_folder(const fs::path& folder, const Progress& progress) {
-    std::vector<DicomHeader> headers;
-    std::vector<DamagedImage> damaged;
-    auto [files, left_out] = files_in(folder);
-    for (std::size_t n = 0; n < files.size(); ++n) {
-        progress.report("read headers", static_cast<double>(n) / static_cast<double>(files.size()));
-        auto content = read_dicom_headers(files[n]);
-        if (auto* slices = std::get_if<std::vector<DicomHeader>>(&content))
-            std::move(slices->begin(), slices->end(), std::back_inserter(headers));
-        else if (auto* image = std::get_if<DamagedImage>(&content)) damaged.push_back(std::move(*image));
-        else left_out[std::get<NotAnImage>(content).reason].push_back(files[n].filename().string());
-    }
-    FolderContent result{group_into_stacks(std::move(headers)), {}, std::move(damaged)};
-    for (const auto& [reason, names] : left_out)
-        result.notes.push_back(fmt::format("left out {} file{} ({}): {}{}", names.size(), names.size() == 1 ? "" : "s",
-                                           reason, names.front(), names.size() == 1 ? "" : ", ..."));
-    return result;
-}
 
 DicomSeries describe(const DicomStack& stack) {
     const DicomHeader& first = stack.slices.front();
@@ -143,32 +100,62 @@ DicomStack choose(std::vector<DicomStack> stacks, const DicomSeriesOptions& opti
 }
 
 /// The series that the options or the file name; nullopt: neither does.
-std::optional<std::string> named_series(const FolderContent& content, const DicomSeriesOptions& options,
+std::optional<std::string> named_series(const DicomContent& content, const DicomSeriesOptions& options,
                                         const std::optional<fs::path>& file) {
     if (options.series_uid || !file) return options.series_uid;
     for (const DicomStack& stack : content.stacks)
         if (contains_file(stack, *file)) return series_of(stack);
-    for (const DamagedImage& image : content.damaged)
-        if (image.path.filename() == file->filename()) return image.series_uid;
     return std::nullopt;
 }
 
-/// Damage in other series than the named one is passed over.
-void refuse_damage_of(const std::string& series, FolderContent& content) {
+/// A named file that makes no volume says why.
+void refuse_file(const DicomContent& content, const fs::path& file) {
     for (const DamagedImage& image : content.damaged)
-        if (image.series_uid == series) throw image.error;
-    if (const std::size_t count = content.damaged.size(); count > 0)
-        content.notes.push_back(fmt::format("left out {} damaged file{} of other series: {}{}", count, count == 1 ? "" : "s",
-                                            content.damaged.front().path.filename().string(), count == 1 ? "" : ", ..."));
+        if (image.path.filename() == file.filename()) throw image.error;
+    for (const auto& [path, why] : content.others)
+        if (path.filename() == file.filename())
+            throw Error(ErrorKind::invalid_input, fmt::format("{} makes no volume: {}{}{}", file.string(), why.reason,
+                                                              why.detail.empty() ? "" : "; ", why.detail));
 }
 
-/// Where no series is named, the damaged file might be of the one that is meant.
-void refuse_damage_beside(const std::string& chosen, const FolderContent& content) {
-    if (content.damaged.empty()) return;
-    const DamagedImage& first = content.damaged.front();
-    if (first.series_uid == chosen) throw first.error;
-    throw Error(first.error.kind(),
-                fmt::format("{}; the other series {} can be read when it is named", first.error.what(), chosen));
+void refuse_damage_of(const std::string& series, const DicomContent& content) {
+    for (const DamagedImage& image : content.damaged)
+        if (image.series_uid == series) throw image.error;
+}
+
+bool is_dose(const DicomStack& stack) { return !stack.slices.front().dose_unit.empty(); }
+
+/// A dose beside the images that it belongs to is not meant unless it is named.
+void set_doses_aside(DicomContent& content) {
+    if (std::all_of(content.stacks.begin(), content.stacks.end(), is_dose) && content.damaged.empty()) return;
+    std::set<fs::path> files;
+    for (const DicomStack& stack : content.stacks)
+        if (is_dose(stack))
+            for (const DicomHeader& slice : stack.slices) files.insert(slice.path);
+    std::erase_if(content.stacks, is_dose);
+    for (const fs::path& file : files) content.others.push_back({file, {"RTDOSE"}});
+}
+
+/// Of different people, whatever else they have in common.
+void refuse_two_patients(const std::string& series, const std::vector<DicomStack>& stacks) {
+    const DicomHeader* first = nullptr;
+    for (const DicomStack& stack : stacks)
+        for (const DicomHeader& slice : stack.slices) {
+            if (slice.series_uid != series || slice.patient_id.empty()) continue;
+            if (!first) first = &slice;
+            if (slice.patient_id != first->patient_id)
+                throw Error(ErrorKind::invalid_input,
+                            fmt::format("the series {} has images of two patients: {} names '{}', {} names '{}'", series,
+                                        name_of(*first), first->patient_id, name_of(slice), slice.patient_id));
+        }
+}
+
+[[noreturn]] void refuse_empty(const fs::path& path, const DicomContent& content) {
+    if (!content.damaged.empty()) throw content.damaged.front().error;
+    std::vector<std::string> notes = content.notes;
+    for (std::string& note : dicom_doubts(content, {}, true).notes) notes.push_back(std::move(note));
+    throw Error(ErrorKind::invalid_input, fmt::format("{}: there is no DICOM image to read{}{}", path.string(),
+                                                      notes.empty() ? "" : "; ", fmt::join(notes, "; ")));
 }
 
 void check_size(const Grid& grid, std::int64_t max_voxels) {
@@ -177,51 +164,75 @@ void check_size(const Grid& grid, std::int64_t max_voxels) {
                                                       grid.size.i, grid.size.j, grid.size.k, max_voxels));
 }
 
-/// The chosen stack with its grid; `notes` are the folder's, then the stack's.
+/// The chosen stack with its grid and all that is to be told.
 struct Located {
     DicomStack stack;
-    StackGrid geometry;
+    Grid grid;
+    std::vector<std::string> notes, warnings;
 };
+
+/// The folder or, of a file, the one that it lies in.
+DicomContent read_content(const fs::path& path, const std::optional<fs::path>& file, const Progress& progress) {
+    const fs::path folder = !file ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
+    return read_dicom_content(folder, file ? dicom_files_in(folder) : dicom_folder(folder), file, progress);
+}
+
+void append(std::vector<std::string>& all, std::vector<std::string> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+Located locate_in(DicomContent content, const DicomSeriesOptions& options, const std::optional<fs::path>& file) {
+    const std::optional<std::string> series = named_series(content, options, file);
+    if (series) refuse_damage_of(*series, content);
+    Located result;
+    result.stack = choose(content.stacks, options, file);
+    const std::string chosen = series_of(result.stack);
+    refuse_damage_of(chosen, content);
+    refuse_two_patients(chosen, content.stacks);
+    StackGrid geometry = stack_grid(result.stack);
+    result.grid = geometry.grid;
+    check_size(result.grid, options.max_voxels);
+    DicomDoubts doubts = dicom_doubts(content, result.stack, series.has_value());
+    result.notes = std::move(content.notes);
+    append(result.notes, std::move(doubts.notes));
+    append(result.notes, std::move(geometry.notes));
+    if (is_dose(result.stack))
+        result.notes.push_back(fmt::format("a dose; its unit is {}", result.stack.slices.front().dose_unit));
+    result.warnings = std::move(doubts.warnings);
+    return result;
+}
 
 Located locate(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
     if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");
-    const fs::path folder = is_folder ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
-    FolderContent content = read_folder(folder, progress);
     const std::optional<fs::path> file = is_folder ? std::nullopt : std::optional(path);
-    const std::optional<std::string> series = named_series(content, options, file);
-    if (series) refuse_damage_of(*series, content);
-    if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
-    if (content.stacks.empty())
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("{}: there is no DICOM image to read{}{}", path.string(), content.notes.empty() ? "" : "; ",
-                                fmt::join(content.notes, "; ")));
-    Located result;
+    DicomContent content = read_content(path, file, progress);
+    if (file) refuse_file(content, *file);
+    else if (!options.series_uid) set_doses_aside(content);
+    if (content.stacks.empty()) refuse_empty(path, content);
     try {
-        result.stack = choose(std::move(content.stacks), options, file);
-        if (!series) refuse_damage_beside(series_of(result.stack), content);
-        result.geometry = stack_grid(result.stack);
-        check_size(result.geometry.grid, options.max_voxels);
+        return locate_in(std::move(content), options, file);
     } catch (const Error& error) {
         if (std::string_view(error.what()).starts_with(path.string())) throw;
         throw error.with_context(path.string());
     }
-    result.geometry.notes.insert(result.geometry.notes.begin(), content.notes.begin(), content.notes.end());
-    return result;
 }
 
 }  // namespace
 
 bool looks_like_dicom(const fs::path& path) {
-    std::error_code failure;
-    if (!fs::is_directory(path, failure)) return has_dicom_prefix(path);
-    const std::vector<fs::path> files = files_in(path).files;
-    return std::any_of(files.begin(), files.end(), has_dicom_prefix);
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored)) return has_dicom_prefix(path);
+    if (!fs::is_directory(path, ignored)) return false;
+    const auto holds_dicom = [](const DicomFolder& folder) {
+        return std::any_of(folder.files.begin(), folder.files.end(), has_dicom_prefix);
+    };
+    return holds_dicom(dicom_files_in(path)) || holds_dicom(dicom_folder(path));
 }
 
 std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
-    const FolderContent content = read_folder(folder, {});
+    const DicomContent content = read_content(folder, std::nullopt, {});
     if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
     std::vector<DicomSeries> result;
     for (const DicomStack& stack : content.stacks) result.push_back(describe(stack));
@@ -232,18 +243,18 @@ DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& op
     Located located = locate(path, options, progress);
     check_pixel_formats(located.stack);
     if (located.stack.slices.front().photometric_interpretation == "MONOCHROME1")
-        located.geometry.notes.push_back(
-            "MONOCHROME1: shown with low values bright elsewhere; the values are kept as they are");
+        located.notes.push_back("MONOCHROME1: shown with low values bright elsewhere; the values are kept as they are");
     DicomVolume volume;
-    volume.image = {located.geometry.grid, read_pixels(located.stack, progress)};
+    volume.image = {located.grid, read_pixels(located.stack, progress)};
     volume.series = describe(located.stack);
-    volume.notes = std::move(located.geometry.notes);
+    volume.notes = std::move(located.notes);
+    volume.warnings = std::move(located.warnings);
     return volume;
 }
 
 DicomGrid read_dicom_grid(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
     Located located = locate(path, options, progress);
-    return {located.geometry.grid, describe(located.stack), std::move(located.geometry.notes)};
+    return {located.grid, describe(located.stack), std::move(located.notes), std::move(located.warnings)};
 }
 
 }  // namespace kontur

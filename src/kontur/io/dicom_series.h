@@ -39,31 +39,38 @@ struct DicomVolume {
     Image image;  ///< modality units (Hounsfield units for CT): rescale slope and intercept of each file applied
     DicomSeries series;
     std::vector<std::string> notes;  ///< what was decided for the user: gantry tilt, files left out, ...
+    /// What may be wrong with the volume: files that could be slices of it and cannot be read.
+    std::vector<std::string> warnings;
 };
 
 struct DicomGrid {
     Grid grid;
     DicomSeries series;
     std::vector<std::string> notes;
+    std::vector<std::string> warnings;
 };
 
-/// True when the file starts as a DICOM file does, or the folder holds such a file.
+/// True when the file starts as a DICOM file does, with a preamble or without one, or the folder or one below it holds such
+/// a file. False for what is not there. Throws Error(io) for what cannot be read.
 bool looks_like_dicom(const std::filesystem::path& path);
 
-/// The volumes in a folder (its subfolders are not searched), ordered by series UID. Reads headers only. Damaged images are
-/// left out; their error is thrown where there are no others.
+/// The volumes in a folder, or, where it holds no images itself, in the folders below it, ordered by series UID; dose grids
+/// are among them. Reads headers only. Damaged images are left out; their error is thrown where there are no others.
 std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder);
 
-/// Reads one volume. `path` is a folder, or one file, which stands for its own series (and volume) in its folder. Slices are
-/// ordered by their position along the slice normal, never by name or number, so k runs along row x column direction and
+/// Reads one volume. `path` is a folder, or one file, which stands for its own series (and volume) in its folder. Where a
+/// folder holds no images itself, the folders below it are searched (links to folders are not followed). Slices are ordered
+/// by their position along the slice normal, never by name or number, so k runs along row x column direction and
 /// the grid is right-handed; a gantry tilt is kept exactly, as a sheared grid. Files that are no images (text, RTSTRUCT,
-/// SEG) are left out and noted, and so are damaged images of other series than the one that the options or the file name.
-/// The frames of an enhanced multi-frame image are slices like those in files of their own. Samples take the narrowest type
-/// that holds all values; a fractional slope makes them float. PixelPaddingValue is kept as an ordinary value. Throws
-/// Error(invalid_input) when the options leave more than one volume, listing them, or none; Error(unsupported) for missing
-/// slices, irregular spacing, several slices at one position, colour, lookup tables and other compression than JPEG,
-/// JPEG-LS, JPEG 2000, RLE and deflate; Error(corrupt_file) for damaged files, naming the file; Error(too_large); Error(io)
-/// when there is nothing to read.
+/// SEG) are left out and noted, and so are identical copies and damaged files of other series; a damaged or empty file that
+/// may be a slice of this one gives a warning. A dose grid (RTDOSE) is read, in its unit, where it or its series is named or
+/// there is nothing else. The frames of an enhanced multi-frame image are slices like those in files of their own. Samples
+/// take the narrowest type that holds all values; a fractional slope makes them float. PixelPaddingValue is kept as an
+/// ordinary value. Throws Error(invalid_input) when the options leave more than one volume, listing them, or none, for two
+/// patients in one series and for different files with one SOP Instance UID; Error(unsupported) for missing slices,
+/// irregular spacing, several slices at one position, colour, lookup tables and other compression than JPEG, JPEG-LS, JPEG
+/// 2000, RLE and deflate; Error(corrupt_file) for damaged files of the series, naming the file; Error(too_large); Error(io)
+/// when there is nothing to read or a file cannot be read.
 DicomVolume read_dicom_series(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
                               const Progress& progress = {});
 

@@ -114,6 +114,7 @@ std::vector<DicomStack> split_by_tags(const Slices& slices, std::size_t position
     const auto split = [&](std::string_view name, auto tag) {
         if (stacks.empty()) stacks = split_by_tag(slices, positions, name, tag);
     };
+    split("dose", &DicomHeader::dose);
     split("temporal position", &DicomHeader::temporal_position);
     split("echo", &DicomHeader::echo_number);
     split("echo time", &DicomHeader::echo_time_ms);

@@ -18,10 +18,10 @@ struct DicomStack {
 };
 
 /// Groups by series, size, orientation, pixel spacing and frame of reference; where slices would then share positions, by
-/// temporal position, echo, echo time, b-value, frame type or acquisition, and at last, unless they are frames, by their
-/// rank in trigger time and instance number at each position. File names and instance numbers never decide the order of
-/// slices. Slices that nothing tells apart stay together, to be refused by `stack_grid`. Stacks come in the order of their
-/// series UIDs.
+/// dose grid, temporal position, echo, echo time, b-value, frame type or acquisition, and at last, unless they are frames,
+/// by their rank in trigger time and instance number at each position. File names and instance numbers never decide the
+/// order of slices. Slices that nothing tells apart stay together, to be refused by `stack_grid`. Stacks come in the order
+/// of their series UIDs.
 std::vector<DicomStack> group_into_stacks(std::vector<DicomHeader> headers);
 
 /// Distances in mm of the slices from the first along its normal.

@@ -10,6 +10,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/sha256.h"
+#include "kontur/io/dicom_folder.h"
 
 namespace kontur {
 namespace fs = std::filesystem;
@@ -45,14 +46,12 @@ std::string digest_of(const std::vector<std::string>& digests) {
 }  // namespace
 
 std::string file_sha256(const fs::path& path, const Progress& progress) {
-    std::error_code failure, unreachable;
+    std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
     if (fs::is_other(status)) fail(path, "it is a device or a pipe, not a file");  // devices may never end
     if (!fs::is_directory(status)) return digest_of_file(path, progress);
     std::vector<std::string> digests;
-    for (fs::directory_iterator entry(path, failure), end; !failure && entry != end; entry.increment(failure))
-        if (entry->is_regular_file(unreachable)) digests.push_back(digest_of_file(entry->path(), progress));
-    if (failure) fail(path, failure.message().c_str());
+    for (const fs::path& file : dicom_folder(path).files) digests.push_back(digest_of_file(file, progress));
     std::sort(digests.begin(), digests.end());
     return digest_of(digests);
 }

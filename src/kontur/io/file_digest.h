@@ -10,7 +10,8 @@
 namespace kontur {
 
 /// SHA-256 of a file's bytes, as 64 hexadecimal digits, as sha256sum prints it. Of a folder: the SHA-256 of the sorted
-/// digests of the files directly in it, one per line, which does not depend on their names. Throws Error(io).
+/// digests of its files, one per line, which does not depend on their names: those directly in it, or, where it holds no
+/// DICOM image itself, all below it (`dicom_folder`). Throws Error(io).
 std::string file_sha256(const std::filesystem::path& path, const Progress& progress = {});
 
 /// Of one file its digest; of several the SHA-256 of their digests in this order, one per line.

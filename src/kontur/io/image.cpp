@@ -73,9 +73,13 @@ Format readable_format(const fs::path& path) {
     return format == Format::dicom && is_dicom_seg(path) ? Format::dicom_seg : format;
 }
 
-void report(const std::vector<std::string>& notes, const ReadImageOptions& options) {
-    if (!options.on_note) return;
-    for (const std::string& note : notes) options.on_note(note);
+void report(const std::vector<std::string>& notes, const ReadImageOptions& options,
+            const std::vector<std::string>& warnings = {}) {
+    const auto& warn = options.on_warning ? options.on_warning : options.on_note;
+    if (options.on_note)
+        for (const std::string& note : notes) options.on_note(note);
+    if (warn)
+        for (const std::string& warning : warnings) warn(warning);
 }
 
 std::map<std::int64_t, std::int64_t> labels_of(const Image& image, const fs::path& path) {
@@ -176,7 +180,7 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Pr
             break;
     }
     DicomVolume volume = read_dicom_series(path, options.dicom, progress);
-    report(volume.notes, options);
+    report(volume.notes, options, volume.warnings);
     return std::move(volume.image);
 }
 
@@ -196,7 +200,7 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
             break;
     }
     const DicomGrid volume = read_dicom_grid(path, options.dicom, progress);
-    report(volume.notes, options);
+    report(volume.notes, options, volume.warnings);
     return volume.grid;
 }
 

@@ -27,6 +27,9 @@ struct ReadImageOptions {
     DicomSeriesOptions dicom = {};
     /// Called with each sentence on what the reader decided for the user (a gantry tilt kept, files left out).
     std::function<void(std::string_view)> on_note = {};
+    /// Called with each sentence on what may be wrong with what was read (a file that may be a missing slice); without it
+    /// `on_note` is.
+    std::function<void(std::string_view)> on_warning = {};
 };
 
 }  // namespace kontur

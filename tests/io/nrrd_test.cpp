@@ -94,7 +94,7 @@ TEST(Nrrd, ReadsWhatAnIndependentWriterWrites) {
         test::expect_same_values(image, expected.image, entry.path().string());
         ++files;
     }
-    EXPECT_EQ(files, 70);
+    EXPECT_EQ(files, 91);
 }
 
 TEST(Nrrd, SegmentsComeBack) {

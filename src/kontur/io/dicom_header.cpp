@@ -177,6 +177,8 @@ std::string reason_to_skip(DcmDataset& dataset) {
 }  // namespace
 
 bool has_dicom_prefix(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;  // opening a pipe would wait for its writer
     std::ifstream file(path, std::ios::binary);
     std::array<char, 132> start{};
     return file.read(start.data(), start.size()) && std::string_view(&start[128], 4) == "DICM";

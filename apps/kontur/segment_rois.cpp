@@ -17,6 +17,7 @@
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/report.h"
+#include "kontur/view/picture.h"
 #include "outputs.h"
 
 namespace kontur::app {

@@ -58,8 +58,8 @@ TEST_F(Gipl, EveryTruncatedPrefixIsRefusedAndNoFlippedBitDoesMoreThanThrow) {
 TEST_F(Gipl, ContradictionsAreRefusedByName) {
     expect_refused(252, {0}, ErrorKind::corrupt_file, "no GIPL file");
     expect_refused(0, {0, 0}, ErrorKind::corrupt_file, "b.gipl");
-    expect_refused(0, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff}, ErrorKind::corrupt_file,
-                   "bytes of voxels, but only 120 are there");
+    expect_refused(0, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff}, ErrorKind::too_large, "at most");
+    expect_refused(0, {0xff, 0xff}, ErrorKind::corrupt_file, "bytes of voxels, but only 120 are there");
     expect_refused(6, {0, 2}, ErrorKind::unsupported, "2 frames; choose one");
     expect_refused(8, {0, 144}, ErrorKind::unsupported, "samples are of type 144");
     expect_refused(10, {0, 0, 0, 0}, ErrorKind::corrupt_file, "spacing along axis 1 is 0 mm");

@@ -201,7 +201,10 @@ TEST(MeshFile, RejectsEveryTruncatedPrefix) {
     const TemporaryFolder folder;
     const TriangleMesh mesh = test::ball({}, 10, 0);
     for (const char* name : {"a.stl", "a.ply", "a.vtk", "a.vtp"}) {
-        write_mesh(folder / name, mesh);
+        TriangleMesh written = mesh;
+        // VTK's legacy format has no end: a file that is cut off between surface and normals is a file without normals.
+        if (std::string_view(name).ends_with(".vtk")) written.normals.clear();
+        write_mesh(folder / name, written);
         const std::string whole = bytes_of(folder / name);
         for (std::size_t size = 0; size < whole.size(); ++size) {
             save(folder / name, whole.substr(0, size));
@@ -267,7 +270,8 @@ TEST(MeshFile, NamesWhatIsWrongInAText) {
     EXPECT_KONTUR_ERROR(read_text(folder, "a.stl", "solid x\n facet normal 0 0 1\n"), ErrorKind::unsupported, "text STL");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.off", ""), ErrorKind::unsupported, ".off");
     EXPECT_KONTUR_ERROR(read_text(folder, "a.vtk", ""), ErrorKind::corrupt_file, "# vtk DataFile");
-    EXPECT_KONTUR_ERROR(read_text(folder, "a.vtp", "<VTKFile type=\"ImageData\">"), ErrorKind::unsupported, "ImageData");
+    EXPECT_KONTUR_ERROR(read_text(folder, "a.vtp", "<VTKFile type=\"ImageData\"></VTKFile>"), ErrorKind::unsupported,
+                        "ImageData");
     EXPECT_KONTUR_ERROR(read_mesh(folder / "missing.stl"), ErrorKind::io, "missing.stl");
 }
 

@@ -218,7 +218,7 @@ TEST_F(MetaImageLines, WrongCompressedSizeIsRefused) {
 
 TEST_F(MetaImageLines, DataFilesElsewhereAreRefused) {
     set("ElementDataFile", "b.raw");
-    expect_refused(ErrorKind::io, "b.raw");
+    expect_refused(ErrorKind::corrupt_file, "b.raw");
     for (const char* its_name : {"a.mha", "a.mhd"}) {
         file = its_name;
         for (const char* name : {"/etc/passwd", "../a.raw", "sub/a.raw", "..", "."}) {

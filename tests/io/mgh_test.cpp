@@ -58,7 +58,7 @@ TEST(Mgh, NibabelReadsWhatIsWritten) {
         write_mgh(path, view);
         Image stored = image;
         stored.grid = read_mgh_grid(path);
-        test::write_expectation(path, stored, 1e-5);
+        test::write_expectation(path, stored, 1e-4);  // nibabel computes with single precision
         ++number;
     };
     for (const Grid& grid : test::all_orientations()) write(test::pattern_image<std::int16_t>(grid));
@@ -119,7 +119,8 @@ TEST_F(DamagedMgh, EveryTruncatedPrefixIsRefused) {
 TEST_F(DamagedMgh, ContradictionsAreRefusedByName) {
     expect_refused(3, {2}, ErrorKind::corrupt_file, "version 1");
     expect_refused(4, {0, 0, 0, 0}, ErrorKind::corrupt_file, "0");
-    expect_refused(4, {0x7f, 0xff, 0xff, 0xff}, ErrorKind::corrupt_file, "bytes of voxels, but only 48 are there");
+    expect_refused(4, {0x7f, 0xff, 0xff, 0xff}, ErrorKind::too_large, "at most");
+    expect_refused(4, {0, 0x7f, 0xff, 0xff}, ErrorKind::corrupt_file, "bytes of voxels, but only 48 are there");
     expect_refused(4, {0xff, 0xff, 0xff, 0xff}, ErrorKind::corrupt_file, "b.mgh");
     expect_refused(16, {0, 0, 0, 0}, ErrorKind::corrupt_file, "0 frames");
     expect_refused(16, {0, 0, 0, 2}, ErrorKind::unsupported, "2 frames; choose one");

@@ -141,9 +141,11 @@ TEST_F(VtkContoursTest, NamesWhatIsWrong) {
                         "contour 1: is not planar: points lie up to");
     EXPECT_KONTUR_ERROR(read_contours(lines(points, "LINES 1 3\n2 0 5")), ErrorKind::corrupt_file,
                         "refers to point 5, counted from 0, of 5");
-    EXPECT_KONTUR_ERROR(read_contours(lines(points, "")), ErrorKind::invalid_input, "no lines");
-    EXPECT_KONTUR_ERROR(read_contours(text("b.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\n")),
-                        ErrorKind::unsupported, "STRUCTURED_POINTS");
+    EXPECT_KONTUR_ERROR(read_contours(lines(points, "VERTICES 1 2\n1 0")), ErrorKind::invalid_input, "no lines");
+    EXPECT_KONTUR_ERROR(read_contours(lines(points, "")), ErrorKind::corrupt_file, "ends behind its points");
+    EXPECT_KONTUR_ERROR(
+        read_contours(text("b.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n")),
+        ErrorKind::unsupported, "STRUCTURED_POINTS");
     EXPECT_KONTUR_ERROR(read_contours(lines("POINTS 1 long\n0 0 0", "")), ErrorKind::unsupported, "type \"long\"");
 }
 

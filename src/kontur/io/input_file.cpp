@@ -220,7 +220,8 @@ void InputFile::fail_short() const {
 
 std::filesystem::path path_beside(const std::filesystem::path& header, const std::string& declared) {
     const std::string name = declared.substr(declared.starts_with("./") ? 2 : 0);
-    if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
+    if (name.empty()) throw Error(ErrorKind::corrupt_file, header.string() + ": it names no file for its voxels");
+    if (name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
         throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + declared +
                                                 "\"; only a plain file name in the header's own folder is accepted");
     return header.parent_path() / name;

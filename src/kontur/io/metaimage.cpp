@@ -137,6 +137,11 @@ InputFile data_file(InputFile&& header_file, const TextHeader& header) {
     const std::string name = header.text("ElementDataFile");
     if (is_local(name)) return std::move(header_file);
     if (is_list(name)) header.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
+    // What is left of "LOCAL" in a file that was cut off is a name, too.
+    std::error_code ignored;
+    if (const fs::path voxels = path_beside(header.path(), name);
+        lower_case(header.path().extension().string()) == ".mha" && !fs::exists(voxels, ignored))
+        header.refuse(ErrorKind::corrupt_file, fmt::format("its voxels are in \"{}\", which is not there", name));
     return open_beside(header.path(), name);
 }
 

@@ -58,9 +58,16 @@ public:
     explicit LegacyParser(std::string_view bytes) : left_(bytes) {}
 
     PolyData parse() {
-        read_head();
-        while (next_keyword())
-            if (!read_section()) break;
+        try {
+            read_head();
+            while (next_keyword())
+                if (!read_section()) break;
+        } catch (const Error& error) {
+            // A word that is cut off looks like one that is not known.
+            if (error.kind() == ErrorKind::unsupported && left_.empty()) corrupt("the file ends amid its header");
+            throw;
+        }
+        if (!has_points_ || !has_cells_) corrupt(has_points_ ? "it ends behind its points" : "it ends before its points");
         check_polydata(data_);
         return std::move(data_);
     }
@@ -170,6 +177,7 @@ private:
             throw Error(ErrorKind::too_large, fmt::format("{} points; at most 2^32 - 1 are possible", count));
         expect(3 * count, size_of(type));
         data_.points = read_vectors(count, type);
+        has_points_ = true;
     }
 
     /// The first attribute of the points, if it is that.
@@ -195,7 +203,10 @@ private:
         return vectors;
     }
 
-    Cells read_cells() { return is_version_5_ ? read_cells_by_offsets() : read_counted_cells(); }
+    Cells read_cells() {
+        has_cells_ = true;
+        return is_version_5_ ? read_cells_by_offsets() : read_counted_cells();
+    }
 
     /// "n size", then for each cell its number of corners and these.
     Cells read_counted_cells() {
@@ -278,7 +289,7 @@ private:
 
     std::string_view left_, line_;
     std::string keyword_;
-    bool binary_ = false, is_version_5_ = false;
+    bool binary_ = false, is_version_5_ = false, has_points_ = false, has_cells_ = false;
     PolyData data_;
 };
 

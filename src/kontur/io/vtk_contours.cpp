@@ -52,6 +52,7 @@ public:
             if (position_of(chain.front()) != position_of(chain.back())) {
                 std::reverse(chain.begin(), chain.end());
                 extend(chain);
+                std::reverse(chain.begin(), chain.end());
             }
             joined.push_back(as_line(std::move(chain)));
         }

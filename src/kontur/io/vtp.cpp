@@ -222,14 +222,16 @@ public:
     explicit XmlParser(std::string_view bytes) : bytes_(bytes) {}
 
     PolyData parse() {
+        if (bytes_.find("<VTKFile") == std::string_view::npos) corrupt("no VTK file: there is no tag VTKFile");
+        // Or a word that is cut off would look like one that is not known.
+        if (bytes_.rfind("</VTKFile>") == std::string_view::npos) corrupt("the file ends amid its data");
         find_appended();
         XmlTags tags(bytes_);
         while (const auto tag = tags.next()) {
             if (tag->name == "AppendedData") break;
             take(*tag);
         }
-        if (!has_root_ || !has_end_)
-            corrupt(has_root_ ? "the file ends amid its data" : "no VTK file: there is no tag VTKFile");
+        if (!has_root_) corrupt("no VTK file: there is no tag VTKFile");
         check_polydata(data_);
         return std::move(data_);
     }
@@ -245,13 +247,12 @@ private:
             if (mark == std::string_view::npos) corrupt("its appended data do not begin with \"_\"");
             coding_.appended = rest.substr(mark + 1);
             coding_.appended_base64 = tag->attribute("encoding") != "raw";
-            has_end_ = rest.find("</VTKFile>") != std::string_view::npos;
             return;
         }
     }
 
     void take(const XmlTag& tag) {
-        if (tag.name == "VTKFile") return tag.opens ? take_root(tag) : void(has_end_ = true);
+        if (tag.name == "VTKFile") return tag.opens ? take_root(tag) : void();
         if (tag.name == "Piece") return tag.opens ? begin_piece(tag) : end_piece();
         if (tag.name == "DataArray" || tag.name == "Array") return tag.opens ? take_array(tag) : void();
         for (const std::string_view part :
@@ -329,7 +330,7 @@ private:
     Coding coding_;
     XmlTag piece_;
     std::map<std::string_view, Part> parts_;
-    bool has_root_ = false, has_end_ = false;
+    bool has_root_ = false;
     PolyData data_;
 };
 

@@ -23,6 +23,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/io/check_json.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
 
@@ -39,6 +40,15 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 std::string content_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool is_sound_json(std::string_view text) {
+    try {
+        check_json(text);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 bool succeeded(const Facts& entry) { return entry.is_object() && entry.value("exit_code", -1) == 0; }
@@ -64,7 +74,8 @@ public:
 
     /// null: nothing is known about the case as it is now, or outputs of it are gone.
     Facts entry(const Case& one, const std::string& made_from) const {
-        Facts found = Facts::parse(content_of(file(one, ".json")), nullptr, /*allow_exceptions=*/false);
+        const std::string text = content_of(file(one, ".json"));
+        Facts found = is_sound_json(text) ? Facts::parse(text) : Facts();
         if (!found.is_object() || found.value("made_from", "") != made_from) return nullptr;
         const auto exists = [&](const fs::path& output) { return fs::exists(base_ / output); };
         if (succeeded(found) && !std::all_of(one.outputs.begin(), one.outputs.end(), exists)) return nullptr;

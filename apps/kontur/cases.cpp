@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/sha256.h"
 #include "kontur/io/dicom_folder.h"
+#include "kontur/io/image_files.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -157,15 +157,17 @@ std::string size_and_time(const fs::path& file) {
     return fmt::format("{} {}", bytes, time);
 }
 
-/// A .mhd or .nhdr: text that names the file with the voxels, which lies beside it.
-std::string text_of_detached_header(const fs::path& input) {
-    constexpr std::size_t kMostBytes = 1 << 16;
-    if (!has_extension(input, ".mhd") && !has_extension(input, ".nhdr")) return "";
-    std::string text(kMostBytes, '\0');
-    std::ifstream file(input, std::ios::binary);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    return text;
+/// Of an image, all its files: voxels may stand beside their header. What cannot be read has nothing but its name.
+std::string files_state(const fs::path& input) {
+    std::vector<fs::path> files{input};
+    try {
+        files = image_files(input);
+    } catch (const Error&) {
+        // segment will say why
+    }
+    std::string state;
+    for (const fs::path& file : files) state.append(state.empty() ? "" : " ").append(size_and_time(file));
+    return state;
 }
 
 /// Names, sizes and times of files below a folder, as a digest: a series may have thousands.
@@ -263,12 +265,7 @@ std::string fingerprint(const Case& one, const fs::path& folder) {
             text.append(1, '\n').append(series_state(series));
             continue;
         }
-        text.append(1, '\n').append(size_and_time(path));
-        const std::string header = text_of_detached_header(path);
-        const auto is_named = [&](const fs::path& file) {
-            return header.find(file.filename().string()) != std::string::npos;
-        };
-        if (!header.empty()) text.append(1, ' ').append(folder_state(path.parent_path(), is_named));
+        text.append(1, '\n').append(files_state(path));
     }
     return text;
 }

@@ -190,7 +190,8 @@ void add_segment(CLI::App& app, Invocation& invocation) {
                                 "kontur segment contours.json --image ct.nii.gz --output liver.nii.gz --mesh liver.stl \\\n"
                                 "      --picture liver.png --report liver.json");
     SegmentCommand& c = *bind.command;
-    bind.word("CONTOURS", c.contours, "Contours of one object: .json, .mrk.json or RTSTRUCT; several files are merged");
+    bind.word("CONTOURS", c.contours,
+              "Contours of one object: .json, .mrk.json, .vtk, .vtp or RTSTRUCT; several files are merged");
     CLI::Option* image = bind.option("--image", c.image.path, "FILE",
                                      "Image or DICOM folder: gives the mask's grid and the picture's slices");
     CLI::Option* spacing =
@@ -198,13 +199,15 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     spacing->delimiter(',')->allow_extra_args(false)->excludes(image);
     bind.defaulted("--margin-mm", c.margin_mm, "MM", "Without --image: space around the contours' box")->needs(spacing);
     bind.option("-o,--output", c.output, "FILE",
-                "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha or, with a DICOM --image, .dcm (SEG)")
+                "Mask to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz or, with a DICOM --image, .dcm (SEG)")
         ->required();
     bind.option("--rtstruct", c.rtstruct, "FILE", "Contours on the slices of a DICOM --image to write, as RTSTRUCT: .dcm");
-    bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply or .obj, LPS mm");
+    bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply, .obj, .vtk or .vtp, LPS mm");
     bind.option("--picture", c.picture, "FILE", "Picture to write: .png");
     bind.option("--report", c.report, "FILE", "Report to write: .json");
-    bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    bind.option("--roi", c.rois, "NAME",
+                "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
+        ->allow_extra_args(false);
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);

@@ -27,7 +27,8 @@ namespace kontur::app {
 /// The main job: contours in, mask, surface, picture and report out.
 struct SegmentCommand {
     std::vector<std::filesystem::path> contours;
-    ReadContoursOptions read;
+    std::vector<std::string> rois;   ///< several: each becomes a label of its own
+    ReadContoursOptions read;        ///< its `roi` is the only one of `rois`
     ImageInput image;                ///< its path is empty when `spacing_mm` gives the grid
     std::vector<double> spacing_mm;  ///< one number or three
     double margin_mm = 10;           ///< around the contours' box, with `spacing_mm`

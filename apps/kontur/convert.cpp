@@ -79,9 +79,9 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
             console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
     if (is_dicom_name(output) && by_itself)
-        return write_structures(output, structures_of(command, console), images, made, console.progress());
+        return console.note(write_structures(output, structures_of(command, console), images, made, console.progress()));
     const Image image = read_labels(input, command.label, console.progress());
-    write_image(output, image, input, images, made, console.progress());
+    console.note(write_image(output, image, input, images, made, console.progress()));
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {

@@ -92,31 +92,35 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
     return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
 }
 
-void write_mask(const fs::path& path, const Segmentation& result, const ImageInput& images, const WriteMaskOptions& options,
-                const Progress& progress) {
-    if (!is_dicom_name(path)) return kontur::write_mask(path, result.mask, options);
+std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const ImageInput& images,
+                                    const WriteMaskOptions& options, const Progress& progress) {
+    if (!is_dicom_name(path)) {
+        kontur::write_mask(path, result.mask, options);
+        return {};
+    }
     const DicomSegment segment{
         .label = options.segment_name, .algorithm_name = "kontur", .color = to_rgb8(options.segment_color)};
     const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
                                    parameters(result.report, options.provenance)};
-    write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images),
-                    {.algorithm = algorithm, .provenance = options.provenance}, progress);
+    return write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images),
+                           {.algorithm = algorithm, .provenance = options.provenance}, progress);
 }
 
-void write_image(const fs::path& path, const Image& image, const ImageInput& source, const ImageInput& images,
-                 const Provenance& provenance, const Progress& progress) {
+std::vector<std::string> write_image(const fs::path& path, const Image& image, const ImageInput& source,
+                                     const ImageInput& images, const Provenance& provenance, const Progress& progress) {
     if (!is_dicom_name(path)) {
         const bool has_names = has_extension(path, ".seg.nrrd");
         const std::vector<LabelName> names = has_names ? label_names(named_segments(source)) : std::vector<LabelName>{};
-        return kontur::write_image(path, image, {names, provenance});
+        kontur::write_image(path, image, {names, provenance});
+        return {};
     }
-    write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, progress);
+    return write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, progress);
 }
 
-void write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,
-                      const Provenance& provenance, const Progress& progress) {
-    write_dicom_seg_masks(path, structures.masks, structures.segments, series_of(images), {.provenance = provenance},
-                          progress);
+std::vector<std::string> write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,
+                                          const Provenance& provenance, const Progress& progress) {
+    return write_dicom_seg_masks(path, structures.masks, structures.segments, series_of(images), {.provenance = provenance},
+                                 progress);
 }
 
 }  // namespace kontur::app

@@ -41,16 +41,16 @@ std::vector<std::string> write_contours(const std::filesystem::path& path, const
                                         const WriteRtstructOptions& options);
 
 /// Writes the mask of a fit in the format of the name; in .dcm with the way it was made.
-void write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
-                const WriteMaskOptions& options, const Progress& progress);
+std::vector<std::string> write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
+                                    const WriteMaskOptions& options, const Progress& progress);
 
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,
 /// named as in the source where that names them.
-void write_image(const std::filesystem::path& path, const Image& image, const ImageInput& source, const ImageInput& images,
-                 const Provenance& provenance, const Progress& progress);
+std::vector<std::string> write_image(const std::filesystem::path& path, const Image& image, const ImageInput& source,
+                                     const ImageInput& images, const Provenance& provenance, const Progress& progress);
 
 /// Writes a DICOM segmentation whose segments may overlap.
-void write_structures(const std::filesystem::path& path, const Structures& structures, const ImageInput& images,
-                      const Provenance& provenance, const Progress& progress);
+std::vector<std::string> write_structures(const std::filesystem::path& path, const Structures& structures,
+                                          const ImageInput& images, const Provenance& provenance, const Progress& progress);
 
 }  // namespace kontur::app

@@ -12,6 +12,7 @@
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/io/vtk_contours.h"
 
 namespace kontur::app {
 namespace {
@@ -19,9 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_mesh_name(const fs::path& path) {
-    constexpr std::array kExtensions{".stl", ".ply", ".obj"};
+    constexpr std::array kExtensions{".stl", ".ply", ".obj", ".vtk", ".vtp"};
     return std::any_of(kExtensions.begin(), kExtensions.end(), [&](const char* e) { return has_extension(path, e); });
 }
+
+/// Such a file holds contours or a mesh.
+bool is_vtk_name(const fs::path& path) { return has_extension(path, ".vtk") || has_extension(path, ".vtp"); }
 
 }  // namespace
 
@@ -33,7 +37,7 @@ bool has_extension(const fs::path& path, std::string_view extension) {
 
 FileKind input_kind(const fs::path& path) {
     if (has_extension(path, ".json") || is_rtstruct(path)) return FileKind::contours;
-    if (is_mesh_name(path)) return FileKind::mesh;
+    if (is_mesh_name(path)) return is_vtk_name(path) && has_vtk_lines(path) ? FileKind::contours : FileKind::mesh;
     return FileKind::image;
 }
 
@@ -76,7 +80,7 @@ void check_output_kind(const fs::path& path, FileKind kind) {
         throw Error(ErrorKind::unsupported, fmt::format("{} is no name for {}", path.string(), what));
     };
     if (kind == FileKind::image && !is_dicom_name(path)) check_image_name(path);
-    else if (kind == FileKind::mesh && !is_mesh_name(path)) refuse("a mesh; it ends with .stl, .ply or .obj");
+    else if (kind == FileKind::mesh && !is_mesh_name(path)) refuse("a mesh; it ends with .stl, .ply, .obj, .vtk or .vtp");
     else if (kind == FileKind::contours && !has_extension(path, ".json") && !is_dicom_name(path))
         refuse("contours; it ends with .json, .mrk.json or .dcm");
 }

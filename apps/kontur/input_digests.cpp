@@ -10,6 +10,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/file_digest.h"
+#include "kontur/io/image_files.h"
 #include "kontur/io/read_provenance.h"
 
 namespace kontur::app {
@@ -18,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A slice of a DICOM series stands for its folder.
+/// A slice of a DICOM series stands for its folder, a header for the file with its voxels, too.
 std::string image_sha256(const fs::path& image, const Progress& progress) {
     const fs::path folder = series_folder(image);
-    return file_sha256(folder.empty() ? image : folder, progress);
+    return folder.empty() ? files_sha256(image_files(image), progress) : file_sha256(folder, progress);
 }
 
 /// Appends what an input says of itself, `name` in front of each of its names. A file that came by very many steps keeps

@@ -13,6 +13,7 @@
 #include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
+#include "kontur/base/printable.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/mesh.h"
@@ -20,6 +21,7 @@
 #include "kontur/report.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
+#include "segment_rois.h"
 
 namespace kontur::app {
 namespace {
@@ -59,8 +61,17 @@ Grid grid_around_contours(const SegmentCommand& command, const ContourSet& conto
     return grid;
 }
 
+/// The fit would refuse it, too, but knows neither file nor structure.
+[[noreturn]] void refuse_empty(const SegmentCommand& command) {
+    std::string files;
+    for (const fs::path& path : command.contours) files += (files.empty() ? "" : ", ") + path.string();
+    const std::string roi = command.read.roi ? fmt::format(": the structure '{}'", *command.read.roi) : "";
+    throw Error(ErrorKind::invalid_input, fmt::format("{}{} has no contour; at least 1 is needed", files, roi));
+}
+
 Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
     ReadContours contours = read_contours(command.contours, command.read);
+    if (contours.contours.contours.empty()) refuse_empty(command);
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
     for (std::string& note : frame_of_reference_notes(contours.frame_of_reference_uid, command.image))
         inputs.notes.push_back(std::move(note));
@@ -80,7 +91,8 @@ Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
 
 RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segmentation& result) {
     PictureOptions options;
-    options.title = inputs.contours.name.empty() ? command.contours.front().stem().string() : inputs.contours.name;
+    options.title =
+        inputs.contours.name.empty() ? printable_utf8(command.contours.front().stem().string()) : inputs.contours.name;
     options.facts = {{"Volume (mask)", in_ml(result.report.mask_volume_ml)},
                      {"Residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
                      {"Residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
@@ -148,12 +160,18 @@ void check_words(const SegmentCommand& command) {
         throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
     if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
         throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
+    check_label_value(command.mask.label_value);
+    check_utf8(command.name, "the name");
     if (command.date) utc_date();  // which may be set to what is no date
+    if (command.rois.size() > 1) check_roi_words(command);
 }
 
-void run(const SegmentCommand& command, Console& console) {
+void run(const SegmentCommand& words, Console& console) {
+    SegmentCommand command = words;
+    if (command.rois.size() == 1) command.read.roi = command.rois.front();
     check_words(command);
     check_files(command);
+    if (command.rois.size() > 1) return segment_rois(command, console);
     const Progress progress = console.progress();
     Laps laps;
     const Inputs inputs = read_inputs(command, progress);
@@ -182,7 +200,10 @@ void run(const SegmentCommand& command, Console& console) {
         if (!target.empty()) outputs.write(target, writer);
         progress.check();
     };
-    write(command.output, [&](const fs::path& path) { write_mask(path, result, command.image, mask, progress); });
+    write(command.output, [&](const fs::path& path) {
+        for (std::string& note : write_mask(path, result, command.image, mask, progress))
+            report.warnings.push_back(std::move(note));
+    });
     write(command.rtstruct,
           [&](const fs::path& path) { write_structure_set(path, command, inputs, result, mask.provenance, progress); });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });

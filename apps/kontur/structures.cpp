@@ -8,6 +8,7 @@
 #include <map>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/image.h"
 #include "kontur/io/nrrd.h"
 
@@ -62,7 +63,7 @@ Structures without_empty(Structures found, const ImageInput& input) {
 /// "liver" for folder/liver.nii.gz.
 std::string stem(const fs::path& path) {
     const std::string name = path.filename().string();
-    return name.substr(0, name.find('.', 1));
+    return printable_utf8(name.substr(0, name.find('.', 1)));
 }
 
 }  // namespace

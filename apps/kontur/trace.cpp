@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "dicom_output.h"
 #include "input_digests.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"
 
@@ -37,6 +38,7 @@ Provenance provenance_of(const TraceCommand& command, const Progress& progress) 
 
 /// Whatever can be refused before any work is done.
 void check(const TraceCommand& command) {
+    check_utf8(command.name, "the name");
     check_output(command.output, std::array{command.mask, command.planes, command.image.path});
     check_output_kind(command.output, FileKind::contours);
     check_dicom_images(command.output, command.image.path);

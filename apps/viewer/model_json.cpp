@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/io/check_json.h"
 
 namespace kontur::viewer {
 namespace {
@@ -62,7 +63,13 @@ json parsed(std::string_view text) {
             refuse(fmt::format("the message is nested deeper than {} levels", kDeepest));
         else if (!in_string && (c == ']' || c == '}')) --depth;
     }
-    return json::parse(text);
+    json value = json::parse(text);
+    try {
+        check_json(text);
+    } catch (const Error& error) {
+        refuse(error.what());
+    }
+    return value;
 }
 
 json to_json(const Vec3& v) { return json::array({v.x, v.y, v.z}); }

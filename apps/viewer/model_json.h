@@ -26,8 +26,9 @@ constexpr Limits kStoredLimits{10 * kMostPoints, 1e7};
 /// In one line; bytes that are no UTF-8 (names from files) become replacement characters.
 std::string to_text(const nlohmann::json& value);
 
-/// What others have written as JSON. Throws nlohmann's exception, and Error(invalid_input) for what is nested deeper than
-/// `kDeepest`: JSON is copied and written by recursion, which would overflow the stack.
+/// What others have written as JSON. Throws nlohmann's exception, and Error(invalid_input) for a key that stands twice
+/// in one object and for what is nested deeper than `kDeepest`: JSON is copied and written by recursion, which would
+/// overflow the stack.
 constexpr int kDeepest = 64;
 nlohmann::json parsed(std::string_view text);
 

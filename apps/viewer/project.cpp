@@ -96,7 +96,11 @@ const std::filesystem::path& checked(const std::filesystem::path& path) {
     constexpr std::string_view kMagic("SQLite format 3\0", 16);
     constexpr std::size_t kHeaderBytes = 100, kVersionAt = 60, kApplicationIdAt = 68;
     // With a journal beside it the header may be half-written, and SQLite has to repair it first.
-    if (std::error_code error; std::filesystem::exists(path.string() + "-journal", error)) return path;
+    std::error_code error;
+    if (std::filesystem::exists(path.string() + "-journal", error)) return path;
+    const auto status = std::filesystem::status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw Error(ErrorKind::io, fmt::format("cannot open {}: it is no regular file", path.string()));
     std::array<char, kHeaderBytes> header{};
     std::ifstream file(path, std::ios::binary);
     file.read(header.data(), kHeaderBytes);

@@ -148,19 +148,21 @@ segments : sequence of DicomSegment
     One for each value other than 0. In the file they are numbered from 1 in this order.
 images : DicomSeries
     Such as one of `list_dicom_series`.
+@on_note
 @progress
 @provenance
 @options
 )",
         [options_of](const fs::path& path, const py::object& labels, const std::vector<DicomSegment>& segments,
-                     const DicomSeries& images, const py::object& progress, const py::object& stop,
-                     const py::object& provenance, const py::kwargs& given) {
+                     const DicomSeries& images, const py::object& on_note, const py::object& progress,
+                     const py::object& stop, const py::object& provenance, const py::kwargs& given) {
             const WriteDicomSegOptions options = options_of("write_dicom_seg", given, provenance);
             const Image volume = labels_from(labels);
-            run_work({progress, stop},
-                     [&](const Progress& p) { write_dicom_seg(path, volume, segments, images, options, p); });
+            give_notes(run({progress, stop},
+                           [&](const Progress& p) { return write_dicom_seg(path, volume, segments, images, options, p); }),
+                       on_note);
         },
-        py::arg("path"), py::arg("labels"), py::arg("segments"), py::arg("images"), py::kw_only(), kProgress, kStop,
+        py::arg("path"), py::arg("labels"), py::arg("segments"), py::arg("images"), py::kw_only(), kOnNote, kProgress, kStop,
         py::arg("provenance") = py::none(), KeywordText(keywords));
     define(
         m, "write_dicom_seg_masks", R"(Writes a binary DICOM segmentation of segments that may overlap.
@@ -174,18 +176,21 @@ segments : sequence of DicomSegment
     In the file they are numbered from 1 in this order, whatever their numbers are.
 images : DicomSeries
     Such as one of `list_dicom_series`.
+@on_note
 @progress
 @provenance
 @options
 )",
         [options_of](const fs::path& path, const std::vector<Mask>& masks, const std::vector<DicomSegment>& segments,
-                     const DicomSeries& images, const py::object& progress, const py::object& stop,
-                     const py::object& provenance, const py::kwargs& given) {
+                     const DicomSeries& images, const py::object& on_note, const py::object& progress,
+                     const py::object& stop, const py::object& provenance, const py::kwargs& given) {
             const WriteDicomSegOptions options = options_of("write_dicom_seg_masks", given, provenance);
-            run_work({progress, stop},
-                     [&](const Progress& p) { write_dicom_seg_masks(path, masks, segments, images, options, p); });
+            give_notes(
+                run({progress, stop},
+                    [&](const Progress& p) { return write_dicom_seg_masks(path, masks, segments, images, options, p); }),
+                on_note);
         },
-        py::arg("path"), py::arg("masks"), py::arg("segments"), py::arg("images"), py::kw_only(), kProgress, kStop,
+        py::arg("path"), py::arg("masks"), py::arg("segments"), py::arg("images"), py::kw_only(), kOnNote, kProgress, kStop,
         py::arg("provenance") = py::none(), KeywordText(keywords));
 }
 

@@ -287,3 +287,39 @@ def test_names_that_cannot_be_reached_are_input_that_cannot_be_read(folder):
             result = kontur(*words, cwd=folder)
             assert result.returncode == 74 and re.fullmatch(r"kontur: error: .+\n", result.stderr), (words, result)
             assert "unexpected" not in result.stderr
+
+
+@pytest.mark.parametrize("value", ["0", "-3", "65536", "70000"])
+def test_a_label_value_that_cannot_be_written_is_refused_before_anything_is_read(folder, value):
+    code, sentence = segment(folder, "missing.json", more=["--label-value", value])
+    assert code == 65
+    assert f"label value {value} cannot be written" in sentence
+
+
+def test_a_name_that_is_no_utf8_is_refused_before_anything_is_read(folder):
+    code, sentence = segment(folder, "missing.json", more=["--name", "Leb\udce4r"])
+    assert code == 65
+    assert "the name 'Leb?r' is not UTF-8" in sentence
+
+
+@pytest.mark.parametrize("name", ["a.json", "a.mrk.json", "a.nii", "a.mhd", "a.nrrd", "a.dcm", "a.hdr", "a.mgz", "a.gipl", "a.stl",
+                                  "a.vtk", "a.vtp", "a.csv", "a.kontur", "nameless"])
+def test_a_pipe_is_refused_at_once_wherever_a_file_is_read(folder, name):
+    """Opening one waits for its writer."""
+    os.mkfifo(folder / name)
+    commands = [["inspect", name], ["segment", name, "--image", IMAGE, "-o", OUT], ["segment", "ball.json", "--image", name, "-o", OUT],
+                ["convert", name, "out.nii"], ["convert", name, "out.json"], ["trace", IMAGE, "--planes", name, "-o", "out.json"],
+                ["trace", name, "--planes", "ball.json", "-o", "out.json"], ["compare", IMAGE, name], ["batch", name],
+                ["open", "--no-browser", "--timeout", "1", name], ["open", "--no-browser", "--timeout", "1", "--project", name]]
+    for words in commands:
+        result = subprocess.run([KONTUR, *words], cwd=folder, capture_output=True, text=True, timeout=20, stdin=subprocess.DEVNULL)
+        assert result.returncode in (64, 65, 66, 69, 74), (words, result)
+        assert re.search(r"^kontur: error: ", result.stderr, re.MULTILINE), (words, result)
+
+
+def test_a_structure_without_contours_is_named_with_its_file(folder):
+    planes = [plane | {"contours": []} for plane in ball_planes()]
+    write_planes(folder / "empty.json", planes)
+    code, sentence = segment(folder, "empty.json", more=["--roi", "Ball"])
+    assert code == 65
+    assert "empty.json: the structure 'Ball' has no contour; at least 1 is needed" in sentence

@@ -261,7 +261,7 @@ def test_every_column_is_an_option_of_segment(cohort):
         ("contours,image,output", ["a.json,i.nii,o.nii", " ; ,i.nii,p.nii"], "line 3: the cell below 'contours' is empty"),
         ("contours,image,output", ["a.json,i.nii,"], "line 2: the cell below 'output' is empty"),
         ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii,o.jpg"], "line 3: "),
-        ("contours,image,output,mesh", ["a.json,i.nii,o.nii,m.vtk"], "line 2: m.vtk is no name for a mesh"),
+        ("contours,image,output,mesh", ["a.json,i.nii,o.nii,m.off"], "line 2: m.off is no name for a mesh"),
         ("contours,image,output,picture", ["a.json,i.nii,o.nii,p.jpg"], "line 2: p.jpg does not end with .png"),
         ("contours,spacing-mm,output", ["a.json,4,o.dcm"], "line 2: o.dcm would refer to the DICOM images it was made on"),
         ("contours,image,output", ["a.json,i.nii,o.nii", "a.json,i.nii,absent/o.nii"], "line 3: cannot write "),

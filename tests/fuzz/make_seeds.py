@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """make_seeds.py TARGET FOLDER: writes small sound inputs of a fuzz target, for a fuzzer to start from. TARGET may be "all": then each
 target gets a folder of its own."""
+import bz2
 import gzip
 import json
 import pathlib
@@ -29,6 +30,7 @@ def nrrd():
     voxels = sound.VOXELS
     yield sound.nrrd_text()
     yield sound.nrrd_text(gzip.compress(voxels, mtime=0), encoding="gzip")
+    yield sound.nrrd_text(bz2.compress(voxels), encoding="bzip2")
     yield sound.nrrd_text(b"1 2 3 4 5 6 7 8", encoding="ascii", sizes="2 2 2")
     yield sound.nrrd_text(dimension="4", sizes="2 2 2 2", space_directions="none (1,0,0) (0,1,0) (0,0,2)", kinds=None)
     yield sound.nrrd_text(type="short", endian="big", sizes="5 4 3", byte_skip="-1", space="RAS")
@@ -40,6 +42,35 @@ def metaimage():
     yield sound.metaimage_text(packed, CompressedData="True", CompressedDataSize=len(packed))
     yield sound.metaimage_text(b"1 2 3 4 5 6 7 8", BinaryData="False", DimSize="2 2 2")
     yield sound.metaimage_text(ElementNumberOfChannels="2", DimSize="5 4 3", HeaderSize="-1")
+
+
+def by_support(script, *words):
+    """What a script of the tests writes, file by file."""
+    with tempfile.TemporaryDirectory() as name:
+        sound.support(script, *words, name)
+        yield from ((path.name, path.read_bytes()) for path in sorted(pathlib.Path(name).iterdir()) if path.is_file())
+
+
+def nifti_pair():
+    files = dict(by_support("image_oracle.py", "make-pairs"))
+    for stem in ("axial_1", "oblique_2"):
+        yield files[stem + ".hdr"] + files[stem + ".img"]
+
+
+def mgh():
+    yield from (content for name, content in by_support("image_oracle.py", "make-mgh") if name.endswith((".mgh", ".mgz")))
+
+
+def gipl():
+    yield from (content for name, content in by_support("image_oracle.py", "make-gipl") if name.endswith((".gipl", ".gz")))
+
+
+def vtk():
+    yield from (content for name, content in by_support("make_vtk.py") if name.endswith(".vtk"))
+
+
+def vtp():
+    yield from (content for name, content in by_support("make_vtk.py") if name.endswith(".vtp"))
 
 
 def dicom():
@@ -143,7 +174,7 @@ def project():
     yield "\n".join([*map(json.dumps, (structure, contour, step)), "1", "{}", "{}", json.dumps({"structures": [], "contours": []}), "2"]).encode()
 
 
-TARGETS = [nifti, nrrd, metaimage, dicom, dicom_seg, rtstruct, contour_json, markups, stl, ply, obj, csv, pipeline, messages, project]
+TARGETS = [nifti, nrrd, metaimage, nifti_pair, mgh, gipl, dicom, dicom_seg, rtstruct, contour_json, markups, stl, ply, obj, vtk, vtp, csv, pipeline, messages, project]
 
 
 def main():

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -69,11 +70,30 @@ void mesh(const std::string& name, Bytes bytes) {
     provenance(path);
 }
 
+/// The same file may hold contours and a surface.
+void polydata(const std::string& name, Bytes bytes) {
+    try {
+        contours(name, bytes);
+    } catch (const Error&) {
+        // a surface, perhaps
+    }
+    mesh(name, bytes);
+}
+
 }  // namespace
 
 void nifti(Bytes bytes) { image(!bytes.empty() && bytes[0] == 0x1f ? "x.nii.gz" : "x.nii", bytes); }
 void nrrd(Bytes bytes) { image("x.nrrd", bytes); }
 void metaimage(Bytes bytes) { image("x.mha", bytes); }
+/// The first bytes are the header's file, the others that of the voxels.
+void nifti_pair(Bytes bytes) {
+    constexpr std::size_t kHeaderBytes = 352;
+    const std::size_t head = std::min(bytes.size(), kHeaderBytes);
+    scratch().file("x.img", bytes.subspan(head));
+    image("x.hdr", bytes.first(head));
+}
+void mgh(Bytes bytes) { image(!bytes.empty() && bytes[0] == 0x1f ? "x.mgz" : "x.mgh", bytes); }
+void gipl(Bytes bytes) { image("x.gipl", bytes); }
 void dicom(Bytes bytes) { image("x.dcm", bytes); }
 void dicom_seg(Bytes bytes) {
     const auto path = scratch().file("x.dcm", bytes);
@@ -92,6 +112,8 @@ void markups(Bytes bytes) { contours("x.mrk.json", bytes); }
 void stl(Bytes bytes) { mesh("x.stl", bytes); }
 void ply(Bytes bytes) { mesh("x.ply", bytes); }
 void obj(Bytes bytes) { mesh("x.obj", bytes); }
+void vtk(Bytes bytes) { polydata("x.vtk", bytes); }
+void vtp(Bytes bytes) { polydata("x.vtp", bytes); }
 void csv(Bytes bytes) {
     const app::CsvTable table = app::read_csv(scratch().file("x.csv", bytes));
     for (const auto& row : table.rows) require(row.size() == table.columns.size(), "each row has each column");

@@ -191,6 +191,28 @@ TEST_F(ContourJson, NumberBeyondDoubleIsRefusedWithItsPlace) {
     EXPECT_NE(refusal(replaced("[2, 0, 3]", "[2, NaN, 3]")).find("is not valid JSON from byte"), std::string::npos);
 }
 
+TEST_F(ContourJson, AKeyThatStandsTwiceIsRefusedWithItsPlace) {
+    const auto told = [&](const std::string& text) { return refusal(text); };
+    EXPECT_NE(told(replaced("{\"frame\"", "{\"frame\": \"RAS mm\", \"frame\"")).find("the key \"frame\" stands there twice"),
+              std::string::npos)
+        << "the last one would mirror the patient";
+    EXPECT_NE(told(replaced("\"hole\": true", "\"hole\": true, \"h\\u006fle\": false"))
+                  .find("the key \"hole\" stands there twice in planes 1, contours 2"),
+              std::string::npos)
+        << "however it is written";
+    EXPECT_NE(
+        told(replaced("\"planes\"", "\"unknown\": [{\"a\": {\"b\": 1, \"b\": 1}}], \"planes\"")).find("in unknown 1, a"),
+        std::string::npos)
+        << "where kontur looks at nothing, too";
+}
+
+TEST_F(ContourJson, RefusesToWriteANameThatIsNoUtf8) {
+    ContourSet set;
+    set.name = "Leb\xe4r";
+    EXPECT_THROW(write_contour_json(folder_ / "a.json", set), Error);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.json"));
+}
+
 TEST_F(ContourJson, OtherDocumentsAreToldApart) {
     EXPECT_NE(refusal(R"({"version": "1.0.0", "contours": 7})").find("holds no contours"), std::string::npos);
 }

@@ -122,6 +122,27 @@ TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
     EXPECT_EQ(found.segments[0].voxels, count_labels(random_labels()).at(1));
 }
 
+TEST_F(WriteDicomSeg, SaysWhichNamesItChanged) {
+    use_images("axial");
+    std::vector<DicomSegment> segments = three_segments();
+    EXPECT_TRUE(write_dicom_seg(path(), random_labels(), segments, series_).empty());
+    segments[0].label = std::string(70, 'a');
+    segments[1].label = std::string(64, 'a');
+    segments[2].label = "back\\slash";
+    const std::vector<std::string> notes = write_dicom_seg(path(), random_labels(), segments, series_);
+    ASSERT_EQ(notes.size(), 3u);
+    EXPECT_NE(
+        notes[2].find("has backslashes or control characters, which DICOM cannot hold there; it is written as 'back/slash'"),
+        std::string::npos)
+        << notes[2];
+    const auto again = read_dicom_segmentation(path()).segments;
+    EXPECT_EQ(again[0].label, std::string(64, 'a'));
+    EXPECT_EQ(again[1].label, std::string(60, 'a') + " (2)") << "or two segments would have one name";
+    segments[0].label = "Leb\xe4r";
+    EXPECT_KONTUR_ERROR(write_dicom_seg(path(), random_labels(), segments, series_), ErrorKind::invalid_input,
+                        "is not UTF-8");
+}
+
 TEST_F(WriteDicomSeg, NamesANewFrameOfReferenceWhereTheImagesNameNone) {
     use_images("no_frame");
     write_dicom_seg(path(), random_labels(), three_segments(), series_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "image_cases.h"
+#include "kontur/io/image_files.h"
 #include "kontur/io/nrrd.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
@@ -59,7 +60,7 @@ TEST_P(ImageFiles, EveryVoxelInsideGetsTheLabel) {
 TEST_P(ImageFiles, ImageComesBack) {
     const Image image = test::pattern_image<std::uint16_t>(mask.grid);
     write_image(path(), image);
-    EXPECT_EQ(read_image(path()).samples, image.samples);
+    test::expect_same_values(read_image(path()), image, path().string());
 }
 
 TEST_P(ImageFiles, FailureLeavesNothing) {
@@ -75,7 +76,34 @@ TEST_P(ImageFiles, FailureLeavesNothing) {
     EXPECT_EQ(folder.entry_count(), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ImageFiles, ::testing::Values(".nii", ".nii.gz", ".nrrd", ".seg.nrrd", ".mha"));
+INSTANTIATE_TEST_SUITE_P(Formats, ImageFiles,
+                         ::testing::Values(".nii", ".nii.gz", ".nrrd", ".seg.nrrd", ".mha", ".mgh", ".mgz", ".mgh.gz"));
+
+TEST(ImageFileNames, AHeaderStandsForItsVoxelsToo) {
+    const test::TemporaryFolder folder;
+    const auto names = [&](const char* name) {
+        std::vector<std::string> found;
+        for (const fs::path& file : image_files(folder / name)) found.push_back(file.filename().string());
+        return found;
+    };
+    using Names = std::vector<std::string>;
+    for (const char* name : {"a.img", "a.hdr", "b.hdr", "b.img.gz", "C.IMG", "C.HDR", "v.raw", "one.nii"})
+        test::put_content(folder / name, "x");
+    test::put_content(folder / "d.mhd", "ObjectType = Image\nElementDataFile = v.raw\n");
+    test::put_content(folder / "d.mha", "ObjectType = Image\nElementDataFile = LOCAL\nxx");
+    test::put_content(folder / "d.nhdr", "NRRD0004\ndata file: ./v.raw\n\n");
+    test::put_content(folder / "missing.nhdr", "NRRD0004\ndata file: none.raw\n\n");
+    EXPECT_EQ(names("a.img"), (Names{"a.hdr", "a.img"}));
+    EXPECT_EQ(names("a.hdr"), (Names{"a.hdr", "a.img"}));
+    EXPECT_EQ(names("b.hdr"), (Names{"b.hdr", "b.img.gz"}));
+    EXPECT_EQ(names("b.img.gz"), (Names{"b.hdr", "b.img.gz"}));
+    EXPECT_EQ(names("C.IMG"), (Names{"C.HDR", "C.IMG"}));
+    EXPECT_EQ(names("d.mhd"), (Names{"d.mhd", "v.raw"}));
+    EXPECT_EQ(names("d.mha"), (Names{"d.mha"}));
+    EXPECT_EQ(names("d.nhdr"), (Names{"d.nhdr", "v.raw"}));
+    EXPECT_EQ(names("missing.nhdr"), (Names{"missing.nhdr"}));
+    EXPECT_EQ(names("one.nii"), (Names{"one.nii"}));
+}
 
 TEST(ReadMask, AsksWhichOfSeveralLabels) {
     const test::TemporaryFolder folder;
@@ -113,6 +141,7 @@ TEST_P(ImageFiles, FlippedBitsNeverDoMoreThanThrow) {
 }
 
 TEST_P(ImageFiles, ContentTellsWhatANamelessFileIs) {
+    if (std::string_view(GetParam()).starts_with(".mg")) return;  // begins with nothing but a 1
     write_mask(path(), mask);
     fs::rename(path(), folder / "nameless");
     EXPECT_EQ(read_mask(folder / "nameless").values, mask.values);

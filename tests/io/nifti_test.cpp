@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "image_cases.h"
+#include "kontur/io/image.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
 
@@ -112,6 +113,50 @@ TEST(Nifti, ReadsWhatNibabelWrites) {
         ++files;
     }
     EXPECT_EQ(files, 59);
+}
+
+TEST(Nifti, ReadsPairsByEitherName) {
+    const test::TemporaryFolder folder;
+    test::run_image_oracle("make-pairs", folder.path());
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+        const fs::path expectation = entry.path().string() + ".expect";
+        if (!fs::exists(expectation)) continue;
+        const test::Expectation expected = test::read_expectation(entry.path());
+        const Image image = read_image(entry.path());
+        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
+        EXPECT_EQ(read_grid(entry.path()), image.grid) << entry.path();
+        test::expect_same_values(image, expected.image, entry.path().string());
+        ++files;
+    }
+    EXPECT_EQ(files, 25);
+    for (const char* name : {"a.hdr", "a.img"})
+        expect_error(ErrorKind::unsupported, "Analyze 7.5", [&] { read_image(folder / "analyze" / name); });
+}
+
+TEST(Nifti, RefusesEveryTruncatedPrefixOfEitherFileOfAPair) {
+    const test::TemporaryFolder folder;
+    test::run_image_oracle("make-pairs", folder.path());
+    const auto read_pair = [&](const fs::path&) { read_nifti(folder / "part.hdr"); };
+    fs::copy_file(folder / "axial_1.img", folder / "part.img");
+    test::expect_prefixes_refused(folder / "axial_1.hdr", folder / "part.hdr",
+                                  [&](const fs::path& path) { read_nifti(path); });
+    fs::copy_file(folder / "axial_1.hdr", folder / "part.hdr", fs::copy_options::overwrite_existing);
+    test::expect_prefixes_refused(folder / "axial_1.img", folder / "part.img", read_pair);
+    test::expect_flips_survived(folder / "axial_2.hdr", folder / "axial_2.HDR",
+                                [](const fs::path& path) { read_nifti(path); });
+}
+
+TEST(Nifti, APairWithoutItsOtherFileIsNamed) {
+    const test::TemporaryFolder folder;
+    test::run_image_oracle("make-pairs", folder.path());
+    fs::remove(folder / "axial_1.img");
+    fs::remove(folder / "axial_2.hdr");
+    expect_error(ErrorKind::io, "axial_1.img", [&] { read_nifti(folder / "axial_1.hdr"); });
+    expect_error(ErrorKind::io, "axial_2.hdr", [&] { read_nifti(folder / "axial_2.img"); });
+    write_nifti(folder / "one.nii", test::pattern_image<std::uint8_t>(test::all_orientations()[0]));
+    fs::rename(folder / "one.nii", folder / "one.hdr");
+    expect_error(ErrorKind::corrupt_file, "the same file", [&] { read_nifti(folder / "one.hdr"); });
 }
 
 TEST(Nifti, WritesNoQformForShear) {
@@ -270,7 +315,7 @@ TEST_F(Spoiled, OtherLiesAreRefused) {
     };
     spoil(0, std::int32_t{347}, ErrorKind::corrupt_file, "no NIfTI file");
     spoil(344, std::int32_t{0}, ErrorKind::corrupt_file, "magic");
-    spoil(345, 'i', ErrorKind::unsupported, "second file");
+    spoil(345, 'i', ErrorKind::corrupt_file, "second file");
     spoil(70, std::int16_t{77}, ErrorKind::corrupt_file, "datatype 77");
     spoil(70, std::int16_t{32}, ErrorKind::unsupported, "complex");
     spoil(70, std::int16_t{128}, ErrorKind::unsupported, "colours");

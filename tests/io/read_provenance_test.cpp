@@ -36,13 +36,15 @@ const TriangleMesh kMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}}};
 void write_sample(const fs::path& path, const Provenance& made) {
     const std::string extension = path.extension().string();
     if (extension == ".json") write_contours(path, {}, made);
-    else if (extension == ".ply" || extension == ".obj" || extension == ".stl") write_mesh(path, kMesh, made);
+    else if (extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".vtk" || extension == ".vtp")
+        write_mesh(path, kMesh, made);
     else write_mask(path, kMask, {.provenance = made});
 }
 
 TEST(ReadProvenance, FindsWhatTheWritersWrote) {
     const test::TemporaryFolder folder;
-    for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.seg.nrrd", "a.json", "a.mrk.json", "a.ply", "a.obj"}) {
+    for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.seg.nrrd", "a.json", "a.mrk.json", "a.ply", "a.obj", "a.vtp",
+                             "a.mgh", "a.mgz"}) {
         write_sample(folder / name, kMade);
         EXPECT_EQ(sorted(read_provenance(folder / name)), kMade) << name;
         write_sample(folder / name, {});
@@ -52,7 +54,7 @@ TEST(ReadProvenance, FindsWhatTheWritersWrote) {
 
 TEST(ReadProvenance, IsOneTextWhereTheFormatHoldsItShortened) {
     const test::TemporaryFolder folder;
-    for (const char* name : {"a.mha", "a.stl"}) {
+    for (const char* name : {"a.mha", "a.stl", "a.vtk"}) {
         write_sample(folder / name, kMade);
         const Provenance found = read_provenance(folder / name);
         ASSERT_EQ(found.size(), 1u) << name;
@@ -75,7 +77,7 @@ TEST(ReadProvenance, TakesNothingThatCouldNotBeWrittenAgain) {
 TEST(ReadProvenance, IsEmptyForOtherFilesAndFolders) {
     const test::TemporaryFolder folder;
     EXPECT_EQ(read_provenance(fs::path(folder / "a").parent_path()), Provenance{});
-    for (const char* name : {"a.ply", "a.obj", "a.stl", "a.txt", "a.mha"}) {
+    for (const char* name : {"a.ply", "a.obj", "a.stl", "a.vtk", "a.vtp", "a.txt", "a.mha"}) {
         write(folder / name, "kontur is not the author");
         EXPECT_EQ(read_provenance(folder / name), Provenance{}) << name;
     }

@@ -225,6 +225,22 @@ TEST_F(RtstructTest, SelectsByNameThenNumberAndListsTheRoisOtherwise) {
               "2 ROIs have the name 'liver'; give a number" + list);
 }
 
+TEST_F(RtstructTest, SelectsByNameInCapitalsOrNot) {
+    StructureSet set;
+    for (const char* name : {"Bladder", "GTV", "gtv", "L\xC3\xA4sion", "Ptv 1", "PTV 1"}) {
+        Roi& roi = set.rois.emplace_back();
+        roi.number = static_cast<std::int64_t>(set.rois.size());
+        roi.name = name;
+    }
+    EXPECT_EQ(select_roi(set, "bladder").number, 1);
+    EXPECT_EQ(select_roi(set, "L\xC3\x84SION").number, 4) << "letters with accents, too";
+    EXPECT_EQ(select_roi(set, "GTV").number, 2) << "as it is written goes before all others";
+    EXPECT_EQ(select_roi(set, "gtv").number, 3);
+    EXPECT_TRUE(refusal(ErrorKind::invalid_input, [&] {
+                    select_roi(set, "ptv 1");
+                }).starts_with("the names of 2 ROIs are 'ptv 1' but for case; give one as it is written; the ROIs are: "));
+}
+
 TEST_F(RtstructTest, EndsCleanlyOnEveryDamagedFile) {
     const std::string bytes = test::read_bytes(make("good"));
     const fs::path path = folder_ / "damaged.dcm";

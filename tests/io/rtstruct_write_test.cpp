@@ -169,7 +169,11 @@ TEST_F(WriteRtstruct, NumbersRoisThatHaveNone) {
     StructureSet set{"", {holes(), holes(), Roi{}}};
     set.rois[0].number = 2;
     set.rois[2].name = std::string(70, 'x') + "\\";
-    write_rtstruct(path(), set, series_);
+    const std::vector<std::string> notes = write_rtstruct(path(), set, series_);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes.front().find("ROI 3 has 71 characters, of which DICOM has room for 64; it is written as 'xxx"),
+              std::string::npos)
+        << notes.front();
     const StructureSet again = read_rtstruct(path());
     EXPECT_EQ(again.rois[0].number, 2);
     EXPECT_EQ(again.rois[1].number, 1);
@@ -179,6 +183,28 @@ TEST_F(WriteRtstruct, NumbersRoisThatHaveNone) {
     verdict();
     set.rois[1].number = 2;
     EXPECT_KONTUR_ERROR(write_rtstruct(path(), set, series_), ErrorKind::invalid_input, "two ROIs have the number 2");
+}
+
+TEST_F(WriteRtstruct, TellsNamesApartThatDicomWouldMakeEqual) {
+    use_images("axial");
+    const std::string long_name(64, 'x');
+    StructureSet set{"a label of more than 16 characters", {}};
+    for (const std::string& name : {long_name + "left", long_name + "right", std::string("a/b"), std::string("a\\b"),
+                                    std::string("a\\b"), std::string("a/b"), std::string("a/b (2)")})
+        set.rois.emplace_back().name = name;
+    const std::vector<std::string> notes = write_rtstruct(path(), set, series_);
+    std::vector<std::string> names;
+    for (const Roi& roi : read_rtstruct(path()).rois) names.push_back(roi.name);
+    EXPECT_EQ(names, (std::vector<std::string>{long_name, std::string(60, 'x') + " (2)", "a/b", "a/b (2)", "a/b (3)", "a/b",
+                                               "a/b (2) (2)"}))
+        << "of names that were equal before, nothing is said";
+    ASSERT_EQ(notes.size(), 6u) << "also of the label";
+    EXPECT_NE(notes[2].find("'a\\b' of ROI 4 would be that of another one"), std::string::npos) << notes[2];
+    EXPECT_NE(notes[5].find("label has 34 characters, of which DICOM has room for 16"), std::string::npos) << notes[5];
+    verdict();
+    set.rois[1].name = "Leb\xe4r";
+    EXPECT_KONTUR_ERROR(write_rtstruct(path(), set, series_), ErrorKind::invalid_input,
+                        "the name of ROI 2, 'Leb?r' is not UTF-8");
 }
 
 TEST_F(WriteRtstruct, RefusesWhatItCannotSay) {

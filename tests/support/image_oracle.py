@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Independent reader and writer of image files: nibabel for NIfTI, small parsers of its own for NRRD and MetaImage.
+"""Independent reader and writer of image files: nibabel for NIfTI and MGH, small ones of its own for NRRD, MetaImage and GIPL.
 
     image_oracle.py check FOLDER        every FILE.expect in FOLDER must describe what is found in FILE
-    image_oracle.py make-nifti FOLDER   writes files and their FILE.expect (likewise make-nrrd, make-metaimage)
+    image_oracle.py make-nifti FOLDER   writes files and their FILE.expect (likewise make-nrrd, make-metaimage,
+                                        make-pairs, make-mgh, make-gipl)
 
 An .expect file holds the size, the 3 x 4 matrix from index to mm (LPS) by rows, the tolerance in mm and all voxels, i fastest.
 """
+import bz2
 import gzip
 import itertools
 import pathlib
+import struct
 import sys
 import zlib
 
@@ -92,7 +95,16 @@ def read_metaimage(path):
     return affine, np.frombuffer(body, "<" + META_TYPES[fields["ElementType"]]).reshape(sizes, order="F")
 
 
+def read_mgh(path):
+    import nibabel
+
+    image = nibabel.load(path)
+    return RAS @ image.affine, np.asanyarray(image.dataobj)
+
+
 def read(path):
+    if path.name.endswith((".mgh", ".mgz")):
+        return read_mgh(path)
     if path.name.endswith((".nii", ".nii.gz")):
         return read_nifti(path)
     return read_nrrd(path) if path.suffix == ".nrrd" else read_metaimage(path)
@@ -229,7 +241,7 @@ def make_nrrd(folder):
     for code in ("u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"):
         values = pattern(np.dtype(code))
         for order in "<>":
-            for encoding, pack in (("raw", bytes), ("gzip", gzip.compress)):
+            for encoding, pack in (("raw", bytes), ("gzip", gzip.compress), ("bzip2", bz2.compress)):
                 path = folder / f"{code}_{'le' if order == '<' else 'be'}_{encoding}.nrrd"
                 path.write_bytes(nrrd_text(values, affine, encoding, order).encode() + b"\n" + pack(stored(values, order)))
                 write_expectation(path, affine, values)
@@ -256,6 +268,10 @@ def make_nrrd(folder):
     path = folder / "detached.nhdr"
     path.write_bytes(nrrd_text(values, affine, "raw", "<", more="data file: voxels.expect.raw\n").encode())
     (folder / "voxels.expect.raw").write_bytes(stored(values, "<"))
+    write_expectation(path, affine, values)
+    path = folder / "two_streams.nrrd"
+    content = stored(values, "<")
+    path.write_bytes(nrrd_text(values, affine, "bz2", "<").encode() + b"\n" + bz2.compress(content[:50]) + bz2.compress(content[50:]))
     write_expectation(path, affine, values)
     path = folder / "windows_lines.nrrd"
     path.write_bytes(nrrd_text(values, affine, "raw", "<").replace("\n", "\r\n").encode() + b"\r\n" + stored(values, "<"))
@@ -301,9 +317,96 @@ def make_metaimage(folder):
     save("skip.mha", values, affine, "<", {"HeaderSize": 5}, b"12345" + raw)
     save("at_the_end.mha", values, affine, "<", {"HeaderSize": -1}, b"anything" + raw)
     save("detached.mhd", values, affine, "<", {"ElementDataFile": "voxels.expect.raw"}, b"")
+    save("detached.mha", values, affine, "<", {"ElementDataFile": "voxels.expect.raw"}, b"")
     (folder / "voxels.expect.raw").write_bytes(raw)
 
 
+def make_pairs(folder):
+    """NIfTI in two files; the header is what has an expectation, the voxels do where their name is to be read. And Analyze 7.5."""
+    import nibabel
+
+    values = pattern(np.dtype("i2"))
+    for name, affine in some_affines():
+        ras = (RAS @ affine).astype(np.float32).astype(float)
+        for version, kind in ((1, nibabel.Nifti1Pair), (2, nibabel.Nifti2Pair)):
+            image = kind(values, None)
+            image.header.set_sform(ras, 1)
+            stem = f"{name}_{version}"
+            nibabel.save(image, folder / f"{stem}.img")
+            for suffix in (".hdr", ".img"):
+                write_expectation(folder / (stem + suffix), RAS @ ras, values)
+    for name, suffixes in (("both_packed", (".hdr", ".img")), ("voxels_packed", (".img",))):
+        for suffix in (".hdr", ".img"):
+            content = (folder / f"axial_1{suffix}").read_bytes()
+            packed = suffix in suffixes
+            path = folder / (name + suffix + (".gz" if packed else ""))
+            path.write_bytes(gzip.compress(content) if packed else content)
+            write_expectation(path, dict(some_affines())["axial"], values)
+    header = bytearray((folder / "axial_1.hdr").read_bytes())
+    struct.pack_into("<f", header, 108, 16.0)
+    (folder / "CAPITALS.HDR").write_bytes(header)
+    (folder / "CAPITALS.IMG").write_bytes(b"sixteen bytes...".ljust(16) + (folder / "axial_1.img").read_bytes())
+    write_expectation(folder / "CAPITALS.HDR", dict(some_affines())["axial"], values)
+    (folder / "analyze").mkdir()
+    nibabel.save(nibabel.Spm2AnalyzeImage(values, np.diag([2.0, 3, 4, 1])), folder / "analyze" / "a.img")
+
+
+def make_mgh(folder):
+    import nibabel
+
+    for code in ("u1", "i2", "i4", "f4"):
+        values = pattern(np.dtype(code))
+        for name, affine in some_affines():
+            image = nibabel.MGHImage(values, RAS @ affine)
+            path = folder / f"{name}_{code}.{'mgz' if code in ('i2', 'f4') else 'mgh'}"
+            nibabel.save(image, path)
+            loaded = nibabel.load(path)
+            write_expectation(path, RAS @ loaded.affine, np.asanyarray(loaded.dataobj), 1e-4)  # nibabel computes with single precision
+    values = pattern(np.dtype("i2"))
+    image = nibabel.MGHImage(values, RAS @ affine)
+    image.header["tr"] = 2.5  # stands behind the voxels
+    nibabel.save(image, folder / "scan.mgz")
+    write_expectation(folder / "scan.mgz", RAS @ nibabel.load(folder / "scan.mgz").affine, values, 1e-4)
+    # What nibabel does not write: samples without a sign, and a header that says nothing of the patient.
+    content = bytearray((folder / "axial_u1.mgh").read_bytes()[:284])
+    struct.pack_into(">i", content, 20, 10)
+    unsigned = pattern(np.dtype("u2"))
+    (folder / "unsigned.mgh").write_bytes(content + unsigned.astype(">u2").tobytes(order="F"))
+    write_expectation(folder / "unsigned.mgh", RAS @ nibabel.load(folder / "axial_u1.mgh").affine, unsigned, 1e-5)
+    struct.pack_into(">h", content, 28, 0)
+    struct.pack_into(">i", content, 20, 0)
+    (folder / "lost").mkdir()
+    path = folder / "lost" / "lost.mgh"
+    values = pattern(np.dtype("u1"))
+    path.write_bytes(content + values.tobytes(order="F"))
+    # As FreeSurfer's setDirectionCosine has it for coronal slices: x to the left, y down, z to the front; nibabel turns y and z.
+    coronal = np.array([[-1.0, 0, 0, 2.5], [0, 0, 1, -1.5], [0, -1, 0, 2.0], [0, 0, 0, 1]])
+    write_expectation(path, RAS @ coronal, values)
+
+
+GIPL_TYPES = {"u1": 8, "i1": 7, "i2": 15, "u2": 16, "u4": 31, "i4": 32, "f4": 64, "f8": 65}
+
+
+def gipl_header(size, kind, spacing, origin, magic=0xEFFFE9B0):
+    """By the list of fields in ITK's documentation of the format: all of them big-endian."""
+    header = struct.pack(">4H", *size) + struct.pack(">H", kind) + struct.pack(">4f", *spacing) + b"patient".ljust(80, b"\0")
+    header += struct.pack(">20f", *([0] * 20)) + bytes(2) + struct.pack(">2d", 0, 0) + struct.pack(">4d", *origin)
+    header += struct.pack(">4f", 0, 0, 0, 0) + struct.pack(">I", magic)
+    assert len(header) == 256
+    return header
+
+
+def make_gipl(folder):
+    affine = np.array([[2.0, 0, 0, -7], [0, 3, 0, 8], [0, 0, 4, 9.5], [0, 0, 0, 1]])
+    for code, kind in GIPL_TYPES.items():
+        values = pattern(np.dtype(code))
+        for magic, frames, suffix in ((0xEFFFE9B0, 0, ".gipl"), (0x2AE389B8, 1, ".gipl.gz")):
+            content = gipl_header((5, 4, 3, frames), kind, (2, 3, 4, 0), (-7, 8, 9.5, 0), magic) + stored(values, ">")
+            path = folder / f"{code}{suffix}"
+            path.write_bytes(gzip.compress(content) if suffix.endswith("gz") else content)
+            write_expectation(path, affine, values)
+
+
 if __name__ == "__main__":
-    commands = {"check": check, "make-nifti": make_nifti, "make-nrrd": make_nrrd, "make-metaimage": make_metaimage}
+    commands = {"make-pairs": make_pairs, "make-mgh": make_mgh, "make-gipl": make_gipl, "check": check, "make-nifti": make_nifti, "make-nrrd": make_nrrd, "make-metaimage": make_metaimage}
     commands[sys.argv[1]](pathlib.Path(sys.argv[2]))

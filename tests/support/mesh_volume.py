@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""mesh_volume.py MESH: reads kontur's STL, PLY or OBJ by the formats' definitions alone; prints the number of triangles, the
+"""mesh_volume.py MESH: reads kontur's STL, PLY, OBJ, VTK or VTP by the formats' definitions alone; prints the number of triangles, the
 enclosed volume and the smallest cosine between a stored normal and its triangle's own."""
 
+import base64
+import re
 import sys
+import xml.etree.ElementTree
 
 import numpy as np
 
@@ -29,7 +32,44 @@ def read_obj(data):
     return points[corners[:, :, 0]], normals[corners[:, :, 1]]
 
 
-readers = {"stl": read_stl, "ply": read_ply, "obj": read_obj}
+def read_vtk(data):
+    parts = re.fullmatch(rb"# vtk DataFile Version 3\.0\n[^\n]{1,255}\nBINARY\nDATASET POLYDATA\nPOINTS (\d+) double\n(.*)", data, re.DOTALL)
+    count, body = int(parts[1]), parts[2]
+    points = np.frombuffer(body, ">f8", 3 * count).reshape(-1, 3)
+    cells = re.match(rb"\nPOLYGONS (\d+) (\d+)\n", body[points.nbytes :])
+    faces = np.frombuffer(body, ">i4", int(cells[2]), points.nbytes + cells.end()).reshape(-1, 4)
+    assert len(faces) == int(cells[1]) and (faces[:, 0] == 3).all()
+    tail = body[points.nbytes + cells.end() + faces.nbytes :]
+    head = b"\nPOINT_DATA %d\nNORMALS normals float\n" % count
+    assert tail.startswith(head) and len(tail) == len(head) + 12 * count
+    normals = np.frombuffer(tail[len(head) :], ">f4").reshape(-1, 3)
+    return points[faces[:, 1:]], normals[faces[:, 1:]]
+
+
+def read_vtp(data):
+    root = xml.etree.ElementTree.fromstring(data)
+    assert root.attrib == {"type": "PolyData", "version": "1.0", "byte_order": "LittleEndian", "header_type": "UInt64"}
+    [space] = root.findall("PolyData/FieldData/DataArray[@Name='SPACE']")
+    assert bytes(map(int, space.text.split())) == b"LPS\0"
+    piece = root.find("PolyData/Piece")
+
+    def array(place, kind):
+        [element] = piece.findall(place)
+        content = base64.b64decode(element.text, validate=True)
+        assert element.get("format") == "binary" and element.get("type") == kind[1]
+        assert int.from_bytes(content[:8], "little") == len(content) - 8
+        return np.frombuffer(content[8:], kind[0])
+
+    points = array("Points/DataArray", ("<f8", "Float64")).reshape(-1, 3)
+    normals = array("PointData/DataArray", ("<f4", "Float32")).reshape(-1, 3)
+    corners = array("Polys/DataArray[@Name='connectivity']", ("<i8", "Int64"))
+    ends = array("Polys/DataArray[@Name='offsets']", ("<i8", "Int64"))
+    assert (len(points), len(ends)) == (int(piece.get("NumberOfPoints")), int(piece.get("NumberOfPolys")))
+    np.testing.assert_array_equal(ends, np.arange(3, len(corners) + 1, 3))
+    return points[corners.reshape(-1, 3)], normals[corners.reshape(-1, 3)]
+
+
+readers = {"vtk": read_vtk, "vtp": read_vtp, "stl": read_stl, "ply": read_ply, "obj": read_obj}
 triangles, normals = readers[sys.argv[1][-3:]](open(sys.argv[1], "rb").read())
 own = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 shifted = triangles - triangles.mean(axis=(0, 1))

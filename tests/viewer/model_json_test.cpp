@@ -53,6 +53,14 @@ TEST(ModelJson, EveryMissingOrWrongMemberIsNamed) {
     }
 }
 
+TEST(ModelJson, AKeyThatStandsTwiceIsRefused) {
+    EXPECT_KONTUR_ERROR(parsed(R"({"call": "undo", "call": "redo"})"), ErrorKind::invalid_input,
+                        "\"call\" stands there twice");
+    EXPECT_KONTUR_ERROR(parsed(R"({"a": [{"x": 1, "x": 1}]})"), ErrorKind::invalid_input, "twice in a 1");
+    EXPECT_EQ(parsed(R"({"a": {"x": 1}, "b": {"x": 1}})")["b"]["x"], 1);
+    EXPECT_THROW(parsed("{"), json::exception);
+}
+
 TEST(ModelJson, NumbersBeyondTheirLimitsAreRefused) {
     const json object{{"id", 1.5},          {"huge", 1e19},    {"unsigned", 18446744073709551615u},
                       {"far", {0, 0, 1e7}}, {"short", {0, 0}}, {"zero", 0}};

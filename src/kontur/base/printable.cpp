@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/base/printable.h"
 
+#include "kontur/base/error.h"
+
 namespace kontur {
 namespace {
 
@@ -41,6 +43,13 @@ bool is_utf8(std::string_view text) noexcept {
     return true;
 }
 
+void check_utf8(std::string_view text, std::string_view what) {
+    constexpr std::size_t kMostQuoted = 160;
+    if (!is_utf8(text))
+        throw Error(ErrorKind::invalid_input, std::string(what) + " '" + shortened(text, kMostQuoted) +
+                                                  "' is not UTF-8, the encoding of names in files");
+}
+
 std::string printable_utf8(std::string_view text) {
     std::string result;
     while (!text.empty()) {
@@ -58,6 +67,27 @@ std::string shortened(std::string_view text, std::size_t most_bytes) {
     std::size_t length = most_bytes - kMore.size();
     while (length > 0 && is_continuation(text[length])) --length;
     return printable_utf8(text.substr(0, length)) + std::string(kMore);
+}
+
+std::string without_case(std::string_view text) {
+    std::string small(text);
+    for (std::size_t i = 0; i < small.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(small[i]),
+                   before = static_cast<unsigned char>(i > 0 ? small[i - 1] : 0);
+        const bool is_latin1_capital = before == 0xC3 && byte >= 0x80 && byte <= 0x9E && byte != 0x97;  // U+00D7 is a sign
+        if ((byte >= 'A' && byte <= 'Z') || is_latin1_capital) small[i] = static_cast<char>(byte + 0x20);
+    }
+    return small;
+}
+
+std::string latin1_to_utf8(std::string_view text) {
+    std::string utf8;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) utf8 += c;
+        else utf8 += {static_cast<char>(0xC0 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3F))};
+    }
+    return utf8;
 }
 
 }  // namespace kontur

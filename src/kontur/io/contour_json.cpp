@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/json_file.h"
 #include "kontur/io/patient_frame.h"
@@ -199,7 +200,7 @@ std::string planes_text(const std::vector<Contour>& contours) {
 }
 
 std::string to_document(const ContourSet& set, const Provenance& provenance) {
-    const std::string name = json(set.name).dump(-1, ' ', false, json::error_handler_t::replace);
+    const std::string name = json(set.name).dump();
     std::string text = fmt::format("{{\n\"version\": {},\n\"frame\": \"LPS mm\",\n\"structure\": {},\n\"planes\": [\n{}]",
                                    kVersion, name, planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
@@ -226,6 +227,7 @@ std::vector<Plane> read_planes_json(const std::filesystem::path& path) {
 }
 
 void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {
+    check_utf8(set.name, "the structure's name");
     write_file_atomically(path, to_document(set, provenance));
 }
 

@@ -20,7 +20,7 @@ std::vector<Plane> read_planes_json(const std::filesystem::path& path);
 
 /// Writes the file whole or not at all. Reading it gives the same doubles in the same order; neighbouring contours on an
 /// identical plane share one entry. `provenance` goes into the key of that name. Throws Error(invalid_input) for a
-/// coordinate that is NaN or infinite.
+/// coordinate that is NaN or infinite and a name that is no UTF-8.
 void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

@@ -3,18 +3,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/contour_json.h"
+#include "kontur/io/input_file.h"
 #include "kontur/io/json_file.h"
 #include "kontur/io/markups.h"
+#include "kontur/io/polydata.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/io/text_header.h"
+#include "kontur/io/vtk_contours.h"
 
 namespace kontur {
 namespace {
@@ -24,10 +25,8 @@ namespace fs = std::filesystem;
 /// The first bytes, up to DICOM's mark and including it.
 std::string head_of(const fs::path& path) {
     std::array<char, 132> head{};
-    std::ifstream file(path, std::ios::binary);
-    if (!file || (file.read(head.data(), head.size()), file.bad()))
-        throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
-    return {head.data(), static_cast<std::size_t>(file.gcount())};
+    InputFile file(path);
+    return {head.data(), file.read_some(head.data(), head.size())};
 }
 
 bool has_extension(const fs::path& path, std::string_view extension) {
@@ -57,9 +56,15 @@ bool is_structure_set(const fs::path& path) { return is_dicom(path, head_of(path
 
 /// What a file that is no structure set holds can be chosen by its name alone.
 void check_name(const fs::path& path, const ContourSet& contours, const std::string& roi) {
-    if (roi == contours.name) return;
+    if (without_case(roi) == without_case(contours.name)) return;
     const std::string own = contours.name.empty() ? "one without a name" : "'" + contours.name + "'";
     throw Error(ErrorKind::invalid_input, path.string() + ": there is no structure '" + roi + "'; the file holds " + own);
+}
+
+ReadContours read_polylines(const fs::path& path, const ReadContoursOptions& options) {
+    VtkContours found = read_vtk_contours(path, options.plane_tolerance_mm);
+    if (options.roi) check_name(path, found.contours, *options.roi);
+    return {std::move(found.contours), "", std::move(found.notes)};
 }
 
 bool is_markups(const fs::path& path) { return has_extension(path, ".mrk.json"); }
@@ -69,10 +74,12 @@ bool is_markups(const fs::path& path) { return has_extension(path, ".mrk.json");
 ReadContours read_contours(const fs::path& path, const ReadContoursOptions& options) {
     const std::string head = head_of(path);
     if (is_dicom(path, head)) return read_roi(path, options);
+    if (is_polydata(path, head)) return read_polylines(path, options);
     if (!is_json(head))
-        throw Error(ErrorKind::unsupported, path.string() +
-                                                " holds no contours: kontur's .json, 3D Slicer's .mrk.json and DICOM RT "
-                                                "structure sets are read");
+        throw Error(ErrorKind::unsupported,
+                    path.string() +
+                        " holds no contours: kontur's .json, 3D Slicer's .mrk.json, VTK's lines (.vtk, "
+                        ".vtp) and DICOM RT structure sets are read");
     const bool has_markups = is_markups(path) || read_json_file(path).contains("markups");
     ContourSet contours = has_markups ? read_markups(path, {options.plane_tolerance_mm}) : read_contour_json(path);
     if (options.roi) check_name(path, contours, *options.roi);

@@ -12,8 +12,8 @@
 namespace kontur {
 
 struct ReadContoursOptions {
-    /// RT structure sets: the ROI's name or number; needed when several have contours. Other files hold one structure, whose
-    /// name it then has to be, unless they are read together with a structure set.
+    /// RT structure sets: the ROI's name, in capitals or not, or its number; needed when several have contours. Other files
+    /// hold one structure, whose name it then has to be, unless they are read together with a structure set.
     std::optional<std::string> roi;
     double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< for curves whose plane must be fitted
 };
@@ -24,7 +24,8 @@ struct ReadContours {
     std::vector<std::string> notes;      ///< how the file was interpreted and what was left out, for the user to see
 };
 
-/// Reads kontur's contour file, 3D Slicer's markups or a DICOM RT structure set; the content decides which. Throws
+/// Reads kontur's contour file, 3D Slicer's markups, VTK's lines (.vtk, .vtp: closed curves, of which none has a name) or a
+/// DICOM RT structure set; the content decides which. Throws
 /// Error(unsupported) for any other file, Error(invalid_input) for a `roi` that it does not hold and what the format's own
 /// reader throws.
 ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});

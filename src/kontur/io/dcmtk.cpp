@@ -114,17 +114,6 @@ std::string to_utf8(DcmItem& item, const std::string& value) {
     return escapes ? japanese_to_utf8(value).value_or(value) : value;
 }
 
-/// What files without a declared character set hold as a rule.
-std::string latin1_to_utf8(const std::string& value) {
-    std::string utf8;
-    for (const char c : value) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x80) utf8 += c;
-        else utf8 += {static_cast<char>(0xC0 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3F))};
-    }
-    return utf8;
-}
-
 }  // namespace
 
 void set_up() {

@@ -79,14 +79,16 @@ struct WriteDicomSegOptions {
 /// images, so a mask comes back on their grid. `labels` may be turned, mirrored or cropped against the images as long as its
 /// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in voxels, and how many lie
 /// outside of the images, for a value without a segment and for a segment without voxels; Error(too_large) beyond DICOM's 4
-/// GiB; Error(io). Source: DICOM PS3.3 A.51 and C.8.20.
-void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
-                     const DicomSeries& images, const WriteDicomSegOptions& options = {}, const Progress& progress = {});
+/// GiB; Error(io). Names have room for 64 characters, none of them a backslash; two that would become equal get a number.
+/// Returns what the user should know, one sentence each: names that were changed. Source: DICOM PS3.3 A.51 and C.8.20.
+std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
+                                         const std::vector<DicomSegment>& segments, const DicomSeries& images,
+                                         const WriteDicomSegOptions& options = {}, const Progress& progress = {});
 
 /// The same for segments that may overlap: one mask for each, in the order given, whatever their numbers are. Throws
 /// Error(invalid_input) also when there are not as many masks as segments.
-void write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
-                           const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                           const WriteDicomSegOptions& options = {}, const Progress& progress = {});
+std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
+                                               const std::vector<DicomSegment>& segments, const DicomSeries& images,
+                                               const WriteDicomSegOptions& options = {}, const Progress& progress = {});
 
 }  // namespace kontur

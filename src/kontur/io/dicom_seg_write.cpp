@@ -13,6 +13,7 @@
 #include "kontur/io/cie_lab.h"
 #include "kontur/io/decimal_string.h"
 #include "kontur/io/dicom_document.h"
+#include "kontur/io/dicom_names.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_uid.h"
 
@@ -168,10 +169,11 @@ public:
 
     void put_overlap(bool overlap) { put(document_, DCM_SegmentsOverlap, overlap ? "YES" : "NO"); }
 
-    void put_segment(const DicomSegment& segment, std::size_t number, const DicomAlgorithm& algorithm) {
+    void put_segment(const DicomSegment& segment, const std::string& name, std::size_t number,
+                     const DicomAlgorithm& algorithm) {
         DcmItem& item = append_item(document_, DCM_SegmentSequence);
         put(item, DCM_SegmentNumber, static_cast<std::int64_t>(number));
-        put(item, DCM_SegmentLabel, dcmtk::one_value(segment.label.empty() ? "segment" : segment.label, 64));
+        put(item, DCM_SegmentLabel, name);
         put(item, DCM_SegmentAlgorithmType, segment.algorithm_type);
         if (segment.algorithm_type != "MANUAL")
             put(item, DCM_SegmentAlgorithmName,
@@ -301,9 +303,18 @@ Grid grid_of(const std::vector<DicomHeader>& slices) {
 /// `voxels_of(s)`: of the images, whether each lies in segment s.
 using VoxelsOf = std::function<std::vector<bool>(std::size_t)>;
 
-void write_segments(const std::filesystem::path& path, const std::vector<DicomSegment>& segments,
-                    const std::vector<DicomHeader>& slices, const DicomSeries& images, const WriteDicomSegOptions& options,
-                    const Progress& progress, const VoxelsOf& voxels_of) {
+std::vector<std::string> names_of(const std::vector<DicomSegment>& segments) {
+    std::vector<std::string> names;
+    for (const DicomSegment& segment : segments) names.push_back(segment.label.empty() ? "segment" : segment.label);
+    return names;
+}
+
+std::vector<std::string> write_segments(const std::filesystem::path& path, const std::vector<DicomSegment>& segments,
+                                        const std::vector<DicomHeader>& slices, const DicomSeries& images,
+                                        const WriteDicomSegOptions& options, const Progress& progress,
+                                        const VoxelsOf& voxels_of) {
+    std::vector<std::string> notes;
+    const std::vector<std::string> names = dcmtk::stored_names(names_of(segments), "segment", notes);
     const Grid grid = grid_of(slices);
     BitRow bits(checked_bits(grid, segments.size()));
     DcmFileFormat file;
@@ -318,7 +329,7 @@ void write_segments(const std::filesystem::path& path, const std::vector<DicomSe
     std::vector<bool> taken(static_cast<std::size_t>(grid.voxel_count()));
     bool overlap = false;
     for (std::size_t s = 0; s < segments.size(); ++s) {
-        writer.put_segment(segments[s], s + 1, options.algorithm);
+        writer.put_segment(segments[s], names[s], s + 1, options.algorithm);
         const std::vector<bool> inside = voxels_of(s);
         for (std::int64_t k = 0; k < grid.size.k; ++k) {
             progress.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
@@ -333,19 +344,21 @@ void write_segments(const std::filesystem::path& path, const std::vector<DicomSe
     writer.put_overlap(overlap);
     document.putAndInsertUint8Array(DCM_PixelData, bits.bytes().data(), static_cast<unsigned long>(bits.bytes().size()));
     dcmtk::save(file, path, EXS_LittleEndianExplicit);
+    return notes;
 }
 
 }  // namespace
 
-void write_dicom_seg(const std::filesystem::path& path, const Image& labels, const std::vector<DicomSegment>& segments,
-                     const DicomSeries& images, const WriteDicomSegOptions& options, const Progress& progress) {
+std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
+                                         const std::vector<DicomSegment>& segments, const DicomSeries& images,
+                                         const WriteDicomSegOptions& options, const Progress& progress) {
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
     check_segments(labels, segments);
     const auto values =
         Lookup(labels.grid, grid).values<std::uint16_t>([&](std::size_t offset) { return sample(labels, offset); });
-    write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
+    return write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
         std::vector<bool> inside(values.size());
         std::transform(values.begin(), values.end(), inside.begin(),
                        [number = segments[s].number](std::uint16_t value) { return value == number; });
@@ -353,14 +366,14 @@ void write_dicom_seg(const std::filesystem::path& path, const Image& labels, con
     });
 }
 
-void write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
-                           const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                           const WriteDicomSegOptions& options, const Progress& progress) {
+std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
+                                               const std::vector<DicomSegment>& segments, const DicomSeries& images,
+                                               const WriteDicomSegOptions& options, const Progress& progress) {
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
     check_masks(masks, segments);
-    write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
+    return write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
         const Mask& mask = masks[s];
         return Lookup(mask.grid, grid).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });
     });

@@ -11,9 +11,11 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_seg.h"
+#include "kontur/io/gipl.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/metaimage.h"
+#include "kontur/io/mgh.h"
 #include "kontur/io/nifti.h"
 #include "kontur/io/nifti_header.h"
 #include "kontur/io/nrrd.h"
@@ -23,7 +25,7 @@ namespace kontur {
 namespace fs = std::filesystem;
 namespace {
 
-enum class Format { unknown, nifti, nrrd, seg_nrrd, metaimage, dicom, dicom_seg };
+enum class Format { unknown, nifti, nrrd, seg_nrrd, metaimage, mgh, gipl, dicom, dicom_seg };
 
 struct NameRule {
     std::string_view suffix;
@@ -33,9 +35,12 @@ struct NameRule {
 
 /// Longer suffixes first.
 constexpr NameRule kNameRules[] = {
-    {".nii.gz", Format::nifti, true},   {".nii", Format::nifti, true},  {".seg.nrrd", Format::seg_nrrd, true},
-    {".nrrd", Format::nrrd, true},      {".nhdr", Format::nrrd, false}, {".mha", Format::metaimage, true},
-    {".mhd", Format::metaimage, false}, {".dcm", Format::dicom, false},
+    {".nii.gz", Format::nifti, true},   {".nii", Format::nifti, true},     {".seg.nrrd", Format::seg_nrrd, true},
+    {".nrrd", Format::nrrd, true},      {".nhdr", Format::nrrd, false},    {".mha", Format::metaimage, true},
+    {".mhd", Format::metaimage, false}, {".mgz", Format::mgh, true},       {".mgh", Format::mgh, true},
+    {".mgh.gz", Format::mgh, true},     {".hdr", Format::nifti, false},    {".hdr.gz", Format::nifti, false},
+    {".img", Format::nifti, false},     {".img.gz", Format::nifti, false}, {".gipl", Format::gipl, false},
+    {".gipl.gz", Format::gipl, false},  {".dcm", Format::dicom, false},
 };
 
 NameRule rule_for(const fs::path& path) {
@@ -68,8 +73,9 @@ Format readable_format(const fs::path& path) {
     if (format == Format::unknown || is_folder(path)) format = format_by_content(path);
     if (format == Format::unknown)
         throw Error(ErrorKind::unsupported, path.string() +
-                                                " has no known image format; known are NIfTI (.nii, .nii.gz), NRRD "
-                                                "(.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd) and DICOM");
+                                                " has no known image format; known are NIfTI (.nii, .nii.gz, .hdr and "
+                                                ".img), NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd), FreeSurfer "
+                                                "(.mgz, .mgh), GIPL (.gipl) and DICOM");
     return format == Format::dicom && is_dicom_seg(path) ? Format::dicom_seg : format;
 }
 
@@ -112,13 +118,6 @@ std::vector<Value> with_value_inside(const Mask& mask, std::int64_t value) {
     return values;
 }
 
-void check_label_value(std::int64_t value) {
-    constexpr std::int64_t kMaxLabel = 65535;
-    if (value < 1 || value > kMaxLabel)
-        throw Error(ErrorKind::invalid_input, "label value " + std::to_string(value) + " cannot be written; 1 to " +
-                                                  std::to_string(kMaxLabel) + " can");
-}
-
 /// Colours that neighbouring segments are told apart by.
 constexpr std::array<std::array<double, 3>, 8> kPalette{{{0.9, 0.7, 0.3},
                                                          {0.3, 0.6, 0.9},
@@ -151,6 +150,8 @@ void write(const fs::path& path, const ImageView& image, const Segments& segment
             return write_nrrd(path, image);
         case Format::seg_nrrd:
             return write_seg_nrrd(path, image, segments());
+        case Format::mgh:
+            return write_mgh(path, image);
         default:
             return write_metaimage(path, image);
     }
@@ -161,7 +162,14 @@ void write(const fs::path& path, const ImageView& image, const Segments& segment
 void check_image_name(const fs::path& path) {
     if (!rule_for(path).writable)
         throw Error(ErrorKind::unsupported,
-                    path.string() + " cannot be written; known are .nii, .nii.gz, .nrrd, .seg.nrrd and .mha");
+                    path.string() + " cannot be written; known are .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz and .mgh");
+}
+
+void check_label_value(std::int64_t value) {
+    constexpr std::int64_t kMaxLabel = 65535;
+    if (value < 1 || value > kMaxLabel)
+        throw Error(ErrorKind::invalid_input, "label value " + std::to_string(value) + " cannot be written; 1 to " +
+                                                  std::to_string(kMaxLabel) + " can");
 }
 
 Image read_image(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
@@ -174,6 +182,10 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Pr
             return read_nrrd(path, options);
         case Format::metaimage:
             return read_metaimage(path, options);
+        case Format::mgh:
+            return read_mgh(path, options);
+        case Format::gipl:
+            return read_gipl(path, options);
         case Format::dicom_seg:
             return read_segments(path, {}, options, progress);
         default:
@@ -194,6 +206,10 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
             return read_nrrd_grid(path, options);
         case Format::metaimage:
             return read_metaimage_grid(path, options);
+        case Format::mgh:
+            return read_mgh_grid(path, options);
+        case Format::gipl:
+            return read_gipl_grid(path, options);
         case Format::dicom_seg:
             return read_dicom_segmentation(path, options.max_voxels).grid;
         default:

@@ -15,11 +15,11 @@
 
 namespace kontur {
 
-/// Reads a scalar image: NIfTI, NRRD, MetaImage, a DICOM series by its folder or one of its files, or the label map of a
-/// DICOM segmentation (whose segments must not overlap, unless `read_mask` is asked for one). The file's name says
-/// which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file (truncated, lying or
-/// contradictory), unsupported (a variant, or an unknown format: the message lists the known ones), too_large,
-/// invalid_input (options that fit no frame or series). Every message names the file.
+/// Reads a scalar image: NIfTI, NRRD, MetaImage, FreeSurfer's MGH, GIPL, a DICOM series by its folder or one of its files,
+/// or the label map of a DICOM segmentation (whose segments must not overlap, unless `read_mask` is asked for one). The
+/// file's name says which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file
+/// (truncated, lying or contradictory), unsupported (a variant, or an unknown format: the message lists the known ones),
+/// too_large, invalid_input (options that fit no frame or series). Every message names the file.
 Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
 
 /// The geometry alone; reads no voxels.
@@ -35,7 +35,7 @@ struct WriteMaskOptions {
     std::string segment_name = "Segment_1";  ///< for .seg.nrrd
     std::array<double, 3> segment_color{0.9, 0.7, 0.3};  ///< for .seg.nrrd; red, green, blue from 0 to 1
     /// Goes into the text fields: NRRD's key/value pairs; a comment extension of NIfTI and, shortened, its description;
-    /// MetaImage's comment, shortened.
+    /// MetaImage's comment, shortened; a tag behind MGH's voxels.
     Provenance provenance{};
 };
 
@@ -51,7 +51,7 @@ struct WriteImageOptions {
     Provenance provenance{};         ///< as WriteMaskOptions'
 };
 
-/// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha), whole or not at all.
+/// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz, .mgh), whole or not at all.
 void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
 
 /// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label, named as in
@@ -61,5 +61,8 @@ void write_image(const std::filesystem::path& path, const Image& image, const Wr
 /// Throws Error(unsupported), as the writers do, for a name whose extension is not among theirs: so that a long computation
 /// is refused before it starts.
 void check_image_name(const std::filesystem::path& path);
+
+/// Throws Error(invalid_input), as `write_mask` does, for a value that it cannot write.
+void check_label_value(std::int64_t value);
 
 }  // namespace kontur

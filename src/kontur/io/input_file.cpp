@@ -4,11 +4,11 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -19,7 +19,6 @@ namespace kontur {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
-constexpr std::uint64_t kMaxInflation = 1100;
 constexpr std::uint64_t kMaxSkippedBytes = std::uint64_t{1} << 28;
 constexpr std::size_t kMaxTrailingBytes = std::size_t{1} << 20;
 
@@ -32,18 +31,6 @@ constexpr std::size_t kMaxTrailingBytes = std::size_t{1} << 20;
 }
 
 }  // namespace
-
-struct InputFile::Inflater {
-    z_stream stream{};
-    bool ended = false;
-
-    explicit Inflater(int window_bits) {
-        if (::inflateInit2(&stream, window_bits) != Z_OK) throw std::bad_alloc();
-    }
-    ~Inflater() { ::inflateEnd(&stream); }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-};
 
 InputFile::InputFile(const std::filesystem::path& path)
     : path_(path), buffer_(std::make_unique_for_overwrite<unsigned char[]>(kBufferBytes)) {
@@ -73,6 +60,7 @@ InputFile::InputFile(InputFile&& other) noexcept
       buffer_begin_(other.buffer_begin_),
       buffer_end_(other.buffer_end_),
       inflater_(std::move(other.inflater_)),
+      inflated_(other.inflated_),
       declared_(other.declared_),
       delivered_(other.delivered_) {}
 
@@ -101,14 +89,16 @@ bool InputFile::fill(std::size_t least) {
     return true;
 }
 
-bool InputFile::at_gzip() { return fill(2) && buffer_[buffer_begin_] == 0x1f && buffer_[buffer_begin_ + 1] == 0x8b; }
-
-void InputFile::inflate() {
-    constexpr int kGzipOrZlib = 32;
-    inflater_ = std::make_unique<Inflater>(MAX_WBITS + kGzipOrZlib);
+bool InputFile::at(std::string_view mark) {
+    return fill(mark.size()) && std::memcmp(buffer_.get() + buffer_begin_, mark.data(), mark.size()) == 0;
 }
 
-void InputFile::inflate_raw() { inflater_ = std::make_unique<Inflater>(-MAX_WBITS); }
+bool InputFile::at_gzip() { return at("\x1f\x8b"); }
+bool InputFile::at_bzip2() { return at("BZh"); }
+
+void InputFile::inflate() { inflater_ = make_inflater(Inflation::gzip_or_zlib); }
+void InputFile::inflate_raw() { inflater_ = make_inflater(Inflation::raw); }
+void InputFile::bunzip2() { inflater_ = make_bunzip2(); }
 
 std::optional<std::string> InputFile::read_line(std::size_t max_length) {
     std::string line;
@@ -133,7 +123,7 @@ void InputFile::expect(std::uint64_t declared) {
     if (!inflater_ && declared > stored)
         fail_corrupt(path_, "its header declares " + std::to_string(declared) + " bytes of voxels, but only " +
                                 std::to_string(stored) + " are there");
-    if (inflater_ && declared / kMaxInflation > stored)
+    if (inflater_ && declared / inflater_->most_inflation() > stored)
         fail_corrupt(path_, "its header declares " + std::to_string(declared) + " bytes of voxels, more than the " +
                                 std::to_string(stored) + " compressed bytes there can hold");
     declared_ = declared;
@@ -171,28 +161,25 @@ std::size_t InputFile::read_stored(void* to, std::size_t count) {
 }
 
 std::size_t InputFile::read_inflated(unsigned char* to, std::size_t count) {
-    z_stream& stream = inflater_->stream;
     std::size_t left = count;
-    while (left > 0 && !inflater_->ended) {
+    while (left > 0 && !inflated_) {
         if (!fill()) fail_short();
-        stream.next_in = buffer_.get() + buffer_begin_;
-        stream.avail_in = static_cast<uInt>(buffer_end_ - buffer_begin_);
-        stream.next_out = to + (count - left);
-        const uInt room = static_cast<uInt>(std::min<std::size_t>(left, std::size_t{1} << 30));
-        stream.avail_out = room;
-        const int status = ::inflate(&stream, Z_NO_FLUSH);
-        buffer_begin_ = buffer_end_ - stream.avail_in;
-        left -= room - stream.avail_out;
-        if (status == Z_STREAM_END) inflater_->ended = !next_member();
-        else if (status != Z_OK && status != Z_BUF_ERROR)
-            fail_corrupt(path_,
-                         std::string("its compressed data are damaged: ") + (stream.msg ? stream.msg : "inflate failed"));
+        const Decompressor::Step step = inflater_->run(std::span(buffer_.get() + buffer_begin_, buffer_end_ - buffer_begin_),
+                                                       std::span(to + (count - left), left));
+        buffer_begin_ += step.consumed;
+        left -= step.produced;
+        if (step.damage) fail_corrupt(path_, std::string("its compressed data are damaged: ") + step.damage);
+        if (step.consumed + step.produced == 0 && !step.ended)
+            fail_corrupt(path_, "its compressed data are damaged: no end");
+        if (step.ended) inflated_ = !next_member();
     }
     return count - left;
 }
 
-/// Parallel compressors write several gzip members one after the other.
-bool InputFile::next_member() { return at_gzip() && ::inflateReset(&inflater_->stream) == Z_OK; }
+bool InputFile::next_member() {
+    fill(Decompressor::kMarkBytes);
+    return inflater_->begins_again(std::span(buffer_.get() + buffer_begin_, buffer_end_ - buffer_begin_));
+}
 
 void InputFile::skip(std::uint64_t count) {
     if (inflater_) {
@@ -218,7 +205,7 @@ void InputFile::finish() {
     if (!inflater_) return;
     std::vector<unsigned char> trailing(kBufferBytes);
     std::size_t total = 0;
-    while (!inflater_->ended) {
+    while (!inflated_) {
         total += read_inflated(trailing.data(), trailing.size());
         if (total > kMaxTrailingBytes)
             fail_corrupt(path_, "more than " + std::to_string(kMaxTrailingBytes) + " bytes follow its last voxel");
@@ -231,12 +218,17 @@ void InputFile::fail_short() const {
                             std::to_string(delivered_));
 }
 
-InputFile open_beside(const std::filesystem::path& header, const std::string& declared) {
+std::filesystem::path path_beside(const std::filesystem::path& header, const std::string& declared) {
     const std::string name = declared.substr(declared.starts_with("./") ? 2 : 0);
-    if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
+    if (name.empty()) throw Error(ErrorKind::corrupt_file, header.string() + ": it names no file for its voxels");
+    if (name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
         throw Error(ErrorKind::unsupported, header.string() + ": its voxels are in \"" + declared +
                                                 "\"; only a plain file name in the header's own folder is accepted");
-    return InputFile(header.parent_path() / name);
+    return header.parent_path() / name;
+}
+
+InputFile open_beside(const std::filesystem::path& header, const std::string& declared) {
+    return InputFile(path_beside(header, declared));
 }
 
 }  // namespace kontur

@@ -7,6 +7,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+
+#include "kontur/io/decompress.h"
 
 namespace kontur {
 
@@ -27,8 +30,12 @@ public:
 
     /// True when the next bytes are a gzip member.
     bool at_gzip();
+    /// True when the next bytes are a bzip2 stream.
+    bool at_bzip2();
     /// What follows is a gzip or a zlib stream; `read` delivers its content.
     void inflate();
+    /// The same for bzip2.
+    void bunzip2();
     /// What follows is a deflate stream without a head, as in deflated DICOM.
     void inflate_raw();
 
@@ -36,7 +43,7 @@ public:
     std::optional<std::string> read_line(std::size_t max_length);
 
     /// Announces that `declared` bytes of voxels follow. Throws before anyone allocates for them if the file is too short,
-    /// or too short to have been compressed from that many (deflate shrinks by no more than 1032).
+    /// or too short to have been compressed from that many (deflate shrinks by no more than 1032, bzip2 by some millions).
     void expect(std::uint64_t declared);
 
     /// Exactly `count` bytes.
@@ -50,14 +57,13 @@ public:
     void finish();
 
 private:
-    struct Inflater;
-
     /// False when the file has fewer than `least` bytes left, which then are in the buffer.
     bool fill(std::size_t least = 1);
     std::size_t fetch(void* to, std::size_t count);
     std::size_t read_stored(void* to, std::size_t count);
     std::size_t read_inflated(unsigned char* to, std::size_t count);
     bool next_member();
+    bool at(std::string_view mark);
     [[noreturn]] void fail_short() const;
 
     std::filesystem::path path_;
@@ -66,7 +72,8 @@ private:
     std::uint64_t fetched_ = 0;  ///< bytes taken from the descriptor
     std::unique_ptr<unsigned char[]> buffer_;
     std::size_t buffer_begin_ = 0, buffer_end_ = 0;
-    std::unique_ptr<Inflater> inflater_;
+    std::unique_ptr<Decompressor> inflater_;
+    bool inflated_ = false;  ///< to its end
     std::optional<std::uint64_t> declared_;
     std::uint64_t delivered_ = 0;  ///< since `expect`, else since the start
 };
@@ -74,6 +81,7 @@ private:
 /// A data file that a header names. Only a plain name in the header's own folder, "./" before it or not, is accepted: a
 /// header from elsewhere must not make any other file's content into voxels. Throws Error(unsupported) for anything with a
 /// path in it.
+std::filesystem::path path_beside(const std::filesystem::path& header, const std::string& declared);
 InputFile open_beside(const std::filesystem::path& header, const std::string& declared);
 
 }  // namespace kontur

@@ -2,11 +2,13 @@
 #include "kontur/io/json_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include "kontur/base/printable.h"
+#include "kontur/io/check_json.h"
+#include "kontur/io/input_file.h"
 
 namespace kontur {
 namespace {
@@ -16,38 +18,40 @@ using nlohmann::json;
 [[noreturn]] void corrupt(const std::string& message) { throw Error(ErrorKind::corrupt_file, message); }
 
 std::string read_text(const std::filesystem::path& path) {
-    constexpr std::uintmax_t kLimit = std::uintmax_t{1} << 30;
-    std::error_code failed;
-    const std::uintmax_t size = std::filesystem::file_size(path, failed);
-    if (failed) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + failed.message());
+    constexpr std::uint64_t kLimit = std::uint64_t{1} << 30;
+    InputFile file(path);
+    const std::uint64_t size = file.stored_bytes_left();
     if (size > kLimit)
         throw Error(ErrorKind::too_large,
                     fmt::format("{} has {} bytes; the limit for JSON is {}", path.string(), size, kLimit));
-    std::ifstream file(path, std::ios::binary);
     std::string text(size, '\0');
-    if (!file.read(text.data(), static_cast<std::streamsize>(size)))
-        throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+    file.read(text.data(), text.size());
     return text;
 }
 
-/// Follows a parse only to know, when it fails, at which key and item. Run a second time on text that does not parse,
-/// because the parser's own message gives no place for a number out of range.
-class FailureLocator : public nlohmann::json_sax<json> {
+/// Builds the document and knows, when that fails, at which key and item: the parser's own message gives no place for a
+/// number out of range, and a document that is built already does not tell of a key that stood in it twice.
+class DocumentReader : public nlohmann::json_sax<json> {
 public:
-    bool null() override { return count(); }
-    bool boolean(bool) override { return count(); }
-    bool number_integer(number_integer_t) override { return count(); }
-    bool number_unsigned(number_unsigned_t) override { return count(); }
-    bool number_float(number_float_t, const string_t&) override { return count(); }
-    bool string(string_t&) override { return count(); }
-    bool binary(binary_t&) override { return count(); }
-    bool start_object(std::size_t) override { return open(false); }
-    bool start_array(std::size_t) override { return open(true); }
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(number_integer_t value) override { return add(value); }
+    bool number_unsigned(number_unsigned_t value) override { return add(value); }
+    bool number_float(number_float_t value, const string_t&) override { return add(value); }
+    bool string(string_t& value) override { return add(std::move(value)); }
+    bool binary(binary_t& value) override { return add(std::move(value)); }
+    bool start_object(std::size_t) override { return open(json::value_t::object); }
+    bool start_array(std::size_t) override { return open(json::value_t::array); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
-        levels_.back().key = name;
-        return true;
+        Level& level = levels_.back();
+        auto& members = level.value->get_ref<json::object_t&>();
+        const auto [member, is_new] = members.try_emplace(name);
+        level.key = is_new ? name : "";
+        level.member = &member->second;
+        if (!is_new) message_ = fmt::format("the key \"{}\" stands there twice", shortened(name, kMostQuoted));
+        return is_new;
     }
     bool parse_error(std::size_t byte, const std::string& token, const nlohmann::detail::exception& error) override {
         count();
@@ -57,35 +61,52 @@ public:
         return false;
     }
 
+    json take() { return std::move(root_); }
+
     std::string message() const {
         constexpr std::size_t kDeepest = 8;  // files of ours have fewer; hostile ones have millions
         std::string place;
         bool after_key = false;
         for (const Level& level : std::span(levels_).first(std::min(levels_.size(), kDeepest))) {
-            if (!level.is_array && level.key.empty()) continue;
-            place += after_key && level.is_array ? " " : place.empty() ? " in " : ", ";
-            place += !level.is_array ? level.key
-                     : after_key     ? fmt::format("{}", level.items)
-                                     : fmt::format("item {}", level.items);
-            after_key = !level.is_array;
+            if (!level.is_array() && level.key.empty()) continue;
+            place += after_key && level.is_array() ? " " : place.empty() ? " in " : ", ";
+            place += !level.is_array() ? level.key
+                     : after_key       ? fmt::format("{}", level.items)
+                                       : fmt::format("item {}", level.items);
+            after_key = !level.is_array();
         }
         return message_ + place;
     }
 
 private:
+    static constexpr std::size_t kMostQuoted = 64;
+
     struct Level {
-        bool is_array;
+        json* value;  ///< stays where it is as long as it is open: its parent grows only behind it
         std::size_t items = 0;
-        std::string key;
+        std::string key{};
+        json* member = nullptr;  ///< of an object, the value that the next event gives
+
+        bool is_array() const { return value->is_array(); }
     };
 
-    bool count() {
+    void count() {
         if (!levels_.empty()) ++levels_.back().items;
+    }
+    json* place(json&& value) {
+        count();
+        if (levels_.empty()) return &(root_ = std::move(value));
+        Level& level = levels_.back();
+        if (!level.is_array()) return &(*level.member = std::move(value));
+        return &level.value->get_ref<json::array_t&>().emplace_back(std::move(value));
+    }
+    template <class Value>
+    bool add(Value&& value) {
+        place(json(std::forward<Value>(value)));
         return true;
     }
-    bool open(bool is_array) {
-        count();
-        levels_.push_back({is_array, 0, {}});
+    bool open(json::value_t type) {
+        levels_.push_back({place(json(type))});
         return true;
     }
     bool close() {
@@ -93,6 +114,7 @@ private:
         return true;
     }
 
+    json root_;
     std::vector<Level> levels_;
     std::string message_;
 };
@@ -122,16 +144,22 @@ double to_number(const json& value, std::string_view what) {
 
 }  // namespace
 
+json parse_json(std::string_view text) {
+    DocumentReader reader;
+    if (!json::sax_parse(text, &reader)) corrupt(reader.message());
+    return reader.take();
+}
+
 json read_json_file(const std::filesystem::path& path) {
     const std::string text = read_text(path);
     try {
-        return json::parse(text);
-    } catch (const json::exception&) {
-        FailureLocator locator;
-        json::sax_parse(text, &locator);
-        corrupt(path.string() + ": " + locator.message());
+        return parse_json(text);
+    } catch (const Error& error) {
+        throw error.with_context(path.string());
     }
 }
+
+void check_json(std::string_view text) { parse_json(text); }
 
 const json& member(const json& object, const char* key) {
     if (!object.is_object()) corrupt(fmt::format("is {}, not an object with '{}'", kind_of(object), key));

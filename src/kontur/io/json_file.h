@@ -15,8 +15,12 @@
 
 namespace kontur {
 
-/// The file's content. Errors name the file: io (cannot be read), too_large (over 1 GiB), corrupt_file (no JSON, or a
-/// number beyond double's range; the message says at which key and item, counted from 1).
+/// The text's content. Throws Error(corrupt_file) for what is no JSON, a number beyond double's range and a key that stands
+/// twice in one object, of which every program keeps another; the message says at which key and item, counted from 1.
+nlohmann::json parse_json(std::string_view text);
+
+/// The file's content. Errors name the file: io (cannot be read, no regular file), too_large (over 1 GiB) and those of
+/// `parse_json`.
 nlohmann::json read_json_file(const std::filesystem::path& path);
 
 /// The member `key` of an object. Throws Error(corrupt_file) when it is missing, or when `object` is none.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/json_file.h"
 #include "kontur/io/patient_frame.h"
@@ -167,6 +168,7 @@ ContourSet read_set(const json& document, const ReadMarkupsOptions& options) {
 }
 
 void check_writable(const ContourSet& set) {
+    check_utf8(set.name, "the structure's name");
     const auto is_written = [](const std::vector<Vec3>& points) { return std::ranges::all_of(points, is_finite); };
     for (std::size_t i = 0; i < set.contours.size(); ++i)
         if (!is_written(set.contours[i].points))
@@ -203,9 +205,7 @@ std::vector<ControlPoint> single_points_of(const ContourSet& set) {
     return controls;
 }
 
-std::string name_member(const std::string& name) {
-    return name.empty() ? "" : "\"name\": " + json(name).dump(-1, ' ', false, json::error_handler_t::replace) + ", ";
-}
+std::string name_member(const std::string& name) { return name.empty() ? "" : "\"name\": " + json(name).dump() + ", "; }
 
 std::string to_text(std::string_view type, const std::string& name, const std::vector<ControlPoint>& controls) {
     return fmt::format(

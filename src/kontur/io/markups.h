@@ -25,7 +25,8 @@ ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOpti
 /// Writes one curve per contour and one point list for all single points, in LPS and mm, whole or not at all. 3D Slicer
 /// draws a spline through the points, so contours should be drawn finely. What the format has no place for is lost: the
 /// contours' `end`, `inside` and `weight`, the surface points' `outward`. `provenance` goes into the key "kontur", which 3D
-/// Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates.
+/// Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates and a name that is
+/// no UTF-8.
 void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

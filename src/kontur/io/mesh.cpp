@@ -22,7 +22,8 @@ struct Format {
 };
 
 constexpr std::array kFormats{Format{".stl", write_stl, parse_stl}, Format{".ply", write_ply, parse_ply},
-                              Format{".obj", write_obj, parse_obj}};
+                              Format{".obj", write_obj, parse_obj}, Format{".vtk", write_vtk, parse_vtk_mesh},
+                              Format{".vtp", write_vtp, parse_vtp_mesh}};
 
 const Format& format_of(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -30,8 +31,9 @@ const Format& format_of(const std::filesystem::path& path) {
     const auto* format =
         std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& f) { return f.extension == extension; });
     if (format == kFormats.end())
-        throw Error(ErrorKind::unsupported,
-                    fmt::format("{}: a mesh file ends in .stl, .ply or .obj, not in \"{}\"", path.string(), extension));
+        throw Error(
+            ErrorKind::unsupported,
+            fmt::format("{}: a mesh file ends in .stl, .ply, .obj, .vtk or .vtp, not in \"{}\"", path.string(), extension));
     return *format;
 }
 

@@ -15,10 +15,14 @@ namespace kontur {
 void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
+void write_vtk(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
+void write_vtp(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 
 TriangleMesh parse_stl(std::string_view bytes);
 TriangleMesh parse_ply(std::string_view bytes);
 TriangleMesh parse_obj(std::string_view bytes);
+TriangleMesh parse_vtk_mesh(std::string_view bytes);
+TriangleMesh parse_vtp_mesh(std::string_view bytes);
 
 /// The frame that a header or comment declares by SPACE=LPS or SPACE=RAS; `otherwise` when it declares none.
 PatientFrame declared_frame(std::string_view text, PatientFrame otherwise);

@@ -130,14 +130,18 @@ std::int64_t component_count(const TextHeader& header, const std::vector<std::in
     return std::max(channels, frames);
 }
 
+bool is_local(const std::string& name) { return lower_case(name) == "local"; }
+bool is_list(const std::string& name) { return name.starts_with("LIST") || name.find('%') != std::string::npos; }
+
 InputFile data_file(InputFile&& header_file, const TextHeader& header) {
     const std::string name = header.text("ElementDataFile");
-    if (lower_case(name) == "local") return std::move(header_file);
-    if (lower_case(header.path().extension().string()) == ".mha")
-        header.refuse(ErrorKind::corrupt_file,
-                      fmt::format("its ElementDataFile is \"{}\"; an .mha file holds its voxels itself (LOCAL)", name));
-    if (name.starts_with("LIST") || name.find('%') != std::string::npos)
-        header.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
+    if (is_local(name)) return std::move(header_file);
+    if (is_list(name)) header.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
+    // What is left of "LOCAL" in a file that was cut off is a name, too.
+    std::error_code ignored;
+    if (const fs::path voxels = path_beside(header.path(), name);
+        lower_case(header.path().extension().string()) == ".mha" && !fs::exists(voxels, ignored))
+        header.refuse(ErrorKind::corrupt_file, fmt::format("its voxels are in \"{}\", which is not there", name));
     return open_beside(header.path(), name);
 }
 
@@ -224,6 +228,13 @@ Image read_metaimage(const fs::path& path, const ReadImageOptions& options) {
 
 Grid read_metaimage_grid(const fs::path& path, const ReadImageOptions& options) {
     return open_metaimage(path, options).grid;
+}
+
+std::optional<std::string> metaimage_data_file(const fs::path& path) {
+    InputFile file(path);
+    const std::string name = read_header(file).text("ElementDataFile");
+    if (is_local(name) || is_list(name)) return std::nullopt;
+    return name;
 }
 
 void write_metaimage(const fs::path& path, const ImageView& image) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "kontur/io/affine_frame.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/deflate.h"
+#include "kontur/io/image_files.h"
 #include "kontur/io/nifti_header.h"
 #include "kontur/io/text_header.h"
 #include "kontur/io/voxel_stream.h"
@@ -35,16 +37,26 @@ constexpr std::size_t kMaxDescriptionBytes = 72;  ///< of 79, after "kontur "
     throw Error(ErrorKind::unsupported, path.string() + ": " + reason);
 }
 
-NiftiHeader read_header(InputFile& file, bool& big_endian) {
+/// `in_pair`: the voxels are expected in a second file.
+NiftiHeader read_header(InputFile& file, bool in_pair, bool& big_endian) {
     std::array<unsigned char, 540> bytes{};
     file.read(bytes.data(), 4);
     const NiftiKind kind = nifti_kind(std::span(bytes).first<4>());
     if (kind.version == 0) fail_corrupt(file.path(), "it is no NIfTI file (its first 4 bytes are no header size)");
     file.read(bytes.data() + 4, nifti_header_bytes(kind.version) - 4);
     const std::string_view magic = nifti_magic(bytes, kind.version);
-    if (magic == "ni1" || magic == "ni2")
-        fail_unsupported(file.path(), "NIfTI with its voxels in a second file is not read");
-    if (magic != (kind.version == 1 ? "n+1" : "n+2")) fail_corrupt(file.path(), "it is no NIfTI file (wrong magic string)");
+    const bool is_one_file = magic == (kind.version == 1 ? "n+1" : "n+2");
+    const bool is_pair = magic == (kind.version == 1 ? "ni1" : "ni2");
+    if (in_pair && !is_pair && !is_one_file && kind.version == 1)
+        fail_unsupported(
+            file.path(),
+            "it is Analyze 7.5, whose header tells neither left from right nor where the image lies; convert it to "
+            "NIfTI with a program that knows");
+    if (!is_pair && !is_one_file) fail_corrupt(file.path(), "it is no NIfTI file (wrong magic string)");
+    if (is_pair != in_pair)
+        fail_corrupt(file.path(), is_pair
+                                      ? "it says that its voxels are in a second file; such files are named .hdr and .img"
+                                      : "it says that its voxels are in the same file; such a file is named .nii");
     big_endian = kind.big_endian;
     return parse_nifti_header(bytes, kind);
 }
@@ -192,11 +204,22 @@ void skip_to_voxels(InputFile& file, const NiftiHeader& header) {
     file.skip(static_cast<std::uint64_t>(header.vox_offset - header_bytes));
 }
 
-OpenImage open_nifti(const fs::path& path, const ReadImageOptions& options) {
+/// At the first voxel of a pair's second file.
+InputFile open_voxels(const fs::path& path, const NiftiHeader& header) {
     InputFile file(path);
     if (file.at_gzip()) file.inflate();
+    if (!(header.vox_offset >= 0 && header.vox_offset < 1e15))
+        fail_corrupt(path, "its voxels start at byte " + std::to_string(header.vox_offset));
+    file.skip(static_cast<std::uint64_t>(header.vox_offset));
+    return file;
+}
+
+OpenImage open_nifti(const fs::path& path, const ReadImageOptions& options) {
+    const std::optional<ImagePair> pair = image_pair(path);
+    InputFile file(pair ? pair->header : path);
+    if (file.at_gzip()) file.inflate();
     VoxelEncoding encoding;
-    const NiftiHeader header = read_header(file, encoding.big_endian);
+    const NiftiHeader header = read_header(file, pair.has_value(), encoding.big_endian);
     if (header.dim[0] < 1 || header.dim[0] > 7)
         fail_corrupt(path, "it declares " + std::to_string(header.dim[0]) + " axes; 1 to 7 are possible");
     encoding.type = voxel_type(header, path);
@@ -205,6 +228,7 @@ OpenImage open_nifti(const fs::path& path, const ReadImageOptions& options) {
     Grid grid{{axis_size(header, 1, path), axis_size(header, 2, path), axis_size(header, 3, path)}, {}};
     grid.index_to_mm = chosen_affine(header, grid.size, path, options);
     check_header_grid(grid, path);
+    if (pair) return {grid, encoding, open_voxels(pair->voxels, header)};
     skip_to_voxels(file, header);
     return {grid, encoding, std::move(file)};
 }

@@ -8,13 +8,14 @@
 
 namespace kontur {
 
-/// Reads NIfTI-1 and NIfTI-2 in one file (.nii, .nii.gz), both byte orders, every real scalar type, with scl_slope and
+/// Reads NIfTI-1 and NIfTI-2 in one file (.nii, .nii.gz) or a pair of them (.hdr and .img, one of which is named; compressed
+/// ones, too), both byte orders, every real scalar type, with scl_slope and
 /// scl_inter applied and its RAS frame turned into LPS, in metres, millimetres or micrometres.
 ///
 /// The sform counts if its code is above 0, else the qform. When both are there and differ by more than 0.1 mm at a corner
 /// of the grid, the file is refused unless `prefer` names one; when neither is, unless `allow_missing_geometry`. Shear is
-/// kept. Throws Error(corrupt_file) for contradictions, Error(unsupported) for variants (two-file pairs, complex and colour
-/// samples, more than four axes), Error(too_large).
+/// kept. Throws Error(corrupt_file) for contradictions, Error(unsupported) for variants (complex and colour samples, more
+/// than four axes) and Analyze 7.5, whose header tells neither left from right nor where the image lies; Error(too_large).
 /// Source: NIfTI-1 and NIfTI-2 headers (nifti1.h, nifti2.h of the NIfTI Data Format Working Group).
 Image read_nifti(const std::filesystem::path& path, const ReadImageOptions& options = {});
 

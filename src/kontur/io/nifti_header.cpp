@@ -2,20 +2,13 @@
 #include "kontur/io/nifti_header.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "kontur/io/byte_order.h"
+
 namespace kontur {
 namespace {
-
-template <typename Stored>
-Stored load(const unsigned char* bytes, bool big_endian) {
-    std::array<unsigned char, sizeof(Stored)> copy;
-    std::copy_n(bytes, sizeof(Stored), copy.begin());
-    if (big_endian != (std::endian::native == std::endian::big)) std::reverse(copy.begin(), copy.end());
-    return std::bit_cast<Stored>(copy);
-}
 
 class FieldReader {
 public:
@@ -37,9 +30,7 @@ public:
 
     template <typename Stored, typename Value>
     void field(std::size_t offset, const Value& value) const {
-        auto stored = std::bit_cast<std::array<unsigned char, sizeof(Stored)>>(static_cast<Stored>(value));
-        if (std::endian::native == std::endian::big) std::reverse(stored.begin(), stored.end());
-        std::copy(stored.begin(), stored.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(offset));
+        store(static_cast<Stored>(value), /*big_endian=*/false, bytes_.data() + offset);
     }
 
 private:

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/deflate.h"
 #include "kontur/io/nrrd_header.h"
@@ -21,12 +22,14 @@ namespace {
 
 constexpr std::size_t kMaxSkippedLineBytes = std::size_t{1} << 20;
 
+/// Several files, named one by one or by a pattern.
+bool is_list(const std::string& name) { return name.starts_with("LIST") || name.find('%') != std::string::npos; }
+
 /// The file that holds the voxels: the header's own one, unless it names another.
 InputFile data_file(InputFile&& header_file, const TextHeader& fields) {
     const auto name = fields.find("data file");
     if (!name) return std::move(header_file);
-    if (name->starts_with("LIST"))
-        fields.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
+    if (is_list(*name)) fields.refuse(ErrorKind::unsupported, "its voxels are in several files, which is not read");
     return open_beside(fields.path(), *name);
 }
 
@@ -39,17 +42,18 @@ std::int64_t skip_count(const TextHeader& fields, const std::string& field, std:
 /// From the start of the data to the first voxel: lines before the decompression, bytes behind it.
 void advance_to_voxels(OpenImage& image, const TextHeader& fields, const ReadImageOptions& options) {
     const std::string encoding = lower_case(fields.text("encoding"));
-    const bool compressed = encoding == "gzip" || encoding == "gz", raw = encoding == "raw";
-    if (!compressed && !raw && !image.encoding.text)
+    const bool gzip = encoding == "gzip" || encoding == "gz", bzip2 = encoding == "bzip2" || encoding == "bz2";
+    const bool raw = encoding == "raw";
+    if (!gzip && !bzip2 && !raw && !image.encoding.text)
         fields.refuse(ErrorKind::unsupported,
-                      fmt::format("its encoding \"{}\" is not read; raw, gzip and text are", encoding));
+                      fmt::format("its encoding \"{}\" is not read; raw, gzip, bzip2 and text are", encoding));
     for (std::int64_t n = skip_count(fields, "line skip", 0); n > 0; --n)
         if (!image.data.read_line(kMaxSkippedLineBytes)) fields.refuse(ErrorKind::corrupt_file, "it ends before its voxels");
-    if (compressed) {
-        if (!image.data.at_gzip())
-            fields.refuse(ErrorKind::corrupt_file, "its voxels are not compressed by gzip as declared");
-        image.data.inflate();
-    }
+    if (gzip ? !image.data.at_gzip() : bzip2 && !image.data.at_bzip2())
+        fields.refuse(ErrorKind::corrupt_file,
+                      fmt::format("its voxels are not compressed by {} as declared", gzip ? "gzip" : "bzip2"));
+    if (gzip) image.data.inflate();
+    if (bzip2) image.data.bunzip2();
     const std::int64_t bytes = skip_count(fields, "byte skip", raw ? -1 : 0);
     if (bytes >= 0) {
         image.data.skip(static_cast<std::uint64_t>(bytes));
@@ -163,6 +167,12 @@ Image read_nrrd(const fs::path& path, const ReadImageOptions& options) {
 
 Grid read_nrrd_grid(const fs::path& path, const ReadImageOptions& options) { return open_nrrd(path, options).grid; }
 
+std::optional<std::string> nrrd_data_file(const fs::path& path) {
+    InputFile file(path);
+    const auto name = read_nrrd_header(file).fields.find("data file");
+    return name && is_list(*name) ? std::nullopt : name;
+}
+
 void write_nrrd(const fs::path& path, const ImageView& image) { write(path, image, ""); }
 
 void write_seg_nrrd(const fs::path& path, const ImageView& labels, std::span<const NrrdSegment> segments) {
@@ -172,6 +182,7 @@ void write_seg_nrrd(const fs::path& path, const ImageView& labels, std::span<con
         "Segmentation_MasterRepresentation:=Binary labelmap\n"
         "Segmentation_ContainedRepresentationNames:=Binary labelmap|\n"
         "Segmentation_ReferenceImageExtentOffset:=0 0 0\n";
+    for (const NrrdSegment& segment : segments) check_utf8(segment.name, "the segment's name");
     for (std::size_t n = 0; n < segments.size(); ++n)
         keys += segment_keys(n, segments[n], extent_text(labels, segments[n].label_value));
     write(path, labels, keys);
@@ -190,6 +201,7 @@ std::vector<NrrdSegment> read_nrrd_segments(const fs::path& path) {
         const std::size_t number = segments.size();
         NrrdSegment segment;
         segment.name = value_of(number, "Name").value_or(*value_of(number, "ID"));
+        if (!is_utf8(segment.name)) segment.name = latin1_to_utf8(segment.name);
         // Files of 3D Slicer before 4.11 have one layer for each segment, with the value 1.
         const std::string label = value_of(number, "LabelValue").value_or("1");
         const std::optional<std::int64_t> label_value = parse_integer(trimmed(label));

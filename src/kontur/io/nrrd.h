@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,15 +14,18 @@
 
 namespace kontur {
 
-/// Reads NRRD 1 to 5 (.nrrd, and .nhdr whose data file is a plain name in the same folder): raw, gzip and text encoding,
-/// both byte orders, all scalar types, three axes of space and at most one of layers or channels, before or behind them.
-/// The space may be LPS, RAS or any other of left/right, anterior/posterior, superior/inferior; lengths in mm, cm, m, um.
-/// A file without a named space, directions and an origin is refused unless `allow_missing_geometry`. Shear is kept.
+/// Reads NRRD 1 to 5 (.nrrd, and .nhdr whose data file is a plain name in the same folder): raw, gzip, bzip2 and text
+/// encoding, both byte orders, all scalar types, three axes of space and at most one of layers or channels, before or behind
+/// them. The space may be LPS, RAS or any other of left/right, anterior/posterior, superior/inferior; lengths in mm, cm, m,
+/// um. A file without a named space, directions and an origin is refused unless `allow_missing_geometry`. Shear is kept.
 /// Errors: corrupt_file, unsupported, too_large, io. Source: the NRRD file format specification (teem, nrrd/format.html).
 Image read_nrrd(const std::filesystem::path& path, const ReadImageOptions& options = {});
 
 /// The geometry alone, from the header.
 Grid read_nrrd_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});
+
+/// The file that the header names for its voxels; nullopt when they are behind it or in several files.
+std::optional<std::string> nrrd_data_file(const std::filesystem::path& path);
 
 /// Writes NRRD 4, LPS, gzip, the same bytes each time. Geometry in full double precision, shear included.
 void write_nrrd(const std::filesystem::path& path, const ImageView& image);
@@ -34,10 +38,11 @@ struct NrrdSegment {
     std::int64_t layer = 0;  ///< which frame of the file holds it; 0 in what kontur writes
 };
 
-/// Writes a label map of integers as 3D Slicer reads it, one segment for each of its values that is listed.
+/// Writes a label map of integers as 3D Slicer reads it, one segment for each of its values that is listed. Throws
+/// Error(invalid_input) for a name that is no UTF-8.
 void write_seg_nrrd(const std::filesystem::path& path, const ImageView& labels, std::span<const NrrdSegment> segments);
 
-/// The segments that a file names, in its order; none in a plain NRRD file.
+/// The segments that a file names, in its order; none in a plain NRRD file. Names that are no UTF-8 count as Latin-1.
 std::vector<NrrdSegment> read_nrrd_segments(const std::filesystem::path& path);
 
 }  // namespace kontur

@@ -16,9 +16,11 @@
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/json_file.h"
+#include "kontur/io/mgh.h"
 #include "kontur/io/nifti_header.h"
 #include "kontur/io/nrrd_header.h"
 #include "kontur/io/text_header.h"
+#include "kontur/io/xml_tags.h"
 
 namespace kontur {
 namespace {
@@ -75,14 +77,43 @@ Provenance from_json(const fs::path& path) {
     return found;
 }
 
-Provenance from_stl(const fs::path& path) {
-    constexpr std::size_t kTitleBytes = 80;
+/// "kontur VERSION SPACE=LPS UNIT=mm TEXT".
+Provenance from_title(std::string_view title) {
     constexpr std::string_view kBegin = "kontur ", kUnit = "UNIT=mm ";
-    const std::string head = head_of(path, kTitleBytes);
-    const std::string_view title = std::string_view(head).substr(0, head.find('\0'));
     const std::size_t unit = title.find(kUnit);
     if (!title.starts_with(kBegin) || unit == std::string_view::npos) return {};
     return from_shortened(title.substr(unit + kUnit.size()));
+}
+
+Provenance from_stl(const fs::path& path) {
+    constexpr std::size_t kTitleBytes = 80;
+    const std::string head = head_of(path, kTitleBytes);
+    return from_title(std::string_view(head).substr(0, head.find('\0')));
+}
+
+/// The second line.
+Provenance from_vtk(const fs::path& path) {
+    const std::string head = head_of(path, kMostHeaderBytes);
+    const std::size_t begin = std::min(head.find('\n'), head.size() - 1) + 1;
+    return from_title(std::string_view(head).substr(begin, head.find('\n', begin) - begin));
+}
+
+/// Fields whose texts stand there as the numbers of their characters.
+Provenance from_vtp(const fs::path& path) {
+    constexpr std::string_view kBegin = "kontur_";
+    const std::string head = head_of(path, kMostHeaderBytes);
+    XmlTags tags(std::string_view(head).substr(0, head.find("</FieldData>")));
+    Provenance found;
+    while (const auto tag = tags.next()) {
+        const std::string_view name = tag->attribute("Name");
+        if (!tag->opens || !name.starts_with(kBegin)) continue;
+        std::string text;
+        for (const std::string_view code : words(tag->text))
+            if (const auto number = parse_integer(code); number && *number > 0 && *number < 256)
+                text += static_cast<char>(*number);
+        found.emplace_back(name.substr(kBegin.size()), text);
+    }
+    return found;
 }
 
 Provenance from_metaimage(const fs::path& path) {
@@ -178,8 +209,11 @@ Provenance as_written(const fs::path& path) {
     if (has(".ply")) return from_lines(head_of(path, kMostHeaderBytes), "comment kontur ");
     if (has(".obj")) return from_lines(head_of(path, kMostHeaderBytes), "# kontur ");
     if (has(".stl")) return from_stl(path);
+    if (has(".vtk")) return from_vtk(path);
+    if (has(".vtp")) return from_vtp(path);
     if (has(".mha") || has(".mhd")) return from_metaimage(path);
     if (has(".nrrd") || has(".nhdr")) return from_nrrd(path);
+    if (has(".mgz") || has(".mgh") || has(".mgh.gz")) return read_mgh_provenance(path);
     if (looks_like_dicom(path)) return from_dicom(path);
     if (has(".nii") || has(".nii.gz")) return from_nifti(path);
     return {};

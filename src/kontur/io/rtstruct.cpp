@@ -7,6 +7,7 @@
 #include <map>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/dcmtk.h"
 #include "kontur/io/decimal_string.h"
 #include "kontur/io/dicom_header.h"
@@ -207,6 +208,13 @@ Roi select_roi(const StructureSet& set, const std::optional<std::string>& name_o
         return readable(*found.front());
     }
     found = rois_where(set.rois, [&](const Roi& roi) { return roi.name == *name_or_number; });
+    if (found.empty()) {
+        const std::string small = without_case(*name_or_number);
+        found = rois_where(set.rois, [&](const Roi& roi) { return without_case(roi.name) == small; });
+        if (found.size() > 1)
+            refuse(fmt::format("the names of {} ROIs are '{}' but for case; give one as it is written", found.size(),
+                               *name_or_number));
+    }
     if (found.empty())
         found = rois_where(set.rois, [&](const Roi& roi) { return std::to_string(roi.number) == *name_or_number; });
     if (found.empty()) refuse(fmt::format("there is no ROI '{}'", *name_or_number));

@@ -47,8 +47,9 @@ bool is_rtstruct(const std::filesystem::path& path);
 /// Error(corrupt_file) for contours of a ROI that is not listed.
 StructureSet read_rtstruct(const std::filesystem::path& path);
 
-/// The ROI with this name or, if none has it, with this number; without either, the only ROI that has contours. Throws
-/// Error(invalid_input), listing the ROIs, when that leaves none or several, and Error(corrupt_file) naming its damage.
+/// The ROI with this name or, if none has it, with this name but for case or with this number; without either, the only ROI
+/// that has contours. Throws Error(invalid_input), listing the ROIs, when that leaves none or several, and
+/// Error(corrupt_file) naming its damage.
 Roi select_roi(const StructureSet& set, const std::optional<std::string>& name_or_number = std::nullopt);
 
 /// How the holes of a slice are stored.
@@ -67,11 +68,12 @@ struct WriteRtstructOptions {
 /// Writes a DICOM RT structure set (Implicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
 /// study, frame of reference, and for each contour its slice. ROIs are numbered from 1 where their number is 0; their frame
 /// of reference and notes are not used. Contours nested on one plane are filled even-odd, whatever their `hole` says.
-/// Coordinates are exact to 1e-9 mm. Returns what the user should know, one sentence each: contours that lie on no
-/// slice, and images without a frame of reference, for which a new one is named.
+/// Coordinates are exact to 1e-9 mm. Names have room for 64 characters, none of them a backslash; two that would
+/// become equal get a number. Returns what the user should know, one sentence each: names that were changed, contours that
+/// lie on no slice, and images without a frame of reference, for which a new one is named.
 /// Throws Error(invalid_input), naming ROI and contour, for open contours, fewer than 3 points, coordinates that are not
-/// finite and a hole that nothing encloses, and for two ROIs with one number; Error(unsupported) for interior, exterior
-/// or surface points; Error(io). Source: DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.
+/// finite and a hole that nothing encloses, for two ROIs with one number and for names that are no UTF-8; Error(unsupported)
+/// for interior, exterior or surface points; Error(io). Source: DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.
 std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const StructureSet& set,
                                         const DicomSeries& images, const WriteRtstructOptions& options = {});
 

@@ -5,8 +5,10 @@
 #include <set>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/decimal_string.h"
 #include "kontur/io/dicom_document.h"
+#include "kontur/io/dicom_names.h"
 #include "kontur/io/keyhole.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/shape/contour_nesting.h"
@@ -18,7 +20,8 @@ using dcmtk::append_item;
 using dcmtk::put;
 using dcmtk::put_image_reference;
 
-constexpr double kTouchingMm = 1e-6;  ///< what rounding leaves of the distance between touching contours
+constexpr std::size_t kMostLabel = 16;  ///< characters, of VR SH
+constexpr double kTouchingMm = 1e-6;    ///< what rounding leaves of the distance between touching contours
 
 Error invalid(const std::string& message) { return Error(ErrorKind::invalid_input, message); }
 
@@ -141,9 +144,8 @@ public:
     RoiWriter(DcmItem& document, const std::vector<DicomHeader>& slices, HoleEncoding holes)
         : document_(document), slices_(slices), holes_(holes) {}
 
-    void write(const Roi& roi, std::int64_t number) {
+    void write(const Roi& roi, const std::string& name, std::int64_t number) {
         if (!roi.damage.empty()) throw invalid("its contours could not be read: " + roi.damage);
-        const std::string name = roi.name.empty() ? roi.contours.name : roi.name;
         put_entry(roi, name, number);
         DcmItem& item = append_item(document_, DCM_ROIContourSequence);
         put(item, DCM_ReferencedROINumber, number);
@@ -162,7 +164,7 @@ private:
         DcmItem& entry = append_item(document_, DCM_StructureSetROISequence);
         put(entry, DCM_ROINumber, number);
         put(entry, DCM_ReferencedFrameOfReferenceUID, dcmtk::text(document_, DCM_FrameOfReferenceUID));
-        put(entry, DCM_ROIName, dcmtk::one_value(name, 64));
+        put(entry, DCM_ROIName, name);
         put(entry, DCM_ROIGenerationAlgorithm, roi.generation_algorithm);
     }
 
@@ -207,6 +209,12 @@ std::vector<std::int64_t> roi_numbers(const std::vector<Roi>& rois) {
     return numbers;
 }
 
+std::vector<std::string> names_of(const std::vector<Roi>& rois) {
+    std::vector<std::string> names;
+    for (const Roi& roi : rois) names.push_back(roi.name.empty() ? roi.contours.name : roi.name);
+    return names;
+}
+
 }  // namespace
 
 std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const StructureSet& set,
@@ -214,10 +222,14 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const std::vector<std::int64_t> numbers = roi_numbers(set.rois);
+    check_utf8(set.label, "the structure set's label");
+    std::vector<std::string> notes;
+    const std::vector<std::string> names = dcmtk::stored_names(names_of(set.rois), "ROI", notes);
     DcmFileFormat file;
     DcmItem& document = *file.getDataset();
     dcmtk::start_document(document, images, UID_RTStructureSetStorage, "RTSTRUCT", options.series_description);
-    put(document, DCM_StructureSetLabel, dcmtk::one_value(set.label.empty() ? "kontur" : set.label, 16));
+    put(document, DCM_StructureSetLabel,
+        dcmtk::noted_value(set.label.empty() ? "kontur" : set.label, kMostLabel, "the structure set's label", notes));
     put(document, DCM_StructureSetDate, dcmtk::text(document, DCM_InstanceCreationDate));
     put(document, DCM_StructureSetTime, dcmtk::text(document, DCM_InstanceCreationTime));
     put(document, DCM_ApprovalStatus, "UNAPPROVED");
@@ -226,14 +238,13 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     RoiWriter writer(document, slices, options.holes);
     for (std::size_t n = 0; n < set.rois.size(); ++n) {
         try {
-            writer.write(set.rois[n], numbers[n]);
+            writer.write(set.rois[n], names[n], numbers[n]);
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI {} '{}'", numbers[n], set.rois[n].name));
         }
     }
     // Explicit VR has 16-bit lengths for decimal strings; a contour of 1300 points would not fit.
     dcmtk::save(file, path, EXS_LittleEndianImplicit);
-    std::vector<std::string> notes;
     if (images.frame_of_reference_uid.empty())
         notes.emplace_back("the images name no common frame of reference; the structure set names a new one");
     if (writer.off_slices() > 0)

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands.h"
+
+namespace kontur::app {
+
+/// `segment` for several ROIs of one structure set: each is fitted by itself; they become the labels 1, 2, ... of a label
+/// map or the segments of a DICOM SEG, in the order in which they are named, and the ROIs of an RTSTRUCT. In a label map a
+/// voxel of two keeps the first one's label, which is told with the number of such voxels; a SEG keeps both.
+void segment_rois(const SegmentCommand& command, Console& console);
+
+/// What can be refused by the words alone. Throws Error(invalid_input) for outputs that have room for one structure only.
+void check_roi_words(const SegmentCommand& command);
+
+}  // namespace kontur::app

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several ROIs of one structure set at once, as pydicom and nibabel see them, and names of ROIs in other capitals."""
+import json
+import pathlib
+import subprocess
+import sys
+
+import numpy
+import pydicom
+import pytest
+from support import circle, kontur, names, read_nifti, write_planes
+
+SUPPORT = pathlib.Path(__file__).parent.parent / "support"
+BALLS = {"Bladder": ((-15.0, -25.0, 110.0), 3.5), "rectum": ((-15.0, -21.0, 110.0), 3.5), "PTV": ((-9.0, -31.0, 110.0), 2.5)}
+
+
+@pytest.fixture(scope="module")
+def images(tmp_path_factory):
+    """A DICOM series of 9 axial slices, 2.5 mm apart."""
+    folder = tmp_path_factory.mktemp("images") / "axial"
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "axial", folder], check=True)
+    return folder / "dicom"
+
+
+@pytest.fixture(scope="module")
+def structures(tmp_path_factory, images):
+    """Three balls, two of which overlap, as the ROIs 1 to 3, and one without contours."""
+    folder = tmp_path_factory.mktemp("structures")
+    for name, (center, radius) in BALLS.items():
+        planes = [circle("z", offset, center=center, radius=radius) for offset in (-1.5, 0, 1.5)]
+        write_planes(folder / f"{name}.json", planes)
+        result = kontur("convert", folder / f"{name}.json", folder / f"{name}.dcm", "--image", images)
+        assert result.returncode == 0, result
+    merged = pydicom.dcmread(folder / "Bladder.dcm")
+    for sequence in ("StructureSetROISequence", "ROIContourSequence", "RTROIObservationsSequence"):
+        items = [pydicom.dcmread(folder / f"{name}.dcm")[sequence].value[0] for name in BALLS]
+        for number, (item, name) in enumerate(zip(items, BALLS), 1):
+            if sequence == "StructureSetROISequence":
+                item.ROINumber, item.ROIName = number, name
+            else:
+                item.ReferencedROINumber = number
+        merged[sequence].value = items
+    empty = pydicom.Dataset()
+    empty.ROINumber, empty.ROIName, empty.ROIGenerationAlgorithm = 4, "CTV", ""
+    empty.ReferencedFrameOfReferenceUID = merged.FrameOfReferenceUID
+    merged.StructureSetROISequence.append(empty)
+    merged.save_as(folder / "RS.dcm")
+    return folder / "RS.dcm"
+
+
+def one_by_one(folder, structures, images):
+    """The mask of each ROI by itself."""
+    masks = {}
+    for name in BALLS:
+        result = kontur("segment", structures, "--roi", name, "--image", images, "--output", folder / f"one_{name}.nii")
+        assert result.returncode == 0, result
+        masks[name] = read_nifti(folder / f"one_{name}.nii") != 0
+    return masks
+
+
+def test_several_rois_become_one_label_map(tmp_path, structures, images):
+    masks = one_by_one(tmp_path, structures, images)
+    words = ["--roi", "bladder", "--roi", "RECTUM", "--roi", "3", "--image", images]
+    result = kontur("segment", structures, *words, "--output", tmp_path / "all.seg.nrrd", "--report", tmp_path / "all.json")
+    assert result.returncode == 0, result
+    both = numpy.count_nonzero(masks["Bladder"] & masks["rectum"])
+    assert both > 10
+    sentence = f"{both} voxels of 'rectum' lie in 'Bladder', too, and keep its label 1"
+    assert sentence in result.stderr
+    header = (tmp_path / "all.seg.nrrd").read_bytes().split(b"\n\n")[0].decode()
+    assert [f"Segment{n}_Name:={name}" in header for n, name in enumerate(BALLS)] == [True] * 3
+    assert kontur("convert", tmp_path / "all.seg.nrrd", tmp_path / "all.nii").returncode == 0
+    expected = numpy.zeros(masks["PTV"].shape, int)
+    for label, name in reversed(list(enumerate(BALLS, 1))):
+        expected[masks[name]] = label
+    numpy.testing.assert_array_equal(read_nifti(tmp_path / "all.nii"), expected)
+    report = json.loads((tmp_path / "all.json").read_text())
+    assert [(s["label"], s["name"], s["mask"]["voxels"]) for s in report["structures"]] == [
+        (n, name, numpy.count_nonzero(masks[name])) for n, name in enumerate(BALLS, 1)]
+    assert any(sentence in warning for warning in report["warnings"])
+    digests = [report["provenance"][f"contours_sha256_{n}"] for n in (1, 2, 3)]
+    assert len(set(digests)) == 3 and {"version", "options_1", "image_sha256"} <= set(report["provenance"])
+
+
+def test_several_rois_become_a_seg_that_keeps_what_overlaps_and_an_rtstruct(tmp_path, structures, images):
+    masks = one_by_one(tmp_path, structures, images)
+    words = ["--roi", "PTV", "--roi", "Bladder", "--roi", "rectum", "--image", images]
+    result = kontur("segment", structures, *words, "--output", tmp_path / "seg.dcm", "--rtstruct", tmp_path / "rs.dcm")
+    assert result.returncode == 0, result
+    assert "lie in" not in result.stderr
+    seg = pydicom.dcmread(tmp_path / "seg.dcm")
+    assert [item.SegmentLabel for item in seg.SegmentSequence] == ["PTV", "Bladder", "rectum"]
+    voxels = numpy.zeros(3, int)
+    for frame, group in zip(seg.pixel_array, seg.PerFrameFunctionalGroupsSequence):
+        voxels[group.SegmentIdentificationSequence[0].ReferencedSegmentNumber - 1] += numpy.count_nonzero(frame)
+    assert voxels.tolist() == [numpy.count_nonzero(masks[name]) for name in ("PTV", "Bladder", "rectum")]
+    checked = subprocess.run([sys.executable, SUPPORT / "check_rtstruct.py", tmp_path / "rs.dcm", images], capture_output=True, text=True)
+    assert checked.returncode == 0, checked
+    assert [item.ROIName for item in pydicom.dcmread(tmp_path / "rs.dcm").StructureSetROISequence] == ["PTV", "Bladder", "rectum"]
+
+
+@pytest.mark.parametrize(
+    "words, part",
+    [
+        (["--roi", "Bladder", "--roi", "CTV"], "the ROI 'CTV' has no contour; at least 1 is needed"),
+        (["--roi", "Bladder", "--roi", "1"], "the ROI '1' is named twice"),
+        (["--roi", "Bladder", "--roi", "Liver"], "there is no ROI 'Liver'; the ROIs are: 1 'Bladder'"),
+        (["--roi", "CTV"], "RS.dcm: the structure 'CTV' has no contour; at least 1 is needed"),
+        (["--roi", "Bladder", "--roi", "PTV", "--mesh", "a.stl"], "--mesh has room for one structure"),
+        (["--roi", "Bladder", "--roi", "PTV", "--name", "x"], "--name has room for one structure"),
+        (["--roi", "Bladder", "--roi", "PTV", "--label-value", "7"], "--label-value is for one structure"),
+    ],
+)
+def test_what_cannot_be_is_refused_and_leaves_nothing(tmp_path, structures, images, words, part):
+    result = kontur("segment", structures, *words, "--image", images, "--output", "a.nii", cwd=tmp_path)
+    assert result.returncode == 65, result
+    assert part in result.stderr
+    assert names(tmp_path) == []
+
+
+def test_names_that_dicom_cannot_hold_are_told(tmp_path, structures, images):
+    name = "x" * 70
+    result = kontur("segment", structures, "--roi", "ptv", "--image", images, "--output", tmp_path / "seg.dcm", "--rtstruct",
+                    tmp_path / "rs.dcm", "--name", name)
+    assert result.returncode == 0, result
+    assert result.stderr.count("has 70 characters, of which DICOM has room for 64") == 2
+    assert pydicom.dcmread(tmp_path / "rs.dcm").StructureSetROISequence[0].ROIName == "x" * 64

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
 #include "kontur/base/smallest_ball.h"
 
 namespace kontur {
@@ -278,8 +282,24 @@ private:
 
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
-Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+void check_fit_options(const FitOptions& options, std::size_t points) {
+    check_at_least("the number of rounds", options.rounds, 0);
+    check_at_least("the number of rounds for caps", options.cap_rounds, 0);
+    check_not_below_0("the start's smoothing", options.start_smoothing);
+    check_not_below_0("the smoothing's factor", options.smoothing_factor);
+    if (!(options.least_slope > 0 && options.least_slope <= 1))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the least slope is {:g}; it must be in (0, 1]", options.least_slope));
+    check_above_0("the early tolerance's factor", options.early_tolerance_factor);
+    if (options.tilt_points < 1)
+        throw Error(ErrorKind::invalid_input, "the tilts are to be found from 0 points; at least 1 is needed");
+    if (!options.start_slopes.empty()) check_slopes(options.start_slopes, points);
+    check_place_options(options.place);
     check_solve_options(options.solve);  // before the early solves, which change them
+}
+
+Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+    check_fit_options(options, contours.points.size());
     return Fitter(contours, options, progress).run();
 }
 

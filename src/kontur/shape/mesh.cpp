@@ -73,6 +73,7 @@ void check_mesh(const TriangleMesh& mesh) {
 }
 
 double signed_volume_mm3(const TriangleMesh& mesh) {
+    check_mesh(mesh);
     if (mesh.points.empty()) return 0;
     // Far from the origin the tetrahedra would cancel almost entirely; a point of the mesh keeps them small.
     const Vec3 apex = bounding_box(mesh.points).center();
@@ -83,6 +84,7 @@ double signed_volume_mm3(const TriangleMesh& mesh) {
 }
 
 MeshTopology topology(const TriangleMesh& mesh) {
+    check_mesh(mesh);
     const std::vector<Edge> edges = sorted_edges(mesh);
     MeshTopology result;
     result.closed = result.oriented = !edges.empty();

@@ -25,6 +25,7 @@ constexpr std::array kTargets{
     Target{"obj", obj},
     Target{"csv", csv},
     Target{"pipeline", pipeline},
+    Target{"fitting", fitting},
     Target{"messages", messages},
     Target{"project", project},
 };

@@ -39,6 +39,7 @@ void ply(Bytes bytes);
 void obj(Bytes bytes);
 void csv(Bytes bytes);
 void pipeline(Bytes bytes);
+void fitting(Bytes bytes);
 void messages(Bytes bytes);
 void project(Bytes bytes);
 

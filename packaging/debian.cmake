@@ -2,7 +2,9 @@
 # `cpack` in the build folder makes one Debian package of each part; what each needs is found out by dpkg-shlibdeps.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kontur)
-set(CPACK_PACKAGE_CONTACT "the kontur developers <kontur@localhost>")
+# The project has no address of its own: who hands packages on names himself here.
+set(KONTUR_PACKAGE_CONTACT "the kontur developers <developers@kontur.invalid>" CACHE STRING "Maintainer of the Debian packages: NAME <ADDRESS>")
+set(CPACK_PACKAGE_CONTACT ${KONTUR_PACKAGE_CONTACT})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

@@ -33,7 +33,7 @@ def _version(build):
 
 def _metadata(version):
     return (f"Metadata-Version: 2.1\nName: kontur\nVersion: {version}\nSummary: Smooth 3D organs from a few hand-drawn contours\n"
-            "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy\n")
+            "License: Apache-2.0\nLicense-File: LICENSE\nLicense-File: copyright\nRequires-Python: >=3.9\nRequires-Dist: numpy\n")
 
 
 def _record_line(name, content):
@@ -47,6 +47,9 @@ def _pack(package, version, wheel):
     information = f"kontur-{version}.dist-info"
     files = {f"kontur/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
     files[f"{information}/METADATA"] = _metadata(version).encode()
+    # Of kontur, and of what is compiled into the module.
+    for licence in (HERE.parent / "LICENSE", HERE.parent / "packaging/copyright"):
+        files[f"{information}/{licence.name}"] = licence.read_bytes()
     files[f"{information}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: kontur\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     record = f"{information}/RECORD"
     files[record] = ("".join(_record_line(*item) for item in files.items()) + f"{record},,\n").encode()

@@ -1,7 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
+import sys
+
 import kontur
 import numpy
 import pytest
+
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "tests/support"))
+from skips import pytest_sessionfinish  # noqa: E402, F401
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The package as a wheel, made and installed without network."""
 import os
+import pathlib
 import subprocess
 import sys
 
@@ -28,3 +29,8 @@ def test_a_wheel_is_made_and_installed(tmp_path):
     assert place.startswith(str(tmp_path / "site")) and case == "liver_orthogonal14"
     assert wheel.name.startswith(f"kontur-{version}-cp3")
     assert (tmp_path / "site" / "kontur" / "py.typed").exists()
+    [information] = (tmp_path / "site").glob("kontur-*.dist-info")
+    metadata = (information / "METADATA").read_text()
+    for name, source in (("LICENSE", "LICENSE"), ("copyright", "packaging/copyright")):
+        assert (information / name).read_bytes() == (pathlib.Path(ROOT, "..", source)).read_bytes()
+        assert f"License-File: {name}\n" in metadata

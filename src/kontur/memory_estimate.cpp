@@ -53,6 +53,9 @@ double estimated_memory_mb(const ContourSet& contours, std::size_t centres, cons
 }
 
 void check_memory(double estimated_mb, const SegmentOptions& options) {
+    if (options.max_memory_mb && !(*options.max_memory_mb > 0))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("max_memory_mb is {:g}; it must be above 0", *options.max_memory_mb));
     const double limit_mb = options.max_memory_mb.value_or(machine_memory_mb());
     if (estimated_mb <= limit_mb) return;
     throw Error(ErrorKind::too_large,

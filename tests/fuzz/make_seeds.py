@@ -144,6 +144,11 @@ def pipeline():
         yield random.Random(seed).randbytes(200 + 20 * seed)
 
 
+def fitting():
+    for seed in range(100, 140):
+        yield random.Random(seed).randbytes(200 + 20 * seed)
+
+
 def messages():
     plane = {"origin": [5, 5, 5], "u": [1, 0, 0], "v": [0, 1, 0], "normal": [0, 0, 1], "mm_per_pixel": 0.5}
     square = [[2, 2, 5], [9, 2, 5], [9, 9, 5], [2, 9, 5]]
@@ -174,7 +179,8 @@ def project():
     yield "\n".join([*map(json.dumps, (structure, contour, step)), "1", "{}", "{}", json.dumps({"structures": [], "contours": []}), "2"]).encode()
 
 
-TARGETS = [nifti, nrrd, metaimage, nifti_pair, mgh, gipl, dicom, dicom_seg, rtstruct, contour_json, markups, stl, ply, obj, vtk, vtp, csv, pipeline, messages, project]
+TARGETS = [nifti, nrrd, metaimage, nifti_pair, mgh, gipl, dicom, dicom_seg, rtstruct, contour_json, markups, stl, ply, obj, vtk, vtp, csv, pipeline,
+           fitting, messages, project]
 
 
 def main():

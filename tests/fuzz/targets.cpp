@@ -30,6 +30,7 @@ constexpr std::array kTargets{
     Target{"vtp", vtp},
     Target{"csv", csv},
     Target{"pipeline", pipeline},
+    Target{"fitting", fitting},
     Target{"messages", messages},
     Target{"project", project},
 };

@@ -44,6 +44,7 @@ void vtk(Bytes bytes);
 void vtp(Bytes bytes);
 void csv(Bytes bytes);
 void pipeline(Bytes bytes);
+void fitting(Bytes bytes);
 void messages(Bytes bytes);
 void project(Bytes bytes);
 

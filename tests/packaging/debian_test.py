@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Debian packages hold what they should, name what they need, and run from where they are unpacked."""
+import json
 import os
 import pathlib
 import re
@@ -9,6 +10,7 @@ import subprocess
 import pytest
 
 BUILD = pathlib.Path(os.environ["KONTUR_BUILD"])
+ROOT = pathlib.Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(not shutil.which("dpkg-shlibdeps"), reason="dpkg-shlibdeps is not installed")
 
 
@@ -47,6 +49,40 @@ def test_each_part_is_a_package(packages):
     assert "usr/share/man/man1/kontur-segment.1" in contents(packages["kontur"])
     assert any(name.endswith("libkontur.so.0.1") for name in contents(packages["libkontur0.1"]))
     assert "usr/include/kontur/kontur.h" in contents(packages["libkontur-dev"])
+
+
+def test_each_has_its_licence(packages, tree):
+    for name, package in packages.items():
+        assert {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/LICENSE"} <= set(contents(package)), name
+        assert (tree / f"usr/share/doc/{name}/LICENSE").read_bytes() == (ROOT / "LICENSE").read_bytes()
+        assert "localhost" not in field(package, "Maintainer")
+
+
+def test_the_copyright_file_can_be_read_by_programs(tree):
+    """Debian's machine-readable format: every licence that a paragraph names is given, and every one given is named."""
+    text = (tree / "usr/share/doc/kontur/copyright").read_text()
+    header, *paragraphs = text.strip().split("\n\n")
+    assert header.startswith("Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n")
+    files = [paragraph for paragraph in paragraphs if paragraph.startswith("Files: ")]
+    assert all("\nCopyright: " in paragraph for paragraph in files)
+    named = {re.search(r"^License: (\S+)$", paragraph, re.MULTILINE)[1] for paragraph in files}
+    given = [re.match(r"License: (\S+)\n ", paragraph)[1] for paragraph in paragraphs if paragraph not in files]
+    assert sorted(named) == sorted(given)
+    assert all(line == "" or line.startswith(" ") or re.match(r"[A-Z][A-Za-z-]+: ", line) for line in text.splitlines())
+
+
+def test_what_is_compiled_in_is_in_the_copyright_file():
+    """Header-only libraries and the page's packages, by the lines that include them."""
+    text = (ROOT / "packaging/copyright").read_text()
+    included = set()
+    for folder in ("src", "apps", "python/src"):
+        for path in (ROOT / folder).rglob("*.[hc]*"):
+            included |= set(re.findall(r"^#\s*include <(nlohmann|CLI|CGAL|boost|pybind11)[/.]", path.read_text(errors="replace"), re.MULTILINE))
+    assert len(included) == 5
+    for library in included:
+        assert f"Files: /usr/include/{library}" in text
+    for package in json.loads((ROOT / "apps/viewer/web/package.json").read_text())["dependencies"]:
+        assert f"node_modules/{package}/*" in text
 
 
 def test_they_name_what_they_need(packages):

@@ -77,6 +77,13 @@ def test_the_shared_library_shows_only_our_names_and_says_its_version(libraries)
     assert [name for name in names if not re.match(r"(kontur::|(typeinfo|typeinfo name|vtable) for kontur::)", name)] == []
 
 
+def test_each_part_brings_its_licence(prefix):
+    for package in ("libkontur0.1", "libkontur-dev"):
+        folder = prefix / "share/doc" / package
+        assert (folder / "LICENSE").read_bytes() == (ROOT / "LICENSE").read_bytes()
+        assert (folder / "copyright").read_bytes() == (ROOT / "packaging/copyright").read_bytes()
+
+
 def test_installed_headers_are_the_public_ones(prefix):
     headers = list((prefix / "include").rglob("*.h"))
     text = "\n".join(header.read_text() for header in headers)

@@ -11,8 +11,7 @@ import pytest
 ROOT = pathlib.Path(__file__).parents[2]
 DOXYFILE = pathlib.Path(os.environ["KONTUR_BUILD"]) / "packaging" / "Doxyfile"
 
-if not shutil.which("doxygen"):
-    pytest.skip("doxygen is not installed", allow_module_level=True)
+pytestmark = pytest.mark.skipif(not shutil.which("doxygen"), reason="doxygen is not installed")
 
 
 def doxygen(folder, more=""):

@@ -191,5 +191,38 @@ TEST(DrawnOddly, CornersAreThoseThatWereDrawn) {
     EXPECT_NEAR(volume_ml(ball({-30, 0, 30}), 3, 20, options), rounded, 0.01 * rounded);
 }
 
+/// More points than the surface's tilts are found from: circles of a ball of radius 40, 4 mm apart.
+ContourSet many_circles() {
+    ContourSet set;
+    for (int z = -36; z <= 36; z += 4) set.contours.push_back(circle_at({0, 0, double(z)}, std::sqrt(1600.0 - z * z), 64));
+    return set;
+}
+
+TEST(DrawnOddly, ManyPointsAndWhatElseCanBeDrawn) {
+    const double ball_ml = 4.0 / 3 * std::numbers::pi * 64;
+    EXPECT_NEAR(volume_ml(many_circles()), ball_ml, 0.02 * ball_ml);
+
+    ContourSet top = many_circles();
+    top.surface = {{{0, 0, 40}}};
+    EXPECT_NEAR(volume_ml(top), ball_ml, 0.02 * ball_ml) << "a surface point, which belongs to no contour";
+
+    for (const std::size_t which : {std::size_t{0}, std::size_t{18}})
+        for (const ContourEnd end : {ContourEnd::flat, ContourEnd::round}) {
+            ContourSet ended = many_circles();
+            ended.contours[which].end = end;
+            EXPECT_NEAR(volume_ml(ended), ball_ml, 0.04 * ball_ml) << which << ' ' << name(end);
+        }
+
+    for (const bool first : {true, false}) {
+        Contour open = circle_at({0, 0, first ? -38.0 : 38.0}, 12.49, 64);
+        open.points.resize(50);
+        open.closed = false;
+        open.inside = Hand::left;
+        ContourSet set = many_circles();
+        set.contours.insert(first ? set.contours.begin() : set.contours.end(), open);
+        EXPECT_NEAR(volume_ml(set), ball_ml, 0.02 * ball_ml) << first;
+    }
+}
+
 }  // namespace
 }  // namespace kontur

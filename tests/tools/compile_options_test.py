@@ -8,6 +8,7 @@ import pathlib
 import pytest
 
 COMMANDS = pathlib.Path(os.environ["KONTUR_BUILD"], "compile_commands.json")
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 def options_of(source):
@@ -33,3 +34,16 @@ def test_fast_sums_may_fuse_multiplications_and_additions(stem):
 def test_what_the_same_bytes_come_from_fuses_nothing(stem):
     options = options_of(f"field/{stem}.cpp")
     assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=off"
+
+
+@pytest.mark.parametrize("name", ["dev", "asan", "tsan", "coverage", "fuzz", "tidy"])
+def test_what_developers_build_checks_the_indices_of_vectors(name):
+    """An index beyond a vector's end often does no visible harm; libstdc++'s assertions end the program there."""
+    presets = {preset["name"]: preset for preset in json.loads((SOURCE / "CMakePresets.json").read_text())["configurePresets"]}
+
+    def variables(preset):
+        inherited = variables(presets[preset["inherits"]]) if "inherits" in preset else {}
+        return {**inherited, **preset.get("cacheVariables", {})}
+
+    chosen = variables(presets[name])
+    assert "-D_GLIBCXX_ASSERTIONS" in chosen[f"CMAKE_CXX_FLAGS_{chosen['CMAKE_BUILD_TYPE'].upper()}"].split()

@@ -7,11 +7,13 @@
 #include <mutex>
 #include <thread>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/workers.h"
 
 namespace kontur {
 
 int thread_count(int requested) {
+    check_threads(requested);
     if (requested > 0) return requested;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }

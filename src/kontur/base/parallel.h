@@ -6,7 +6,7 @@
 
 namespace kontur {
 
-/// Number of threads for a request: `requested` if > 0, else the machine's.
+/// Number of threads for a request: `requested` if > 0, the machine's for 0. Throws Error(invalid_input) below that.
 int thread_count(int requested);
 
 /// Runs `body(begin, end)` over [0, count) in chunks of `chunk` items on up to `threads` threads (0: the machine's), the

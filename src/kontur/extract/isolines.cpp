@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <string>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 
 namespace kontur {
@@ -161,7 +161,7 @@ std::optional<PlaneLattice> lattice_over(const Plane& plane, const BoxCorners& r
 
 std::vector<Isoline> isolines(const PlaneLattice& lattice, std::span<const double> values,
                               const std::function<double(double, double)>& exact) {
-    assert(static_cast<std::int64_t>(values.size()) == lattice.node_count());
+    check_same_count("values", values.size(), "nodes", static_cast<std::size_t>(lattice.node_count()));
     std::vector<Isoline> lines = MarchingSquares(lattice, values, exact).lines();
     const bool left_handed = dot(cross(lattice.plane.u, lattice.plane.v), lattice.plane.normal) < 0;
     for (Isoline& line : lines) {

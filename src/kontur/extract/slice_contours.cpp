@@ -150,11 +150,7 @@ std::vector<Contour> contours_of_slice(const Mask& mask, const ImplicitFunction&
 }  // namespace
 
 ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, int threads, const Progress& progress) {
-    check_grid(mask.grid);
-    if (static_cast<std::int64_t>(mask.values.size()) != mask.grid.voxel_count())
-        throw Error(ErrorKind::invalid_input, "the mask has " + std::to_string(mask.values.size()) +
-                                                  " values for a grid of " + std::to_string(mask.grid.voxel_count()) +
-                                                  " voxels");
+    check_mask(mask);
     constexpr std::int64_t kSlicesAtOnce = 32;  // between two looks at the progress
     std::vector<std::vector<Contour>> slices(static_cast<std::size_t>(mask.grid.size.k));
     for (std::int64_t start = 0; start < mask.grid.size.k; start += kSlicesAtOnce) {

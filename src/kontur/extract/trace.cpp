@@ -154,11 +154,7 @@ std::optional<Contour> to_contour(const Isoline& line, const Plane& plane, const
 }
 
 void check_arguments(const Mask& mask, std::span<const Plane> planes, const TraceOptions& options) {
-    check_grid(mask.grid);
-    if (static_cast<std::int64_t>(mask.values.size()) != mask.grid.voxel_count())
-        throw Error(ErrorKind::invalid_input, "the mask has " + std::to_string(mask.values.size()) +
-                                                  " values for a grid of " + std::to_string(mask.grid.voxel_count()) +
-                                                  " voxels");
+    check_mask(mask);
     for (const double option : {options.step_mm, options.tolerance_mm, options.min_area_mm2})
         if (!(option >= 0 && std::isfinite(option)))
             throw Error(ErrorKind::invalid_input,

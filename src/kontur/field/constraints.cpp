@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/constraints.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <unordered_map>
+
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
 
 namespace kontur {
 namespace {
@@ -36,7 +43,10 @@ private:
     using Cells = std::unordered_map<Index3, std::vector<Vec3>, Hash>;
 
     Index3 cell_at(const Vec3& p) const {
-        const auto along = [&](double v) { return static_cast<std::int64_t>(std::floor(v / cell_)); };
+        constexpr double kLast = 9e18;  // all that is farther away shares a cell
+        const auto along = [&](double v) {
+            return static_cast<std::int64_t>(std::floor(std::clamp(v / cell_, -kLast, kLast)));
+        };
         return {along(p.x), along(p.y), along(p.z)};
     }
 
@@ -51,10 +61,52 @@ private:
     Cells cells_;
 };
 
+void check_trust(const std::string& whose, double trust) {
+    if (!(trust > 0 && std::isfinite(trust)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the trust in {} is {:g}; it must be finite and above 0", whose, trust));
+}
+
+void check_finite(const std::string& what, bool finite) {
+    if (!finite) throw Error(ErrorKind::invalid_input, what + " is not finite");
+}
+
+void check_points(std::span<const BoundaryPoint> points, std::span<const PointConstraint> single_points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const BoundaryPoint& p = points[i];
+        const std::string which = fmt::format("point {}", i + 1);
+        check_finite(which, is_finite(p.position) && is_finite(p.inplane_normal));
+        if (!(p.gap_mm > 0))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the gap of {} is {:g} mm; it must be above 0", which, p.gap_mm));
+        check_trust(which, p.trust);
+    }
+    for (std::size_t i = 0; i < single_points.size(); ++i) {
+        const std::string which = fmt::format("single point {}", i + 1);
+        check_finite(which, is_finite(single_points[i].position) && std::isfinite(single_points[i].value));
+        check_trust(which, single_points[i].trust);
+    }
+}
+
 }  // namespace
+
+void check_place_options(const PlaceOptions& options) {
+    check_above_0("the normal offset", options.normal_offset_mm, " mm");
+    check_not_below_0("the merge distance", options.merge_distance_mm, " mm");
+}
+
+void check_slopes(std::span<const double> slopes, std::size_t points) {
+    check_same_count("slopes", slopes.size(), "points", points);
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+        if (!(slopes[i] > 0 && slopes[i] <= 1 + 1e-9))  // a cosine may be rounded up
+            throw Error(ErrorKind::invalid_input, fmt::format("slope {} is {:g}; it must be in (0, 1]", i + 1, slopes[i]));
+}
 
 PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
                                     std::span<const PointConstraint> single_points, const PlaceOptions& options) {
+    check_place_options(options);
+    check_slopes(slopes, points.size());
+    check_points(points, single_points);
     PlacedConstraints result;
     SpacingFilter filter(options.merge_distance_mm);
     const auto place = [&](const Vec3& at, double value, ConstraintKind kind, double trust = 1) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kontur/base/checks.h"
+
 namespace kontur {
 namespace {
 
@@ -14,7 +16,7 @@ std::vector<double> growing_steps(double end, double nearest, double longest) {
     double at = nearest, step = nearest;
     while (at < end - step / 4) {
         distances.push_back(at);
-        step = std::clamp(at / 2, nearest, longest);
+        step = std::min(std::max(at / 2, nearest), longest);  // tiny contours have longest < nearest
         at += step;
     }
     return distances;
@@ -55,7 +57,10 @@ std::vector<bool> find_corners(const Contour& contour) {
 }
 
 Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm) {
-    const std::size_t n = contour.points.size(), edges = contour.closed ? n : n - 1;
+    check_same_count("flags of corners", corners.size(), "points", contour.points.size());
+    check_above_0("the spacing at corners", nearest_mm, " mm");
+    check_above_0("the spacing between corners", longest_mm, " mm");
+    const std::size_t n = contour.points.size(), edges = contour.closed || n == 0 ? n : n - 1;
     Contour refined = contour;
     refined.points.clear();
     for (std::size_t i = 0; i < edges; ++i) {
@@ -65,7 +70,7 @@ Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corne
         for (const double at : steps_along(length, corners[i], corners[(i + 1) % n], nearest_mm, longest_mm))
             refined.points.push_back(from + (at / length) * (to - from));
     }
-    if (!contour.closed) refined.points.push_back(contour.points.back());
+    if (!contour.closed && n > 0) refined.points.push_back(contour.points.back());
     return refined;
 }
 

@@ -20,7 +20,8 @@ std::vector<bool> find_corners(const Contour& contour);
 
 /// Subdivides edges ever more finely towards the corners, one flag for each point: the first point is `nearest_mm` from its
 /// corner, each further one half as far again, up to steps of `longest_mm`. Drawn points stay. An edge of length l gets
-/// about 2 l / longest + 5 log(longest / nearest) points.
+/// about 2 l / longest + 5 log(longest / nearest) points. Throws Error(invalid_input) unless both lengths are finite and
+/// above 0 and there is one flag for each point.
 Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm);
 
 }  // namespace kontur

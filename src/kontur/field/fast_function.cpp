@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kontur/base/error.h"
+#include "kontur/base/checks.h"
 #include "kontur/field/evaluation_plan.h"
 #include "kontur/field/far_field.h"
 
@@ -13,7 +13,15 @@ namespace {
 // Points that are compared with the direct sum: so many of the first, then one of every so many.
 constexpr std::size_t kFirstChecked = 64, kCheckedEvery = 512;
 
+void check(const FastOptions& options) {
+    check_above_0("the tolerance of fast values", options.tolerance_mm, " mm");
+    check_above_0("the tolerance of fast gradients", options.gradient_tolerance);
+    check_at_least("the number of expected points", options.expected_points, 0);
+    check_threads(options.threads);
+}
+
 std::unique_ptr<FarField> build(const ImplicitFunction& function, const FastOptions& options) {
+    check(options);
     const EvaluationPlan plan = plan_evaluation(function, static_cast<double>(options.expected_points));
     std::unique_ptr<PointEvaluator> nodes = std::make_unique<DirectSum>(function, options.threads);
     std::unique_ptr<FarField> field;
@@ -83,6 +91,7 @@ std::int64_t FastFunction::kernel_values() const {
 }
 
 void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out, const Progress& progress) {
+    check_same_count("values", out.size(), "points", points_mm.size());
     State& s = *state_;
     const PointArrays points(s.exact.frame().to_unit(points_mm));
     if (s.field && s.reaches(points)) {
@@ -100,6 +109,7 @@ void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out
 }
 
 void FastFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Progress& progress) {
+    check_same_count("gradients", out.size(), "points", points_mm.size());
     State& s = *state_;
     const PointArrays points(s.exact.frame().to_unit(points_mm));
     if (s.field && s.reaches(points)) {

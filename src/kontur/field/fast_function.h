@@ -26,13 +26,15 @@ struct FastOptions {
 /// processor type; direct sums: of any).
 class FastFunction {
 public:
+    /// Throws Error(invalid_input) for tolerances that are not finite and above 0 and counts below 0.
     explicit FastFunction(const ImplicitFunction& function, const FastOptions& options = {});
     ~FastFunction();
     FastFunction(FastFunction&&) noexcept;
 
     const ImplicitFunction& exact() const;
 
-    /// out[i] = f(points[i]) within about error_mm().
+    /// out[i] = f(points[i]) within about error_mm(). Both throw Error(invalid_input) unless there is one place in `out` for
+    /// each point.
     void values(std::span<const Vec3> points_mm, std::span<double> out, const Progress& progress = {});
     /// out[i] = gradient at points[i] per mm.
     void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Progress& progress = {});

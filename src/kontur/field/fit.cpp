@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/field/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
 #include "kontur/base/smallest_ball.h"
 
 namespace kontur {
@@ -30,28 +34,52 @@ std::vector<T> pick(const std::vector<T>& from, const Indices& indices) {
     return picked;
 }
 
-/// Every few of the points, evenly along the contours, about `most` in all; short contours keep more of theirs.
+/// Whether a point goes on from the one before it along the same line. The contours' numbers need not be in order, a contour
+/// may have several stretches (its lid is one), and single points belong to none.
+bool follows(const std::vector<BoundaryPoint>& points, std::size_t i) {
+    return i > 0 && points[i].contour != kNoContour && points[i].contour == points[i - 1].contour;
+}
+
+/// For each point the length of its stretch: consecutive points of one contour; 0 for single points.
+std::vector<double> stretch_lengths(const std::vector<BoundaryPoint>& points) {
+    std::vector<double> lengths(points.size(), 0.0);
+    for (std::size_t first = 0, next = 1; first < points.size(); first = next++) {
+        double length = 0;
+        for (; next < points.size() && follows(points, next); ++next)
+            length += distance(points[next].position, points[next - 1].position);
+        std::fill(lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.begin() + static_cast<std::ptrdiff_t>(next),
+                  length);
+    }
+    return lengths;
+}
+
+/// Of how many single points one stays: all do unless they alone are more than `most`.
+std::size_t single_point_step(const std::vector<BoundaryPoint>& points, std::size_t most) {
+    const auto singles = static_cast<std::size_t>(
+        std::count_if(points.begin(), points.end(), [](const BoundaryPoint& p) { return p.contour == kNoContour; }));
+    return (singles + most - 1) / most;
+}
+
+/// Every few of the points, evenly along the contours, about `most` > 0 in all; short contours keep more of theirs.
 Indices thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
-    constexpr double kLeastPerContour = 24;
+    constexpr double kLeastPerStretch = 24;
     Indices kept;
     if (points.size() <= most) {
         kept.resize(points.size());
         std::iota(kept.begin(), kept.end(), std::size_t{0});
         return kept;
     }
-    const auto step_to = [&](std::size_t i) {
-        const bool follows = i > 0 && points[i].contour == points[i - 1].contour;
-        return follows ? distance(points[i].position, points[i - 1].position) : 0.0;
-    };
-    std::vector<double> lengths(static_cast<std::size_t>(points.back().contour) + 1);
-    for (std::size_t i = 0; i < points.size(); ++i) lengths[static_cast<std::size_t>(points[i].contour)] += step_to(i);
-    const double step = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(most);
+    const std::vector<double> lengths = stretch_lengths(points);
+    double total = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) total += follows(points, i) ? 0 : lengths[i];
+    const double step = total / static_cast<double>(most);
+    const std::size_t every = single_point_step(points, most);
 
     double since = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        since += step_to(i);
-        const double own_step = std::min(step, lengths[static_cast<std::size_t>(points[i].contour)] / kLeastPerContour);
-        if (i > 0 && points[i].contour == points[i - 1].contour && since < own_step) continue;
+    for (std::size_t i = 0, single = 0; i < points.size(); ++i) {
+        if (points[i].contour == kNoContour && single++ % every != 0) continue;
+        if (follows(points, i)) since += distance(points[i].position, points[i - 1].position);
+        if (follows(points, i) && since < std::min(step, lengths[i] / kLeastPerStretch)) continue;
         kept.push_back(i);
         since = 0;
     }
@@ -254,8 +282,24 @@ private:
 
 std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
 
-Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+void check_fit_options(const FitOptions& options, std::size_t points) {
+    check_at_least("the number of rounds", options.rounds, 0);
+    check_at_least("the number of rounds for caps", options.cap_rounds, 0);
+    check_not_below_0("the start's smoothing", options.start_smoothing);
+    check_not_below_0("the smoothing's factor", options.smoothing_factor);
+    if (!(options.least_slope > 0 && options.least_slope <= 1))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the least slope is {:g}; it must be in (0, 1]", options.least_slope));
+    check_above_0("the early tolerance's factor", options.early_tolerance_factor);
+    if (options.tilt_points < 1)
+        throw Error(ErrorKind::invalid_input, "the tilts are to be found from 0 points; at least 1 is needed");
+    if (!options.start_slopes.empty()) check_slopes(options.start_slopes, points);
+    check_place_options(options.place);
     check_solve_options(options.solve);  // before the early solves, which change them
+}
+
+Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+    check_fit_options(options, contours.points.size());
     return Fitter(contours, options, progress).run();
 }
 

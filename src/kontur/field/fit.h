@@ -42,6 +42,10 @@ struct Fit {
     std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
 };
 
+/// Throws Error(invalid_input) for counts below 0, factors and lengths that are not finite or make no sense, slopes outside
+/// of (0, 1] or not one for each of the points, and what check_place_options and check_solve_options refuse.
+void check_fit_options(const FitOptions& options, std::size_t points);
+
 /// Fits the implicit function to prepared contours. A contour fixes only the in-plane part of the surface's direction;
 /// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
 /// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
@@ -53,7 +57,8 @@ struct Fit {
 /// contradicts itself.
 ///
 /// Where f exceeds the limit of a cap or leak probe after a round, the limit becomes a constraint of the later rounds; on
-/// coplanar contours all caps do from the start. Interior and exterior points are bounds of the same kind.
+/// coplanar contours all caps do from the start. Interior and exterior points are bounds of the same kind. Throws Error as
+/// check_fit_options, place_constraints and solve do.
 Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress = {});
 
 }  // namespace kontur

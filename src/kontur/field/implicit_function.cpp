@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/smallest_ball.h"
 
 namespace kontur {
@@ -32,7 +33,10 @@ ImplicitFunction::ImplicitFunction() : data_(std::make_shared<const Data>()) {}
 
 ImplicitFunction::ImplicitFunction(Kernel kernel, const UnitFrame& frame, PointArrays centers, std::vector<double> weights,
                                    std::array<double, 4> polynomial)
-    : data_(std::make_shared<const Data>(Data{kernel, frame, std::move(centers), std::move(weights), polynomial})) {}
+    : data_(std::make_shared<const Data>(Data{kernel, frame, std::move(centers), std::move(weights), polynomial})) {
+    check_same_count("weights", data_->weights.size(), "centres", data_->centers.size());
+    check_above_0("the scale of the function's frame", frame.scale);
+}
 
 Kernel ImplicitFunction::kernel() const { return data_->kernel; }
 const UnitFrame& ImplicitFunction::frame() const { return data_->frame; }
@@ -65,6 +69,7 @@ void ImplicitFunction::finish_gradients(std::span<Vec3> gradients) const {
 }
 
 void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, int threads) const {
+    check_same_count("values", out.size(), "points", points_mm.size());
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel(d.kernel, d.centers, d.weights, points, out, threads);
@@ -72,6 +77,7 @@ void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double>
 }
 
 void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads) const {
+    check_same_count("gradients", out.size(), "points", points_mm.size());
     const Data& d = *data_;
     sum_kernel_gradient(d.kernel, d.centers, d.weights, PointArrays(d.frame.to_unit(points_mm)), out, threads);
     finish_gradients(out);
@@ -79,6 +85,8 @@ void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3
 
 void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values,
                                             std::span<Vec3> gradients, int threads) const {
+    check_same_count("values", values.size(), "points", points_mm.size());
+    check_same_count("gradients", gradients.size(), "points", points_mm.size());
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, threads);

@@ -30,7 +30,8 @@ class ImplicitFunction {
 public:
     /// The zero function.
     ImplicitFunction();
-    /// `centers` in `frame`'s unit coordinates; `polynomial` = {p0, p1, p2, p3} on the same coordinates.
+    /// `centers` in `frame`'s unit coordinates; `polynomial` = {p0, p1, p2, p3} on the same coordinates. Throws
+    /// Error(invalid_input) unless there is one weight for each centre and the frame's scale is above 0.
     ImplicitFunction(Kernel kernel, const UnitFrame& frame, PointArrays centers, std::vector<double> weights,
                      std::array<double, 4> polynomial);
 
@@ -44,7 +45,8 @@ public:
     /// Gradient per mm; it points inward.
     Vec3 gradient(const Vec3& point_mm) const;
 
-    /// out[i] = value(points[i]), the same bytes as `value`, in bulk on `threads` threads (0: the machine's).
+    /// out[i] = value(points[i]), the same bytes as `value`, in bulk on `threads` threads (0: the machine's). This and the
+    /// following throw Error(invalid_input) unless there is one place in `out` for each point.
     void values(std::span<const Vec3> points_mm, std::span<double> out, int threads = 0) const;
     /// out[i] = gradient(points[i]), in bulk.
     void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads = 0) const;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "kontur/base/checks.h"
 #include "kontur/shape/self_contacts.h"
 
 namespace kontur {
@@ -36,6 +37,7 @@ Point2 left_normal(const Polygon2& polygon, std::size_t i) {
 }  // namespace
 
 ContourOrientation orient(const Contour& contour) {
+    check_at_least("the number of points of the contour", static_cast<std::int64_t>(contour.points.size()), 3);
     const Plane& plane = contour.plane;
     Polygon2 polygon;
     for (const Vec3& p : contour.points) polygon.push_back(plane.to_uv(p));

@@ -24,7 +24,7 @@ struct ContourOrientation {
 /// outward normals, as under the even-odd rule. Also right where a contour runs through its own points or along its own
 /// segments: the sign is flipped there as if its points were displaced infinitesimally. All decisions are exact on the
 /// in-plane coordinates. Needs at least 3 points of which none repeats the one before it. O(n log n) time for n points of
-/// which few lie side by side.
+/// which few lie side by side. Throws Error(invalid_input) for fewer.
 ContourOrientation orient(const Contour& contour);
 
 }  // namespace kontur

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "kontur/base/checks.h"
 #include "kontur/field/clicks.h"
 #include "kontur/field/ends.h"
 #include "kontur/field/gaps.h"
@@ -147,9 +148,19 @@ Contour refined(const Contour& contour, int least_segments, const DrawnCorners& 
                              perimeter / std::max(least_segments, 1));
 }
 
+void check_prepare_options(const PrepareOptions& options) {
+    check_quality(options.quality);
+    check_at_least("the least number of segments", options.least_segments, 0);
+    check_not_below_0("the shift of the copy", options.copy_shift_mm, " mm");
+    check_above_0("the margin of interior and exterior points", options.click_margin_mm, " mm");
+    check_above_0("the spacing at corners", options.corner_spacing_mm, " mm");
+    check_threads(options.threads);
+}
+
 }  // namespace
 
 PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options) {
+    check_prepare_options(options);
     PreparedContours prepared;
     if (drawn.contours.empty()) return prepared;
     ContourSet set = drawn;
@@ -161,7 +172,7 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
 
     ContourSet fitted = set;
     const DrawnCorners corners(set, options.corners);
-    for (Contour& contour : fitted.contours) contour = reduce(contour, {options.quality});  // which checks the quality
+    for (Contour& contour : fitted.contours) contour = reduce(contour, {options.quality});
     const int least = least_segments(options, set.contours.size());
     for (Contour& contour : fitted.contours) contour = refined(contour, least, corners, options);
     if (prepared.coplanar && options.copy_shift_mm > 0) {

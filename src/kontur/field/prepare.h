@@ -39,7 +39,7 @@ struct PreparedContours {
 /// Finds the holes (apply_fill_rule; the points' indices are those after it), cleans (tidy), reduces, refines and orients
 /// every contour, finds the sides of open contours and what the ends of the object add. Contours in one plane leave f free
 /// across it and the system singular: either the caps or the shifted copy must close the surface. Throws
-/// Error(invalid_input) for a contour that encloses nothing.
+/// Error(invalid_input) for a contour that encloses nothing, and for options outside of their range.
 PreparedContours prepare(const ContourSet& set, const PrepareOptions& options = {});
 
 }  // namespace kontur

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kontur/base/checks.h"
+
 namespace kontur {
 namespace {
 
@@ -77,6 +79,9 @@ std::string_view name(Conflicts conflicts) noexcept {
 }
 
 void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options) {
+    check_above_0("the offset to reconcile by", options.offset_mm, " mm");
+    check_not_below_0("the strength of reconciling", options.strength);
+    check_above_0("the reach of reconciling", options.reach);
     if (options.conflicts == Conflicts::exact) return;
     const std::vector<std::vector<Doubt>> doubts = doubts_by_contour(crossings, trust_by_contour(points), options);
     for (BoundaryPoint& point : points)

@@ -30,7 +30,8 @@ struct ReconcileOptions {
 /// measured disagreement, and only there. Elsewhere contours keep their trust. Of two that both yield, the one that is
 /// trusted more (Contour::weight) yields less: with trusts v and w the first gets 2 w / (v + w) times what equal ones yield.
 /// `crossings` are those of find_crossings on the set that the points were made from. O(points * crossings of their
-/// contour).
+/// contour). Throws Error(invalid_input) for an offset or reach that is not above 0, a strength below 0, and any that is not
+/// finite.
 void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options);
 
 }  // namespace kontur

@@ -8,6 +8,7 @@
 #include <queue>
 #include <string>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 
 namespace kontur {
@@ -64,10 +65,16 @@ private:
 
 }  // namespace
 
+void check_quality(double quality) {
+    if (!(quality > 0 && quality <= 1))
+        throw Error(ErrorKind::invalid_input, fmt::format("the reduction quality is {:g}; it must be in (0, 1]", quality));
+}
+
 Contour reduce(const Contour& contour, const ReduceOptions& options) {
-    if (!(options.quality > 0 && options.quality <= 1))
+    check_quality(options.quality);
+    if (options.min_points < 2)
         throw Error(ErrorKind::invalid_input,
-                    fmt::format("the reduction quality is {:g}; it must be in (0, 1]", options.quality));
+                    fmt::format("a contour is to be reduced to {} points; at least 2 must stay", options.min_points));
     const std::size_t n = contour.points.size();
     // 0.55 * 100 is a little more than 55 in binary; that must not cost a point.
     const auto wanted = static_cast<std::size_t>(std::ceil(options.quality * static_cast<double>(n) * (1 - 1e-12)));
@@ -95,7 +102,9 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
 }
 
 Contour refine(const Contour& contour, int least_segments) {
+    check_at_least("the least number of segments", least_segments, 0);
     const std::size_t n = contour.points.size(), segments = contour.closed ? n : n - 1;
+    if (n < 2) return contour;
     double total = 0;
     for (std::size_t i = 0; i < segments; ++i) total += distance(contour.points[i], contour.points[(i + 1) % n]);
     const double average = total / static_cast<double>(segments);

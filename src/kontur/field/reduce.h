@@ -10,16 +10,19 @@ struct ReduceOptions {
     std::size_t min_points = 6;  ///< a contour is never reduced below this many points
 };
 
+void check_quality(double quality);
+
 /// Removes the points that matter least for a contour's shape (paper section 4.3, after Latecki & Lakaemper 1999): weight
 /// = (1 - cos of the turning angle) / 2 * |a||b| / (|a| + |b|) for the adjacent edges a and b; the point of lowest weight
 /// goes, its neighbours' weights are updated, until ceil(q * original) points are left. The ends of an open contour stay.
 /// O(m log m) for m points.
-/// Throws Error(invalid_input) for a quality outside (0, 1].
+/// Throws Error(invalid_input) for a quality outside (0, 1] (check_quality), and fewer than 2 points at least.
 Contour reduce(const Contour& contour, const ReduceOptions& options = {});
 
 /// Subdivides long segments (paper section 5.2): a segment longer than twice the contour's average segment length gets
 /// equally spaced points at about the average length. Where the average is longer than 1 / `least_segments` of the
 /// perimeter, that length takes its place, so that a square drawn by its four corners stays a square. Drawn points stay.
+/// Throws Error(invalid_input) for `least_segments` below 0.
 Contour refine(const Contour& contour, int least_segments = 0);
 
 }  // namespace kontur

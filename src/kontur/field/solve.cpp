@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/field/linear_system.h"
 
@@ -33,6 +34,9 @@ void check(const ConstraintSet& constraints, const SolveOptions& options) {
     if (constraints.size() < 4)
         throw Error(ErrorKind::invalid_input, "there are " + std::to_string(constraints.size()) +
                                                   " constraints; a linear polynomial in space needs at least 4");
+    check_same_count("values", constraints.values.size(), "constraints", constraints.size());
+    if (!constraints.trust.empty())
+        check_same_count("degrees of trust", constraints.trust.size(), "constraints", constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!is_finite(constraints.centers[i]) || !std::isfinite(constraints.values[i]))
             throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
@@ -122,6 +126,11 @@ void check_solve_options(const SolveOptions& options) {
     if (!(options.smoothing >= 0 && std::isfinite(options.smoothing)))
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the smoothing is {:g}; it must be finite and at least 0", options.smoothing));
+    check_at_least("the most iterations of the solver", options.max_iterations, 1);
+    if (!(options.max_memory_mb > 0))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the solver's memory limit is {:g} MB; it must be above 0", options.max_memory_mb));
+    check_threads(options.threads);
 }
 
 Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress,
@@ -129,6 +138,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     SolveOptions options = requested;
     if (options.solver == Solver::automatic) options.solver = Solver::iterative;
     check(constraints, options);
+    if (previous)
+        check_same_count("weights of the previous solve", previous->weights.size(), "centres", previous->centers.size());
     progress.check();
 
     const UnitFrame frame = unit_frame(constraints.centers);

@@ -33,7 +33,8 @@ struct SolveOptions {
     int threads = 0;                          ///< 0: the machine's
 };
 
-/// Throws Error(invalid_input) for a tolerance that is not above 0, a smoothing below 0, and either that is not finite.
+/// Throws Error(invalid_input) for a tolerance or memory limit that is not above 0, a smoothing below 0, a tolerance or
+/// smoothing that is not finite, fewer than one iteration, and threads below 0.
 void check_solve_options(const SolveOptions& options);
 
 struct SolveReport {
@@ -65,8 +66,8 @@ struct PreviousSolve {
 
 /// The variational interpolant through the constraints: Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
 /// Throws Error(singular_system) when the centres coincide or all lie in one plane, Error(too_large) when the dense matrix
-/// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints, values that are not finite, or what
-/// `check_solve_options` refuses.
+/// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints, values that are not finite or not one
+/// for each centre, or what `check_solve_options` refuses.
 /// Results are the same bytes for any number of threads. The iterative solver starts from the weights that centres had in
 /// the `previous` solve, which is replaced by this one; so it takes fewer iterations to the same tolerance.
 Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {},

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 
 namespace kontur {
@@ -96,10 +97,11 @@ private:
 };
 
 void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
-    if (contour.points.size() <= options.most_points) return;
+    const std::size_t most = std::max<std::size_t>(options.most_points, 4);
+    if (contour.points.size() <= most) return;
     const Significance significance(contour);
     std::vector<double> sorted = significance.values();
-    const auto last_kept = sorted.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(options.most_points, 4));
+    const auto last_kept = sorted.begin() + static_cast<std::ptrdiff_t>(most);
     std::nth_element(sorted.begin(), last_kept, sorted.end(), std::greater<>());
     const double limit = std::max(*last_kept, options.thin_tolerance_mm);
 
@@ -116,6 +118,8 @@ void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
 }  // namespace
 
 Tidied tidy(ContourSet& set, const TidyOptions& options) {
+    check_not_below_0("the tolerance for spikes", options.spike_tolerance_mm, " mm");
+    check_not_below_0("the tolerance for thinning", options.thin_tolerance_mm, " mm");
     Tidied tidied;
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         Contour& contour = set.contours[c];

@@ -355,6 +355,7 @@ std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, cons
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
+    check_image(labels, "the label map");
     check_segments(labels, segments);
     const auto values =
         Lookup(labels.grid, grid).values<std::uint16_t>([&](std::size_t offset) { return sample(labels, offset); });
@@ -373,6 +374,7 @@ std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
     check_masks(masks, segments);
+    for (const Mask& mask : masks) check_mask(mask);
     return write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
         const Mask& mask = masks[s];
         return Lookup(mask.grid, grid).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });

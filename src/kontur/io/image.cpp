@@ -227,6 +227,7 @@ Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const Re
 }
 
 void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& options) {
+    check_mask(mask);
     const std::int64_t value = options.label_value;
     check_label_value(value);
     const auto segment = [&] { return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0}}; };
@@ -241,6 +242,7 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
 }
 
 void write_image(const fs::path& path, const Image& image, const WriteImageOptions& options) {
+    check_image(image);
     ImageView view(image);
     view.provenance = options.provenance;
     write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });

@@ -52,6 +52,7 @@ struct WriteImageOptions {
 };
 
 /// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz, .mgh), whole or not at all.
+/// Throws as check_mask does.
 void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
 
 /// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label, named as in

@@ -8,7 +8,6 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
-#include "kontur/measure/mask_check.h"
 #include "kontur/measure/point_tree.h"
 
 namespace kontur {

@@ -6,8 +6,6 @@
 #include <functional>
 #include <numeric>
 
-#include "kontur/measure/mask_check.h"
-
 namespace kontur {
 namespace {
 
@@ -79,7 +77,7 @@ void join_rows(const RunList& list, std::int64_t row_a, std::int64_t row_b, Disj
 }  // namespace
 
 std::vector<std::int64_t> component_sizes(const Mask& mask) {
-    check_mask(mask, "the mask");
+    check_mask(mask);
     const Index3 size = mask.grid.size;
     const RunList list = find_runs(mask);
     DisjointSets sets(list.runs.size());

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kontur/base/checks.h"
 #include "kontur/measure/contour_check.h"
 #include "kontur/measure/findings.h"
 #include "kontur/shape/contour_nesting.h"
@@ -303,6 +304,8 @@ private:
 }  // namespace
 
 std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCheckOptions& options) {
+    check_tolerances(options.limits);
+    if (options.disagreement_mm) check_not_below_0("how far contours may disagree", *options.disagreement_mm, " mm");
     std::vector<Finding> findings;
     Sound sound;
     for (std::size_t c = 0; c < set.contours.size(); ++c)

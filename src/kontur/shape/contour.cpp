@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/shape/grid.h"
 
@@ -194,7 +195,13 @@ void check_contours(const ContourSet& set, const ContourCheckOptions& options) {
     if (!problems.empty()) refuse(problems.front());
 }
 
+void check_tolerances(const ContourCheckOptions& options) {
+    check_not_below_0("the tolerance for points off their plane", options.plane_tolerance_mm, " mm");
+    check_not_below_0("the tolerance for lines", options.line_tolerance_mm, " mm");
+}
+
 std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options) {
+    check_tolerances(options);
     std::vector<std::string> problems;
     for (std::size_t i = 0; i < set.contours.size(); ++i)
         if (const auto problem = contour_problem(set.contours[i], fmt::format("contour {}", i + 1), options))

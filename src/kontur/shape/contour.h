@@ -84,6 +84,9 @@ struct ContourCheckOptions {
     double line_tolerance_mm = 0.002;  ///< a contour no wider than this is a line (files round to 0.001 mm)
 };
 
+/// Throws Error(invalid_input) for a tolerance below 0 or not finite.
+void check_tolerances(const ContourCheckOptions& options);
+
 /// Of the contours' box diagonal: a surface point farther away would make lengths that follow from the extent larger than
 /// the contours themselves.
 inline constexpr double kFarthestSurfacePoint = 100;

@@ -52,6 +52,14 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
+void check_triangles(const TriangleMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (const std::uint32_t corner : mesh.triangles[i])
+            if (corner >= mesh.points.size())
+                throw Error(ErrorKind::invalid_input, fmt::format("triangle {} of the mesh refers to point {} of {}", i + 1,
+                                                                  std::uint64_t{corner} + 1, mesh.points.size()));
+}
+
 }  // namespace
 
 void check_mesh(const TriangleMesh& mesh) {
@@ -65,14 +73,11 @@ void check_mesh(const TriangleMesh& mesh) {
             throw Error(ErrorKind::invalid_input, fmt::format("point {} of the mesh is ({}, {}, {}); at most {} is possible",
                                                               i + 1, p.x, p.y, p.z, kLargest));
     }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (const std::uint32_t corner : mesh.triangles[i])
-            if (corner >= mesh.points.size())
-                throw Error(ErrorKind::invalid_input, fmt::format("triangle {} of the mesh refers to point {} of {}", i + 1,
-                                                                  std::uint64_t{corner} + 1, mesh.points.size()));
+    check_triangles(mesh);
 }
 
 double signed_volume_mm3(const TriangleMesh& mesh) {
+    check_triangles(mesh);
     if (mesh.points.empty()) return 0;
     // Far from the origin the tetrahedra would cancel almost entirely; a point of the mesh keeps them small.
     const Vec3 apex = bounding_box(mesh.points).center();
@@ -83,6 +88,7 @@ double signed_volume_mm3(const TriangleMesh& mesh) {
 }
 
 MeshTopology topology(const TriangleMesh& mesh) {
+    check_triangles(mesh);
     const std::vector<Edge> edges = sorted_edges(mesh);
     MeshTopology result;
     result.closed = result.oriented = !edges.empty();

@@ -20,7 +20,8 @@ struct TriangleMesh {
 /// mesh does not have, or normals for other than all points.
 void check_mesh(const TriangleMesh& mesh);
 
-/// Enclosed volume in mm^3 (divergence theorem); negative when the triangles are turned inward.
+/// Enclosed volume in mm^3 (divergence theorem); negative when the triangles are turned inward. This and the following
+/// throw Error(invalid_input) for a triangle with a point that the mesh does not have; other points do not matter.
 double signed_volume_mm3(const TriangleMesh& mesh);
 
 /// What makes a mesh a solid's surface.

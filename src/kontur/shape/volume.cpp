@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/shape/volume.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,6 +34,7 @@ bool linear_step(double index, std::int64_t size, LinearStep& step) {
 /// Mask of the voxels for which `inside(value)` holds.
 template <typename Inside>
 Mask select(const Image& image, const Inside& inside) {
+    check_image(image);
     Mask mask{image.grid, std::vector<std::uint8_t>(static_cast<std::size_t>(image.grid.voxel_count()))};
     std::visit(
         [&](const auto& samples) {
@@ -40,6 +43,13 @@ Mask select(const Image& image, const Inside& inside) {
         },
         image.samples);
     return mask;
+}
+
+void check_count(std::size_t values, const Grid& grid, std::string_view name) {
+    check_grid(grid);
+    if (static_cast<std::int64_t>(values) != grid.voxel_count())
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} has {} values for a grid of {} voxels", name, values, grid.voxel_count()));
 }
 
 bool is_label(double value) { return std::trunc(value) == value && std::abs(value) < 9.2e18; }
@@ -64,7 +74,14 @@ std::string list_of(const std::map<std::int64_t, std::int64_t>& labels) {
 
 }  // namespace
 
+void check_mask(const Mask& mask, std::string_view name) { check_count(mask.values.size(), mask.grid, name); }
+
+void check_image(const Image& image, std::string_view name) {
+    check_count(std::visit([](const auto& samples) { return samples.size(); }, image.samples), image.grid, name);
+}
+
 Box3 bounding_box(const Mask& mask) {
+    check_mask(mask);
     Box3 box;
     const Index3& n = mask.grid.size;
     for (std::int64_t k = 0; k < n.k; ++k)
@@ -109,6 +126,7 @@ Mask select_nonzero(const Image& image) {
 }
 
 std::map<std::int64_t, std::int64_t> count_labels(const Image& image, std::size_t max_labels) {
+    check_image(image);
     std::map<std::int64_t, std::int64_t> counts;
     std::visit(
         [&](const auto& samples) {

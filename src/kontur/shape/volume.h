@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -30,13 +31,18 @@ struct Image {
     Samples samples;  ///< `grid.voxel_count()` values, i fastest
 };
 
+/// Throw Error(invalid_input), naming what it is, for a grid that check_grid refuses and for other than one value for each
+/// of its voxels.
+void check_mask(const Mask& mask, std::string_view name = "the mask");
+void check_image(const Image& image, std::string_view name = "the image");
+
 /// The value at a linear offset (see Grid::offset).
 double sample(const Image& image, std::size_t offset);
 
 /// Trilinear interpolation at a point in mm; `outside` beyond the outermost voxel centres by more than half a voxel.
 double interpolate(const Image& image, const Affine3& mm_to_index, const Vec3& point_mm, double outside);
 
-/// Voxels with exactly this value. `label` is compared as a number.
+/// Voxels with exactly this value. `label` is compared as a number. This and the following throw as check_image does.
 Mask select_label(const Image& image, double label);
 
 /// Voxels with a value other than 0.

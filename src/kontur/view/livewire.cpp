@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 
 namespace kontur {
@@ -129,6 +130,7 @@ PixelPosition EdgeMap::refined(Pixel p) const {
 
 LiveWire::LiveWire(const EdgeMap& edges, Pixel seed, int reach) : edges_(edges), seed_(seed) {
     if (!edges.contains(seed)) throw Error(ErrorKind::invalid_input, "the seed of a live-wire lies outside of the slice");
+    check_at_least("the reach of a live-wire", reach, 0);
     first_ = {std::max(0, seed.column - reach), std::max(0, seed.row - reach)};
     last_ = {std::min(edges.width() - 1, seed.column + reach), std::min(edges.height() - 1, seed.row + reach)};
     window_width_ = last_.column - first_.column + 1;

@@ -62,7 +62,7 @@ private:
 /// along a row or column are not searched.
 class LiveWire {
 public:
-    /// `edges` must outlive the object. Throws Error(invalid_input) for a seed outside of the slice.
+    /// `edges` must outlive the object. Throws Error(invalid_input) for a seed outside of the slice and a reach below 0.
     LiveWire(const EdgeMap& edges, Pixel seed, int reach = 256);
 
     Pixel seed() const { return seed_; }

@@ -99,7 +99,10 @@ private:
 
 }  // namespace
 
-std::vector<Polyline> outline(const TriangleMesh& mesh, const Plane& plane) { return CutGraph(mesh, plane).lines(); }
+std::vector<Polyline> outline(const TriangleMesh& mesh, const Plane& plane) {
+    check_mesh(mesh);
+    return CutGraph(mesh, plane).lines();
+}
 
 std::vector<Vec3> crossings(const Contour& contour, const Plane& plane) {
     std::vector<Vec3> result;

@@ -17,7 +17,7 @@ struct Polyline {
 /// The mesh's surface cut by a plane: closed lines where the mesh is closed, open ones where they end at its border.
 /// A point of the mesh that lies on the plane counts as lying on the normal's side, so a closed mesh always gives closed
 /// lines; a plane that only touches the mesh gives none. Order and direction of the lines are not specified, but the same
-/// for the same mesh. Linear in the number of triangles.
+/// for the same mesh. Linear in the number of triangles. Throws Error(invalid_input) as check_mesh does.
 std::vector<Polyline> outline(const TriangleMesh& mesh, const Plane& plane);
 
 /// Points in mm where a contour's line crosses the plane.

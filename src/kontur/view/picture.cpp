@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/isolines.h"
 #include "kontur/view/panels.h"
@@ -173,6 +174,8 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
                       const PictureOptions& options) {
     check_size(options);
     check_mesh(mesh);
+    if (image) check_image(*image);
+    check_threads(options.threads);
     const Layout layout = lay_out(options.width_px, options.height_px);
     Canvas canvas(options.width_px, options.height_px);
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);

@@ -37,7 +37,7 @@ struct PictureOptions {
 /// tilted stack of contours (see `choose_slices`). Without an image (null) the slices
 /// stand on a plain ground; an empty mesh gives a picture that says so. Same input, same bytes (with the same fonts).
 /// Well under a second for 400,000 triangles on two cores. Throws Error(invalid_input) for a picture below the least size
-/// and a mesh that `check_mesh` refuses, Error(too_large) above 16384 pixels on a side.
+/// and what `check_mesh` and `check_image` refuse, Error(too_large) above 16384 pixels on a side.
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
                       const PictureOptions& options = {});
 

@@ -77,7 +77,7 @@ Reslice centered_reslice(const Plane& plane, int width, int height, double pixel
 
 std::vector<float> reslice(const Image& image, const Reslice& raster, float outside) {
     check_raster(raster);
-    check_grid(image.grid);
+    check_image(image);
     const Affine3 mm_to_index = image.grid.index_to_mm.inverse();
     const Vec3 step = mm_to_index.apply_linear(raster.pixel_mm * raster.plane.u);
     const auto width = static_cast<std::size_t>(raster.width);

@@ -21,8 +21,8 @@ Reslice centered_reslice(const Plane& plane, int width, int height, double pixel
 
 /// The image on the raster: width * height trilinear samples, row after row; `outside` beyond the outermost voxel centres
 /// by more than half a voxel, as `interpolate` has it. Right for oblique, sheared and left-handed grids.
-/// Throws Error(invalid_input) for a raster of no pixels, a pixel size that is not > 0, or a degenerate grid, and
-/// Error(too_large) above 2^28 pixels.
+/// Throws Error(invalid_input) for a raster of no pixels, a pixel size that is not > 0, or an image that check_image
+/// refuses, and Error(too_large) above 2^28 pixels.
 std::vector<float> reslice(const Image& image, const Reslice& raster, float outside);
 
 }  // namespace kontur

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/parallel.h"
 #include "kontur/view/depth_buffer.h"
 
@@ -131,7 +132,12 @@ std::uint32_t premultiplied_argb(const Vec3& linear, double alpha) {
 }  // namespace
 
 ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeOptions& options) {
-    const int samples = std::max(1, options.samples);
+    check_mesh(mesh);
+    check_at_least("the width of the view in pixels", camera.width, 1);
+    check_at_least("the height of the view in pixels", camera.height, 1);
+    check_above_0("the pixel size of the view", camera.pixel_mm, " mm");
+    check_at_least("the number of samples per pixel", options.samples, 1);
+    const int samples = options.samples;
     const Camera fine_camera{camera.plane, camera.width * samples, camera.height * samples, camera.pixel_mm / samples};
     const DepthBuffer fine = render_depth(mesh, fine_camera, options.threads);
     const DepthBuffer coarse = nearest_per_pixel(fine, samples);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "fuzz/drawings.h"
+#include "fuzz/targets.h"
+#include "kontur/base/error.h"
+#include "kontur/field/fit.h"
+#include "support/random.h"
+
+namespace kontur::fuzz {
+namespace {
+
+std::vector<std::uint8_t> random_bytes(std::size_t count, std::mt19937& random) {
+    std::vector<std::uint8_t> bytes(count);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    return bytes;
+}
+
+/// Contours, stretches, ends, holes, weights, points and clicks, and options of the fit; most of them can be fitted.
+TEST(RandomMixes, OfDrawingsAndOptionsEndInAFunctionOrASentence) {
+    std::mt19937 random = test::random_of_this_test();
+    constexpr int kMixes = 150;
+    std::map<std::string, int> refused;
+    int fitted = 0;
+    for (int mix = 0; mix < kMixes; ++mix) {
+        try {
+            fitting(random_bytes(6000, random));
+            ++fitted;
+        } catch (const Error& error) {
+            ++refused[error.what()];
+        }
+    }
+    for (const auto& [why, count] : refused) std::printf("%3d %s\n", count, why.c_str());
+    EXPECT_GT(fitted, kMixes / 3) << "a generator of nonsense tests nothing but the checks";
+}
+
+/// As many points as drawings of organs have, thinned to very few of them.
+TEST(RandomMixes, OfManyPointsCanBeThinnedToFew) {
+    std::mt19937 random = test::random_of_this_test();
+    int fitted = 0;
+    for (int mix = 0; mix < 20; ++mix) {
+        const std::vector<std::uint8_t> bytes = random_bytes(6000, random);
+        Choices choose(bytes);
+        const ContourSet set = mixed_drawing(choose);
+        const double diameter = diameter_mm(set);
+        FitOptions options;
+        options.tilt_points = options.most_points = 8;
+        options.rounds = 1;
+        options.cap_rounds = 1;
+        options.place = {0.0045 * diameter, 6e-4 * diameter};
+        options.solve.smoothing = 1e-5;
+        try {
+            const PreparedContours prepared = prepare(set, {.least_segments = 200});
+            EXPECT_EQ(fit(prepared, options).slopes.size(), prepared.points.size());
+            ++fitted;
+        } catch (const Error&) {
+        }
+    }
+    EXPECT_GT(fitted, 5);
+}
+
+}  // namespace
+}  // namespace kontur::fuzz

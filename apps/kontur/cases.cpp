@@ -180,16 +180,6 @@ std::string state_of(const std::vector<fs::path>& files, const fs::path& folder)
     return hash.hex();
 }
 
-/// Of the files of a folder for which `counts` holds.
-std::string folder_state(const fs::path& folder, const std::function<bool(const fs::path&)>& counts) {
-    std::vector<fs::path> files;
-    std::error_code failure;
-    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
-        if (counts(entry->path())) files.push_back(entry->path());
-    std::sort(files.begin(), files.end());
-    return state_of(files, folder);
-}
-
 /// Of the slices of a DICOM series, in its folder or in those below it.
 std::string series_state(const fs::path& folder) {
     try {

@@ -11,6 +11,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import struct
 import subprocess
 import sys
@@ -710,6 +711,92 @@ def make_tables(make):
         make.add(f"device_{command[0]}", ball[0][0], ball[0][1], command)
 
 
+# --- What neighbours' programs write ---
+
+
+def supported(work, script, *words):
+    """The files that a script of the tests writes, by name."""
+    folder = work / f"{script}{''.join(words)}"
+    folder.mkdir()
+    support(script, *words, folder)
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.is_file()}
+
+
+def make_mgh(make, work):
+    files = supported(work, "image_oracle.py", "make-mgh")
+    tail = 20  # of the scan, behind the voxels: a file may end before it
+    plain = files["axial_u1.mgh"][:-tail]
+    make.cut("mgh", "a.mgh", plain)
+    make.cut("mgz", "a.mgz", files["axial_i2.mgz"][:-tail])
+    for axis in (0, 1, 2, 3):
+        for size in (0, -1, -(2**31), 2**31 - 1):
+            make.add(f"mgh_size_{axis}_{size}", "a.mgh", patched(plain, 4 + 4 * axis, ">i", size))
+    for place, form, value in [(0, ">i", 2), (20, ">i", 7), (28, ">h", 0)] + [
+        (at, ">f", value) for at in (30, 38, 42, 78) for value in (math.nan, math.inf)
+    ]:
+        make.add(f"mgh_{place}_{value}", "a.mgh", patched(plain, place, form, value))
+    make.add("mgz_bomb", "a.mgz", gzip.compress(patched(plain, 4, ">3i", 1024, 1024, 1024)[:284]) + zeros_gz(64 << 20))
+    make.flip("mgh", "a.mgh", files["axial_u1.mgh"], 20)
+
+
+def make_gipl(make, work):
+    plain = supported(work, "image_oracle.py", "make-gipl")["i2.gipl"]
+    words = ["convert", "a.gipl", "o.nii", "--allow-missing-geometry"]
+    make.cut("gipl", "a.gipl", plain, words)
+    make.add("gipl_without_permission", "a.gipl", plain)
+    for axis in (0, 1, 2):
+        for size in (0, 65535):
+            make.add(f"gipl_size_{axis}_{size}", "a.gipl", patched(plain, 2 * axis, ">H", size), words)
+        for value in (0, -1, math.nan, math.inf):
+            make.add(f"gipl_spacing_{axis}_{value}", "a.gipl", patched(plain, 10 + 4 * axis, ">f", value), words)
+    for place, form, value in ((8, ">H", 99), (204, ">d", math.nan), (240, ">f", math.nan), (240, ">f", 2), (252, ">I", 1)):
+        make.add(f"gipl_{place}_{value}", "a.gipl", patched(plain, place, form, value), words)
+    make.flip("gipl", "a.gipl", plain, 15, words)
+
+
+def make_pairs(make, work):
+    files = supported(work, "image_oracle.py", "make-pairs")
+    header, voxels = files["axial_1.hdr"], files["axial_1.img"]
+    make.add("pair_alone", "a.hdr", header)
+    make.add("pair_of_voxels_alone", "a.img", voxels)
+    make.cut("pair_header", "a.hdr", header[:348])
+    for length in (0, 1, len(voxels) // 2, len(voxels) - 1):
+        make.add(f"pair_voxels_cut_{length}", "a.hdr", header, beside=[("a.img", voxels[:length])])
+    for offset in (-16, math.nan, math.inf, 1e18):
+        make.add(f"pair_offset_{offset}", "a.hdr", patched(header, 108, "<f", offset), beside=[("a.img", voxels)])
+    make.add("pair_analyze", "a.hdr", patched(header, 344, "<I", 0), beside=[("a.img", voxels)])
+
+
+def make_vtk(make, files):
+    for name in ("text.vtk", "binary5.vtk"):
+        make.cut(f"vtk_{name}", "a.vtk", files[name][: files[name].index(b"POINT_DATA")], to_the_last=False)
+    text = files["text.vtk"]
+    lines = re.search(rb"LINES (\d+) (\d+)\n(\d+) (\d+)", text)
+    for number in (-1, 2**31, 2**63 - 1, 2**64):
+        make.add(f"vtk_points_{number}", "a.vtk", re.sub(rb"POINTS \d+", b"POINTS %d" % number, text))
+        for group in (1, 2, 3, 4):
+            make.add(f"vtk_lines_{group}_{number}", "a.vtk", text[: lines.start(group)] + b"%d" % number + text[lines.end(group) :])
+    for old, new in ((b"POLYDATA", b"STRUCTURED_GRID"), (b"float", b"quaternion"), (b"ASCII", b"BINARY"), (b" 1.0", b" nan"),
+                     (b" 1.0", b" 1e999"), (b"SPACE=LPS", b"SPACE=up"), (b"# vtk", b"# VTX"), (b"LINES", b"SPLINES")):
+        make.add("vtk_spoilt", "a.vtk", text.replace(old, new, 1), refused=new not in (b"SPACE=up", b"# VTX"))
+    for name in ("text.vtk", "binary5.vtk"):
+        make.flip(f"vtk_{name}", "a.vtk", files[name], 10)
+
+
+def make_vtp(make, files):
+    for name in ("ascii.vtp", "raw.vtp", "packed.vtp"):
+        make.cut(f"vtp_{name}", "a.vtp", files[name].rstrip())
+        make.flip(f"vtp_{name}", "a.vtp", files[name], 10)
+    ascii_ = files["ascii.vtp"]
+    for number in (-1, 2**31, 2**63 - 1, 2**64):
+        for key in (b"NumberOfPoints", b"NumberOfLines"):
+            make.add(f"vtp_{key.decode()}_{number}", "a.vtp", re.sub(key + rb"='\d+'", key + b"='%d'" % number, ascii_))
+        make.add(f"vtp_offset_{number}", "a.vtp", re.sub(rb'offset="\d+"', b'offset="%d"' % number, files["raw.vtp"]))
+    for old, new in ((b"Float32", b"Float16"), (b"</Points>", b""), (b'"PolyData"', b'"ImageData"'), (b'format="ascii"', b'format="poem"'),
+                     (b' 1.0', b' nan'), (b"<Piece", b"<Piece " + b"x" * 5_000_000), (b"<PolyData>", b"<PolyData>" * 100_000)):
+        make.add("vtp_spoilt", "a.vtp", ascii_.replace(old, new, 1), refused=new != b"")  # a tag's end is not needed
+
+
 def cases(folder, step=1):
     """Every `step`-th case, and how many there are; their files lie in `folder`/cases/NAME."""
     work = folder / "work"
@@ -726,4 +813,10 @@ def cases(folder, step=1):
     make_markups(make)
     make_meshes(make)
     make_tables(make)
+    make_mgh(make, work)
+    make_gipl(make, work)
+    make_pairs(make, work)
+    lines = supported(work, "make_vtk.py")
+    make_vtk(make, lines)
+    make_vtp(make, lines)
     return make.cases, make.made

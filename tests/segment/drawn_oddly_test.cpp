@@ -210,7 +210,7 @@ TEST(DrawnOddly, ManyPointsAndWhatElseCanBeDrawn) {
         for (const ContourEnd end : {ContourEnd::flat, ContourEnd::round}) {
             ContourSet ended = many_circles();
             ended.contours[which].end = end;
-            EXPECT_NEAR(volume_ml(ended), ball_ml, 0.04 * ball_ml) << which << ' ' << name(end);
+            EXPECT_NEAR(volume_ml(ended), ball_ml, 0.02 * ball_ml) << which << ' ' << name(end);
         }
 
     for (const bool first : {true, false}) {

@@ -63,10 +63,12 @@ void append_rim(const Contour& contour, std::int32_t index, const Section& regio
     constexpr int kLeastSegments = 48;
     const Contour rim = refine(contour, kLeastSegments);
     const ContourOrientation orientation = orient(rim);
+    // One ring after the other, each a line of its own: points that alternate between them cannot be thinned along their
+    // way.
+    for (std::size_t i = 0; i < rim.points.size(); ++i)
+        ends.lids.push_back({rim.points[i] - distance * up, orientation.normals[i], rim.plane.normal, index});
     for (std::size_t i = 0; i < rim.points.size(); ++i) {
-        const Vec3 &at = rim.points[i], &outward = orientation.normals[i];
-        ends.lids.push_back({at - distance * up, outward, rim.plane.normal, index});
-        const Vec3 inside = at - distance * outward;
+        const Vec3 inside = rim.points[i] - distance * orientation.normals[i];
         const Point2 on_lid = region.plane.to_uv(inside);
         if (region.contains(on_lid) && region.clearance(on_lid) > 0.9 * distance)
             ends.lids.push_back({.position = inside, .inplane_normal = up, .contour = index});

@@ -7,7 +7,7 @@ import numpy
 import pytest
 
 
-@pytest.mark.parametrize("name", ["a.nii", "a.nii.gz", "a.nrrd", "a.mha"])
+@pytest.mark.parametrize("name", ["a.nii", "a.nii.gz", "a.nrrd", "a.mha", "a.mgz"])
 def test_images_come_back(tmp_path, oblique, name):
     image = kontur.Image(numpy.arange(60, dtype="i2").reshape(oblique.shape) - 30, oblique)
     kontur.write_image(tmp_path / name, image)
@@ -38,7 +38,7 @@ def test_contours_come_back(tmp_path, case):
     assert len(both) == 12
 
 
-@pytest.mark.parametrize("name", ["a.stl", "a.ply", "a.obj"])
+@pytest.mark.parametrize("name", ["a.stl", "a.ply", "a.obj", "a.vtk", "a.vtp"])
 def test_meshes_come_back(tmp_path, kidney, name):
     kontur.write_mesh(tmp_path / name, kidney.mesh)
     back = kontur.read_mesh(tmp_path / name)
@@ -112,7 +112,7 @@ def test_notes_go_to_the_caller_or_to_the_log(tmp_path, caplog):
 
 
 def test_a_slice_that_may_be_missing_is_told_and_one_that_may_not_be_read_is_an_error(tmp_path, caplog):
-    make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1])))
+    make_series(tmp_path, kontur.Grid((4, 3, 5), numpy.diag([0.5, 0.5, 2, 1]), frame="LPS"))
     (tmp_path / "4.dcm").write_bytes(b"")
     warning = "left out 1 file, named like the slices but no DICOM: 4.dcm (0 bytes); the volume may lack a slice"
     assert kontur.read_image(tmp_path).samples.shape[0] == 4

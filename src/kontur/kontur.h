@@ -13,6 +13,7 @@
 #include "kontur/base/smallest_ball.h"
 
 // What goes in and comes out.
+#include "kontur/shape/box_tree.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kontur/base/parallel.h"
+#include "kontur/shape/box_tree.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/predicates.h"
 
@@ -14,41 +15,19 @@ namespace {
 Point2 minus(const Point2& a, const Point2& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double cross2(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-struct Box2 {
-    Point2 low, high;
-
-    static Box2 of(const Point2& a, const Point2& b) {
-        Box2 box{a, a};
-        box.extend(b);
-        return box;
-    }
-    void extend(const Point2& p) {
-        for (const std::size_t axis : {0u, 1u}) {
-            low[axis] = std::min(low[axis], p[axis]);
-            high[axis] = std::max(high[axis], p[axis]);
-        }
-    }
-    /// Whether they are farther than `gap` apart along an axis.
-    bool is_beyond(const Box2& other, double gap) const {
-        for (const std::size_t axis : {0u, 1u})
-            if (low[axis] > other.high[axis] + gap || high[axis] < other.low[axis] - gap) return true;
-        return false;
-    }
-};
-
 /// All lines of a plane in its coordinates.
 struct Drawing {
     static constexpr std::size_t kStretchEdges = 16;
 
     Plane plane;
     std::vector<std::pair<Point2, Point2>> edges;
-    std::vector<Box2> stretches;  ///< boxes of every kStretchEdges edges
+    BoxTree stretches;  ///< boxes of every kStretchEdges edges
 
-    void add_edge(const Point2& from, const Point2& to) {
-        if (edges.size() % kStretchEdges == 0) stretches.push_back({from, from});
-        stretches.back().extend(from);
-        stretches.back().extend(to);
-        edges.emplace_back(from, to);
+    void finish() {
+        std::vector<Box2> boxes((edges.size() + kStretchEdges - 1) / kStretchEdges);
+        for (std::size_t e = 0; e < edges.size(); ++e)
+            for (const Point2& end : {edges[e].first, edges[e].second}) boxes[e / kStretchEdges].extend(end);
+        stretches = BoxTree(std::move(boxes));
     }
 };
 
@@ -65,7 +44,7 @@ Drawings drawings_of(const ContourSet& set, double tolerance_mm) {
     for (std::size_t c = 0; c < set.contours.size(); ++c)
         if (plane[c] == c) {
             drawings.of[c] = drawings.all.size();
-            drawings.all.push_back({set.contours[c].plane, {}, {}});
+            drawings.all.push_back({set.contours[c].plane, {}, BoxTree{}});
         }
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         const Contour& contour = set.contours[c];
@@ -73,9 +52,10 @@ Drawings drawings_of(const ContourSet& set, double tolerance_mm) {
         Drawing& drawing = drawings.all[drawings.of[c]];
         for (std::size_t i = contour.closed ? 0 : 1; i < contour.points.size(); ++i) {
             const Vec3 &from = contour.points[i > 0 ? i - 1 : contour.points.size() - 1], &to = contour.points[i];
-            drawing.add_edge(drawing.plane.to_uv(from), drawing.plane.to_uv(to));
+            drawing.edges.emplace_back(drawing.plane.to_uv(from), drawing.plane.to_uv(to));
         }
     }
+    for (Drawing& drawing : drawings.all) drawing.finish();
     return drawings;
 }
 
@@ -92,18 +72,30 @@ double hit(const Point2& start, const Point2& along, const Point2& a, const Poin
 double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, double own_edge) {
     const Point2 start = drawing.plane.to_uv(point.position);
     const Point2 along{dot(point.inplane_normal, drawing.plane.u), dot(point.inplane_normal, drawing.plane.v)};
-    const Box2 ray = Box2::of(start, {start[0] + reach * along[0], start[1] + reach * along[1]});
+    Box2 ray;
+    ray.extend(start);
+    ray.extend(Point2{start[0] + reach * along[0], start[1] + reach * along[1]});
     const double rounding = 1e-6 * reach;
+    for (const std::size_t axis : {0u, 1u}) {
+        ray.low[axis] -= rounding;
+        ray.high[axis] += rounding;
+    }
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s < drawing.stretches.size(); ++s) {
-        if (drawing.stretches[s].is_beyond(ray, rounding)) continue;
+    const auto squared_limit = [&] {
+        const double limit = std::min(nearest, reach) + rounding;
+        return limit * limit;
+    };
+    const auto key = [&](const Box2& box) {
+        return box.meets(ray) ? box.distance2(start) : std::numeric_limits<double>::infinity();
+    };
+    drawing.stretches.visit(key, squared_limit, [&](std::size_t s) {
         const std::size_t begin = s * Drawing::kStretchEdges;
         const std::size_t end = std::min(begin + Drawing::kStretchEdges, drawing.edges.size());
         for (std::size_t e = begin; e < end; ++e) {
             const auto& [a, b] = drawing.edges[e];
             if (const double distance = hit(start, along, a, b); distance > own_edge) nearest = std::min(nearest, distance);
         }
-    }
+    });
     return nearest <= reach ? nearest : std::numeric_limits<double>::infinity();
 }
 

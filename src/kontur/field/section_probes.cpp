@@ -36,10 +36,12 @@ Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
 }
 
 /// Whether that outline is the first but holes that encloses the place.
-bool belongs_to(const Section& section, std::size_t outline, const Point2& at) {
-    for (std::size_t o = 0; o < outline; ++o)
-        if (section.layer(o) > 0 && is_inside(section.outlines[o], at)) return false;
-    return is_inside(section.outlines[outline], at);
+bool belongs_to(const Section& section, const SectionSearch& search, std::size_t outline, const Point2& at) {
+    std::size_t first = section.outlines.size();
+    search.visit_around(at, [&](std::size_t o) {
+        if (section.layer(o) > 0) first = std::min(first, o);
+    });
+    return first == outline;
 }
 
 }  // namespace
@@ -96,7 +98,7 @@ std::vector<Probe> probes(const Section& section) {
             for (int column = -columns; column <= columns; ++column) {
                 const Point2 at =
                     axes.to_plane({(low[0] + high[0]) / 2 + column * step, (low[1] + high[1]) / 2 + row * step});
-                if (!search.contains(at) || !belongs_to(section, o, at)) continue;
+                if (!search.contains(at) || !belongs_to(section, search, o, at)) continue;
                 if (const double depth = search.clearance(at); depth > step / 2) result.push_back({at, depth, o});
             }
     }

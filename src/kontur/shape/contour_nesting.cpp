@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numeric>
 
+#include "kontur/shape/box_tree.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -14,30 +15,28 @@ namespace {
 /// A contour by itself, and its box in its plane.
 struct Outline {
     Section section;
-    Point2 low, high;
+    Box2 box;
 };
 
 Outline outline_of(const Contour& contour, const Plane& plane) {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    Outline outline{{plane, {Polygon2{}}, {}, {}}, {kFar, kFar}, {-kFar, -kFar}};
-    for (const Vec3& point : contour.points) {
-        const Point2& p = outline.section.outlines.front().emplace_back(plane.to_uv(point));
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            outline.low[axis] = std::min(outline.low[axis], p[axis]);
-            outline.high[axis] = std::max(outline.high[axis], p[axis]);
-        }
-    }
+    Outline outline{{plane, {Polygon2{}}, {}, {}}, {}};
+    for (const Vec3& point : contour.points)
+        outline.box.extend(outline.section.outlines.front().emplace_back(plane.to_uv(point)));
     return outline;
 }
 
-bool boxes_meet(const Outline& a, const Outline& b) {
-    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1];
+/// The closed contours of each plane, by whose plane it is.
+std::map<std::size_t, std::vector<std::size_t>> closed_by_plane(const std::vector<Contour>& contours,
+                                                                const std::vector<std::size_t>& plane) {
+    std::map<std::size_t, std::vector<std::size_t>> of;
+    for (std::size_t c = 0; c < contours.size(); ++c)
+        if (contours[c].closed) of[plane[c]].push_back(c);
+    return of;
 }
 
 enum class Position { outside, inside, crossing };
 
-Position position_of(const Outline& outline, const Outline& other, const SectionSearch& of_other, double tolerance) {
-    if (!boxes_meet(outline, other)) return Position::outside;
+Position position_of(const Outline& outline, const SectionSearch& of_other, double tolerance) {
     constexpr std::size_t kMostTested = 2000;
     const Polygon2& points = outline.section.outlines.front();
     const std::size_t stride = 1 + points.size() / kMostTested;
@@ -48,6 +47,33 @@ Position position_of(const Outline& outline, const Outline& other, const Section
     for (std::size_t i = 0; i < points.size(); i += stride)
         if (of_other.clearance(points[i]) > tolerance) ++(of_other.contains(points[i]) ? inside : outside);
     return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
+}
+
+/// Whether the contours of a plane lie inside others of it, of those whose boxes meet.
+void nest(const std::vector<std::size_t>& in_plane, const std::vector<Contour>& contours, const Plane& plane,
+          double tolerance_mm, Nesting& nesting) {
+    std::vector<Outline> outlines;
+    std::vector<Box2> boxes;
+    for (const std::size_t c : in_plane) {
+        outlines.push_back(outline_of(contours[c], plane));
+        boxes.push_back(outlines.back().box);
+    }
+    std::vector<SectionSearch> searches;
+    searches.reserve(outlines.size());
+    for (const Outline& outline : outlines) searches.emplace_back(outline.section);
+    const BoxTree tree(std::move(boxes));
+    for (std::size_t a = 0; a < in_plane.size(); ++a) {
+        std::vector<std::size_t>& enclosing = nesting.enclosing[in_plane[a]];
+        tree.visit_meeting(outlines[a].box, [&](std::size_t b) {
+            if (a == b) return;
+            const Position position = position_of(outlines[a], searches[b], tolerance_mm);
+            if (position == Position::inside) enclosing.push_back(in_plane[b]);
+            if (position == Position::crossing)
+                nesting.crossings.emplace_back(std::minmax({in_plane[a], in_plane[b]}));
+        });
+        std::sort(enclosing.begin(), enclosing.end());
+        nesting.depth[in_plane[a]] = enclosing.size();
+    }
 }
 
 }  // namespace
@@ -110,25 +136,11 @@ std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, dou
 }
 
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm) {
-    const std::vector<std::size_t> plane = shared_planes(contours, tolerance_mm);
-    std::vector<Outline> outlines;
-    for (std::size_t i = 0; i < contours.size(); ++i) outlines.push_back(outline_of(contours[i], contours[plane[i]].plane));
-    std::vector<SectionSearch> searches;
-    searches.reserve(outlines.size());
-    for (const Outline& outline : outlines) searches.emplace_back(outline.section);
     Nesting nesting;
     nesting.depth.assign(contours.size(), 0);
     nesting.enclosing.resize(contours.size());
-    for (std::size_t a = 0; a < contours.size(); ++a)
-        for (std::size_t b = 0; b < contours.size(); ++b) {
-            if (a == b || plane[a] != plane[b] || !contours[a].closed || !contours[b].closed) continue;
-            const Position position = position_of(outlines[a], outlines[b], searches[b], tolerance_mm);
-            if (position == Position::inside) {
-                ++nesting.depth[a];
-                nesting.enclosing[a].push_back(b);
-            }
-            if (position == Position::crossing) nesting.crossings.emplace_back(std::min(a, b), std::max(a, b));
-        }
+    for (const auto& [plane, in_plane] : closed_by_plane(contours, shared_planes(contours, tolerance_mm)))
+        nest(in_plane, contours, contours[plane].plane, tolerance_mm, nesting);
     std::sort(nesting.crossings.begin(), nesting.crossings.end());
     nesting.crossings.erase(std::unique(nesting.crossings.begin(), nesting.crossings.end()), nesting.crossings.end());
     return nesting;

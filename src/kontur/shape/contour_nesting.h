@@ -28,7 +28,7 @@ std::vector<std::size_t> largest_first(const std::vector<Contour>& contours);
 std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, double tolerance_mm);
 
 /// Contours in one plane (shared_planes) are compared. Points within `tolerance_mm` of the other contour count as neither
-/// inside nor outside. Quadratic in the contours of a plane; of each at most 2000 points are tested.
+/// inside nor outside. O(n log n) in contours few of which lie in each other; of each at most 2000 points are tested.
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm);
 
 /// What contours inside others mean.

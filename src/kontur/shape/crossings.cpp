@@ -22,6 +22,12 @@ struct Drawn {
     Box3 box;
 };
 
+/// A section that is asked for the place nearest to every passage of others through its plane.
+struct Searched {
+    const Section& section;
+    SectionSearch search;
+};
+
 std::vector<Drawn> drawn_planes(const ContourSet& set) {
     std::vector<Drawn> planes;
     for (const Section& section : sections_of(set, kSamePlane * diameter_mm(set))) {
@@ -118,7 +124,8 @@ double depth_between(const Section& section, const Plane& other, const Line& lin
 /// Two planes whose contours meet on a line.
 class PlanePair {
 public:
-    PlanePair(const Section& a, const Section& b, const Line& line) : sections_{&a, &b}, line_(line) {}
+    PlanePair(const Searched& a, const Searched& b, const Line& line)
+        : sections_{&a.section, &b.section}, searches_{&a.search, &b.search}, line_(line) {}
 
     /// In order along the line the passages of both planes form pairs: between the two of a pair the planes contradict each
     /// other, outside of the pairs they agree. Two passages of one plane have no match in the other.
@@ -153,8 +160,8 @@ private:
     Vec3 position(const Sighting& s) const { return sections_[s.plane]->plane.from_uv(s.passage.position); }
     /// In the plane that `s` does not belong to.
     Section::Nearest nearest_other(const Sighting& s) const {
-        const Section& other = *sections_[1 - s.plane];
-        return other.nearest(other.plane.to_uv(position(s)));
+        const int other = 1 - s.plane;
+        return searches_[other]->nearest(sections_[other]->plane.to_uv(position(s)));
     }
 
     Crossing matched(const Sighting& p, const Sighting& q) const {
@@ -178,6 +185,7 @@ private:
     }
 
     const Section* sections_[2];
+    const SectionSearch* searches_[2];
     Line line_;
 };
 
@@ -205,13 +213,16 @@ void divide(Disagreement& sum) {
 std::vector<Crossing> find_crossings(const ContourSet& set) {
     const std::vector<Drawn> planes = drawn_planes(set);
     const Vec3 center = bounding_box(set).center();
+    std::vector<Searched> searched;
+    searched.reserve(planes.size());
+    for (const Drawn& drawn : planes) searched.push_back({drawn.section, SectionSearch(drawn.section)});
     std::vector<Crossing> crossings;
     for (std::size_t a = 0; a < planes.size(); ++a)
         for (std::size_t b = a + 1; b < planes.size(); ++b) {
             const Section &first = planes[a].section, &second = planes[b].section;
             if (!reaches(planes[a].box, second.plane) && !reaches(planes[b].box, first.plane)) continue;
             if (const auto line = common_line(first.plane, second.plane, center))
-                PlanePair(first, second, *line).append_to(crossings);
+                PlanePair(searched[a], searched[b], *line).append_to(crossings);
         }
     return crossings;
 }

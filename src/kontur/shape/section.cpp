@@ -44,18 +44,6 @@ private:
     Section::Nearest found_;
 };
 
-/// Squared distances of p from the nearest and the farthest place of a box.
-std::pair<double, double> distances2(const Point2& p, const Point2& low, const Point2& high) {
-    double nearest2 = 0, farthest2 = 0;
-    for (const std::size_t axis : {0u, 1u}) {
-        const double below = low[axis] - p[axis], above = p[axis] - high[axis];
-        const double nearest = std::max({below, above, 0.0}), farthest = std::max(-below, -above);
-        nearest2 += nearest * nearest;
-        farthest2 += farthest * farthest;
-    }
-    return {nearest2, farthest2};
-}
-
 /// Each edge as a mass at its middle.
 Vec3 middle_of_lines(const ContourSet& set, const std::vector<std::size_t>& contours) {
     Vec3 sum;
@@ -85,50 +73,60 @@ Section::Nearest Section::nearest(const Point2& p) const {
 }
 
 SectionSearch::SectionSearch(const Section& section) : section_(section) {
+    std::vector<Box2> outlines(section.outlines.size()), stretches;
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {
         const Polygon2& outline = section.outlines[o];
+        first_stretch_.push_back(stretches_.size());
         for (std::size_t begin = 0; begin < outline.size(); begin += kStretchEdges) {
-            Stretch stretch{o, begin, std::min(begin + kStretchEdges, outline.size()), before(outline, begin),
-                            before(outline, begin)};
-            for (std::size_t i = begin; i < stretch.end; ++i)
-                for (const std::size_t axis : {0u, 1u}) {
-                    stretch.low[axis] = std::min(stretch.low[axis], outline[i][axis]);
-                    stretch.high[axis] = std::max(stretch.high[axis], outline[i][axis]);
-                }
+            Stretch stretch{o, begin, std::min(begin + kStretchEdges, outline.size()), {}};
+            stretch.box.extend(before(outline, begin));
+            for (std::size_t i = begin; i < stretch.end; ++i) stretch.box.extend(outline[i]);
+            outlines[o].extend(stretch.box);
+            stretches.push_back(stretch.box);
             stretches_.push_back(stretch);
         }
     }
+    first_stretch_.push_back(stretches_.size());
+    outline_tree_ = BoxTree(std::move(outlines));
+    stretch_tree_ = BoxTree(std::move(stretches));
+}
+
+bool SectionSearch::encloses(std::size_t o, const Point2& p) const {
+    const Polygon2& outline = section_.outlines[o];
+    bool inside = false;
+    for (std::size_t s = first_stretch_[o]; s < first_stretch_[o + 1]; ++s) {
+        const Stretch& stretch = stretches_[s];
+        if (stretch.box.low[1] > p[1] || stretch.box.high[1] <= p[1]) continue;  // no edge goes from one side to the other
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+            inside ^= passes_right_of(p, before(outline, i), outline[i]);
+    }
+    return inside;
 }
 
 bool SectionSearch::contains(const Point2& p) const {
     int layers = 0;
-    bool inside = false;  // of the outline whose stretches are looked at
-    for (std::size_t s = 0; s < stretches_.size(); ++s) {
-        const Stretch& stretch = stretches_[s];
-        if (stretch.begin == 0) inside = false;
-        if (stretch.low[1] <= p[1] && stretch.high[1] > p[1]) {  // else no edge goes from one side to the other
-            const Polygon2& outline = section_.outlines[stretch.outline];
-            for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-                inside ^= passes_right_of(p, before(outline, i), outline[i]);
-        }
-        const bool is_last = s + 1 == stretches_.size() || stretches_[s + 1].begin == 0;
-        if (is_last && inside) layers += section_.layer(stretch.outline);
-    }
+    visit_around(p, [&](std::size_t outline) { layers += section_.layer(outline); });
     return layers > 0;
 }
 
 Section::Nearest SectionSearch::nearest(const Point2& p) const {
     // Bounds are compared with room for their rounding.
-    constexpr double kLess = 1 - 1e-12, kMore = 1 + 1e-12;
-    double limit2 = std::numeric_limits<double>::infinity();
-    for (const Stretch& stretch : stretches_) limit2 = std::min(limit2, distances2(p, stretch.low, stretch.high).second);
+    constexpr double kLess = 1 - 1e-12;
     NearestPoint nearest(p);
-    for (const Stretch& stretch : stretches_) {
-        if (kLess * distances2(p, stretch.low, stretch.high).first > std::min(kMore * limit2, nearest.distance2())) continue;
+    std::size_t nearest_stretch = stretches_.size();
+    const auto look_at = [&](std::size_t s) {
+        const Stretch& stretch = stretches_[s];
         const Polygon2& outline = section_.outlines[stretch.outline];
+        NearestPoint here(p);
         for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-            nearest.look_at(before(outline, i), outline[i], stretch.outline);
-    }
+            here.look_at(before(outline, i), outline[i], stretch.outline);
+        // Of places equally near the section finds the first.
+        if (std::pair(here.distance2(), s) >= std::pair(nearest.distance2(), nearest_stretch)) return;
+        nearest = here;
+        nearest_stretch = s;
+    };
+    stretch_tree_.visit([&](const Box2& box) { return kLess * box.distance2(p); }, [&] { return nearest.distance2(); },
+                        look_at);
     return nearest.found();
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "kontur/shape/box_tree.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/predicates.h"
 
@@ -36,7 +37,8 @@ struct Section {
 };
 
 /// Answers as a section does, to the last bit, but looks only at the stretches of its outlines that matter: for many
-/// points. The section must outlive it.
+/// points. A point costs about the logarithm of the number of outlines, where few of them lie in each other. The section must
+/// outlive it.
 class SectionSearch {
 public:
     explicit SectionSearch(const Section& section);
@@ -45,15 +47,27 @@ public:
     Section::Nearest nearest(const Point2& p) const;
     double clearance(const Point2& p) const { return nearest(p).distance; }
 
+    /// Calls visit(outline) for those in which p lies, in no particular order.
+    template <class Visit>
+    void visit_around(const Point2& p, const Visit& visit) const {
+        outline_tree_.visit_around(p, [&](std::size_t outline) {
+            if (encloses(outline, p)) visit(outline);
+        });
+    }
+
 private:
     /// The edges that end in [begin, end) of an outline, and their box.
     struct Stretch {
         std::size_t outline, begin, end;
-        Point2 low, high;
+        Box2 box;
     };
+
+    bool encloses(std::size_t outline, const Point2& p) const;
 
     const Section& section_;
     std::vector<Stretch> stretches_;
+    std::vector<std::size_t> first_stretch_;  ///< of every outline, and behind the last
+    BoxTree outline_tree_, stretch_tree_;
 };
 
 /// The set's closed contours by plane (shared_planes with that tolerance), in the order of the first contour of each. Where

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/extract/polygonize.h"
 #include "kontur/extract/voxelize.h"
@@ -249,6 +250,33 @@ TEST(Adaptive, ValuesGrowWithTheSurfaceAndAreAFractionOfTracking) {
     const double fine = evaluations(0.25);
     EXPECT_LT(fine, 4.4 * evaluations(0.5));
     EXPECT_LT(compare(crossing_function(), test::grid_about(kCenter, {240, 240, 240}, 0.25), starts).evaluations, 0.3);
+}
+
+TEST(ExpectedSurfaceVoxels, AreAboutThoseThatManySmallBallsPass) {
+    constexpr int kSide = 120, kPitch = 12, kPointsOfBall = 60;
+    constexpr double kRadius = 3;
+    const auto inside = [](int i, int j, int k) {
+        const auto off = [](int at) { return at % kPitch - 5.7; };
+        return std::hypot(off(i), off(j), off(k)) < kRadius;
+    };
+    std::int64_t passed = 0;
+    for (int k = 0; k + 1 < kSide; ++k)
+        for (int j = 0; j + 1 < kSide; ++j)
+            for (int i = 0; i + 1 < kSide; ++i) {
+                int corners = 0;
+                for (int n = 0; n < 8; ++n) corners += inside(i + (n & 1), j + (n >> 1 & 1), k + (n >> 2));
+                passed += corners > 0 && corners < 8;
+            }
+    std::vector<Vec3> starts;
+    for (int ball = 0; ball < 1000; ++ball)
+        for (int n = 0; n < kPointsOfBall; ++n) {  // on a spiral from pole to pole
+            const double z = 1 - (2 * n + 1.0) / kPointsOfBall, turn = 2.4 * n, r = std::sqrt(1 - z * z);
+            const Vec3 center{ball % 10 * kPitch + 5.7, ball / 10 % 10 * kPitch + 5.7, ball / 100 * kPitch + 5.7};
+            starts.push_back(center + kRadius * Vec3{r * std::cos(turn), r * std::sin(turn), z});
+        }
+    const auto expected = static_cast<double>(expected_surface_voxels(Grid{{kSide, kSide, kSide}, {}}, starts));
+    EXPECT_GT(expected, 0.5 * static_cast<double>(passed));
+    EXPECT_LT(expected, 2.0 * static_cast<double>(passed));
 }
 
 TEST(Adaptive, MeshIsClosedAndLiesOnTheSurface) {

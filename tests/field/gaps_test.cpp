@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "kontur/field/prepare.h"
+#include "kontur/shape/predicates.h"
 #include "support/contour_sets.h"
 #include "support/polygons.h"
+#include "support/random.h"
 
 namespace kontur {
 namespace {
@@ -42,6 +46,52 @@ TEST(FindGaps, AcrossACleftAndBetweenNeighbours) {
     }
     EXPECT_GT(between, 30);
     EXPECT_GE(notch, 4);
+}
+
+/// As far as the reach, along the normal, by looking at every edge of every contour.
+double gap_by_all_edges(const std::vector<Contour>& contours, const BoundaryPoint& point, double reach) {
+    const auto cross2 = [](const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; };
+    const Point2 start = kPlane.to_uv(point.position);
+    const Point2 along{dot(point.inplane_normal, kPlane.u), dot(point.inplane_normal, kPlane.v)};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Contour& contour : contours)
+        for_each_edge(contour.points, [&](const Vec3& from, const Vec3& to) {
+            const Point2 a = kPlane.to_uv(from), b = kPlane.to_uv(to);
+            const Point2 edge{b[0] - a[0], b[1] - a[1]}, to_a{a[0] - start[0], a[1] - start[1]};
+            const double turn = cross2(along, edge), ahead = cross2(to_a, edge) / turn, at = cross2(to_a, along) / turn;
+            if (ahead > 1e-6 && ahead <= reach && at >= 0 && at <= 1) nearest = std::min(nearest, ahead);
+        });
+    return nearest;
+}
+
+TEST(FindGaps, AmongManyContoursAreThoseThatLookingAtAllOfThemFinds) {
+    std::mt19937 random = test::random_of_this_test();
+    std::uniform_real_distribution<double> shift(-1, 1), radius(1, 3);
+    ContourSet set;
+    std::vector<BoundaryPoint> points;
+    for (int row = 0; row < 12; ++row)
+        for (int column = 0; column < 12; ++column) {
+            Plane plane = kPlane;
+            plane.origin = kPlane.from_uv(9 * column + shift(random), 9 * row + shift(random));
+            Contour& ring = set.contours.emplace_back(test::circle(plane, radius(random), 37));
+            for (const Vec3& p : ring.points)
+                points.push_back(
+                    {p, normalized(p - plane.origin), kPlane.normal, static_cast<std::int32_t>(set.contours.size()) - 1});
+            ring.plane = kPlane;
+        }
+    constexpr double kReach = 20;
+    find_gaps(set, kReach, 0.01, points);
+    int found = 0;
+    for (const BoundaryPoint& point : points) {
+        const double expected = gap_by_all_edges(set.contours, point, kReach);
+        if (std::isinf(expected)) {
+            EXPECT_TRUE(std::isinf(point.gap_mm));
+            continue;
+        }
+        EXPECT_NEAR(point.gap_mm, expected, 1e-9);
+        ++found;
+    }
+    EXPECT_GT(found, 1000);
 }
 
 TEST(FindGaps, HolesFaceTheirOwnOppositeWall) {

@@ -78,7 +78,8 @@ double looked_at(int side) {
                 ++looks;
                 return box.distance2(p);
             };
-            tree.visit(key, [&] { return found2; }, [&](std::size_t i) { found2 = std::min(found2, boxes[i].distance2(p)); });
+            tree.visit(
+                key, [&] { return found2; }, [&](std::size_t i) { found2 = std::min(found2, boxes[i].distance2(p)); });
         }
     return static_cast<double>(looks) / searches;
 }

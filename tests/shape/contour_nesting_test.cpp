@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/contour_sets.h"
+#include "support/random.h"
 
 namespace kontur {
 namespace {
@@ -22,6 +25,27 @@ TEST(FindNesting, CountsTheContoursAroundEachOne) {
                                      circle(5, 40, 0)};
     EXPECT_EQ(depths(rings), (std::vector<std::size_t>{2, 0, 1, 1, 0}));
     EXPECT_TRUE(find_nesting(rings, 0.01).crossings.empty());
+}
+
+TEST(FindNesting, OfManyIsThatOfEveryPair) {
+    std::mt19937 random = test::random_of_this_test();
+    std::uniform_real_distribution<double> place(-40, 40), size(1, 15);
+    std::vector<Contour> contours;
+    for (int n = 0; n < 120; ++n) contours.push_back(circle(size(random), place(random), place(random)));
+    const Nesting nesting = find_nesting(contours, 0.01);
+    for (std::size_t a = 0; a < contours.size(); ++a) {
+        std::vector<std::size_t> enclosing;
+        for (std::size_t b = 0; b < contours.size(); ++b) {
+            if (a == b) continue;
+            const Nesting pair = find_nesting({contours[a], contours[b]}, 0.01);
+            if (pair.depth[0] == 1) enclosing.push_back(b);
+            EXPECT_EQ(
+                std::count(nesting.crossings.begin(), nesting.crossings.end(), std::pair(std::min(a, b), std::max(a, b))),
+                static_cast<std::ptrdiff_t>(pair.crossings.size()));
+        }
+        EXPECT_EQ(nesting.enclosing[a], enclosing);
+        EXPECT_EQ(nesting.depth[a], enclosing.size());
+    }
 }
 
 TEST(FindNesting, PlanesSeenFromTheirOtherSideOrAnotherOriginAreOne) {

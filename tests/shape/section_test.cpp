@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/contour_sets.h"
@@ -46,6 +47,41 @@ TEST(SectionSearch, AnswersAsTheSectionDoes) {
             EXPECT_EQ(fast.outline, slow.outline);
         }
     }
+}
+
+/// Small rings and holes in a lattice, of which neighbours touch and points lie on one another.
+Section lattice_of_rings(int side) {
+    Section section;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column)
+            for (const double radius : {2.0, 1.0}) {
+                Polygon2& line = section.outlines.emplace_back();
+                for (const auto& [u, v] : {Point2{1, 0}, Point2{0, 1}, Point2{-1, 0}, Point2{0, -1}})
+                    line.push_back({4.0 * column + radius * u, 4.0 * row + radius * v});
+                section.holes.push_back(radius < 2);
+            }
+    return section;
+}
+
+TEST(SectionSearch, OfPlacesEquallyNearTakesTheFirstAsTheSectionDoes) {
+    const Section section = lattice_of_rings(6);
+    const SectionSearch search(section);
+    for (double u = -4; u <= 24; u += 0.5)
+        for (double v = -4; v <= 24; v += 0.5) {
+            const Section::Nearest fast = search.nearest({u, v}), slow = section.nearest({u, v});
+            EXPECT_EQ(fast.distance, slow.distance);
+            EXPECT_EQ(fast.position, slow.position);
+            EXPECT_EQ(fast.outline, slow.outline);
+            EXPECT_EQ(search.contains({u, v}), section.contains({u, v}));
+        }
+}
+
+TEST(SectionSearch, VisitsTheOutlinesAroundAPoint) {
+    const Section section = lattice_of_rings(3);
+    std::vector<std::size_t> around;
+    SectionSearch(section).visit_around({4.1, 0.2}, [&](std::size_t outline) { around.push_back(outline); });
+    std::sort(around.begin(), around.end());
+    EXPECT_EQ(around, (std::vector<std::size_t>{2, 3}));
 }
 
 TEST(DrawnPlanes, NextIsTheNearestParallelOneAhead) {

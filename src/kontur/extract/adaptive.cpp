@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "kontur/base/parallel.h"
 #include "kontur/extract/coarse_band.h"
@@ -70,6 +71,21 @@ bool is_small(const Grid& grid, std::span<const Vec3> starts) {
 std::uint64_t key(const Index3& c) {
     constexpr std::int64_t bias = 2;
     return static_cast<std::uint64_t>((c.i + bias) | (c.j + bias) << 21 | (c.k + bias) << 42);
+}
+
+/// How many voxels a surface passes at least in the coarse cells that its starts are in. Many small objects have far more
+/// surface than one that fills their box.
+double voxels_about(const Grid& grid, std::span<const Vec3> starts) {
+    const Index3 stride = strides(grid);
+    std::unordered_set<std::uint64_t> cells;
+    for (const Vec3& index : to_index(grid, starts)) {
+        const Index3 voxel = cell_of(index);
+        if (voxel.i >= -1 && voxel.i < grid.size.i && voxel.j >= -1 && voxel.j < grid.size.j && voxel.k >= -1 &&
+            voxel.k < grid.size.k)
+            cells.insert(key({(voxel.i + 1) / stride.i, (voxel.j + 1) / stride.j, (voxel.k + 1) / stride.k}));
+    }
+    const std::int64_t face = std::min({stride.i * stride.j, stride.j * stride.k, stride.k * stride.i});
+    return static_cast<double>(cells.size()) * static_cast<double>(face);
 }
 
 class AdaptiveTracker {
@@ -305,7 +321,7 @@ std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> sta
         half[axis] = std::max(high - low, 0.0) / 2;
     }
     const double voxels = 4.0 / 3 * M_PI * (half.x * half.y + half.y * half.z + half.z * half.x);
-    return std::llround(std::min(voxels, kMost));
+    return std::llround(std::min(std::max(voxels, voxels_about(grid, starts)), kMost));
 }
 
 SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,

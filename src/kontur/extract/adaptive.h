@@ -25,7 +25,7 @@ SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid
                                         const Progress& progress = {});
 
 /// About how many of the grid's voxels a surface through the starts passes, as if it were an ellipsoid that fills their box
-/// as far as that lies in the grid.
+/// as far as that lies in the grid; more where the starts show that there are many objects.
 std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> starts);
 
 }  // namespace kontur

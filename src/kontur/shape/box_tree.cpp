@@ -33,8 +33,9 @@ std::size_t BoxTree::add_node(std::size_t begin, std::size_t end) {
     const std::size_t axis = middles.high[0] - middles.low[0] >= middles.high[1] - middles.low[1] ? 0 : 1;
     const std::size_t half = begin + (end - begin) / 2;
     const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(half), at(end),
-                     [&](std::size_t a, std::size_t b) { return std::pair(middle(a)[axis], a) < std::pair(middle(b)[axis], b); });
+    std::nth_element(at(begin), at(half), at(end), [&](std::size_t a, std::size_t b) {
+        return std::pair(middle(a)[axis], a) < std::pair(middle(b)[axis], b);
+    });
     const std::size_t first = add_node(begin, half), second = add_node(half, end);
     nodes_[added].first_child = first;
     nodes_[added].second_child = second;

@@ -28,9 +28,7 @@ struct Box2 {
             high[axis] = std::max(high[axis], other.high[axis]);
         }
     }
-    bool contains(const Point2& p) const {
-        return low[0] <= p[0] && p[0] <= high[0] && low[1] <= p[1] && p[1] <= high[1];
-    }
+    bool contains(const Point2& p) const { return low[0] <= p[0] && p[0] <= high[0] && low[1] <= p[1] && p[1] <= high[1]; }
     /// Whether they have a point in common.
     bool meets(const Box2& other) const {
         return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];

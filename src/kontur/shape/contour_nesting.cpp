@@ -68,8 +68,7 @@ void nest(const std::vector<std::size_t>& in_plane, const std::vector<Contour>& 
             if (a == b) return;
             const Position position = position_of(outlines[a], searches[b], tolerance_mm);
             if (position == Position::inside) enclosing.push_back(in_plane[b]);
-            if (position == Position::crossing)
-                nesting.crossings.emplace_back(std::minmax({in_plane[a], in_plane[b]}));
+            if (position == Position::crossing) nesting.crossings.emplace_back(std::minmax({in_plane[a], in_plane[b]}));
         });
         std::sort(enclosing.begin(), enclosing.end());
         nesting.depth[in_plane[a]] = enclosing.size();

@@ -37,8 +37,8 @@ struct Section {
 };
 
 /// Answers as a section does, to the last bit, but looks only at the stretches of its outlines that matter: for many
-/// points. A point costs about the logarithm of the number of outlines, where few of them lie in each other. The section must
-/// outlive it.
+/// points. A point costs about the logarithm of the number of outlines, where few of them lie in each other. The section
+/// must outlive it.
 class SectionSearch {
 public:
     explicit SectionSearch(const Section& section);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "kontur/base/checks.h"
@@ -61,30 +61,31 @@ private:
     Cells cells_;
 };
 
-void check_trust(const std::string& whose, double trust) {
-    if (!(trust > 0 && std::isfinite(trust)))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("the trust in {} is {:g}; it must be finite and above 0", whose, trust));
+/// `kind` is "point" or "single point", `index` counts from 0. They are put into words only where one is refused: there are
+/// very many, and each solve asks.
+void check_finite(bool finite, std::string_view kind, std::size_t index) {
+    if (!finite) throw Error(ErrorKind::invalid_input, fmt::format("{} {} is not finite", kind, index + 1));
 }
 
-void check_finite(const std::string& what, bool finite) {
-    if (!finite) throw Error(ErrorKind::invalid_input, what + " is not finite");
+void check_trust(double trust, std::string_view kind, std::size_t index) {
+    if (!(trust > 0 && std::isfinite(trust)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the trust in {} {} is {:g}; it must be finite and above 0", kind, index + 1, trust));
 }
 
 void check_points(std::span<const BoundaryPoint> points, std::span<const PointConstraint> single_points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const BoundaryPoint& p = points[i];
-        const std::string which = fmt::format("point {}", i + 1);
-        check_finite(which, is_finite(p.position) && is_finite(p.inplane_normal));
+        check_finite(is_finite(p.position) && is_finite(p.inplane_normal), "point", i);
         if (!(p.gap_mm > 0))
             throw Error(ErrorKind::invalid_input,
-                        fmt::format("the gap of {} is {:g} mm; it must be above 0", which, p.gap_mm));
-        check_trust(which, p.trust);
+                        fmt::format("the gap of point {} is {:g} mm; it must be above 0", i + 1, p.gap_mm));
+        check_trust(p.trust, "point", i);
     }
     for (std::size_t i = 0; i < single_points.size(); ++i) {
-        const std::string which = fmt::format("single point {}", i + 1);
-        check_finite(which, is_finite(single_points[i].position) && std::isfinite(single_points[i].value));
-        check_trust(which, single_points[i].trust);
+        const PointConstraint& p = single_points[i];
+        check_finite(is_finite(p.position) && std::isfinite(p.value), "single point", i);
+        check_trust(p.trust, "single point", i);
     }
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/shape/box_tree.h"
+
 namespace kontur {
 namespace {
 
@@ -14,19 +16,13 @@ void for_each_edge_of_all(const Section& section, const Visit& visit) {
 
 /// The box of an outline along axes, and what it encloses.
 struct Outline {
-    Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+    Box2 box;
     double area = 0;
 };
 
 Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
     Outline outline;
-    for (const Point2& vertex : polygon) {
-        const Point2 p = axes.from_plane(vertex);
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            outline.low[axis] = std::min(outline.low[axis], p[axis]);
-            outline.high[axis] = std::max(outline.high[axis], p[axis]);
-        }
-    }
+    for (const Point2& vertex : polygon) outline.box.extend(axes.from_plane(vertex));
     const Point2& origin = polygon.front();
     for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
         outline.area += ((a[0] - origin[0]) * (b[1] - origin[1]) - (b[0] - origin[0]) * (a[1] - origin[1])) / 2;
@@ -88,7 +84,8 @@ std::vector<Probe> probes(const Section& section) {
     std::vector<Probe> result;
     for (std::size_t o = 0; o < outlines.size(); ++o) {
         if (section.layer(o) < 0) continue;
-        const auto& [low, high, area] = outlines[o];
+        const auto& [box, area] = outlines[o];
+        const auto& [low, high] = box;
         const double width = high[0] - low[0], height = high[1] - low[1];
         const double step =
             std::max(std::min(std::sqrt(whole_area / kProbes), std::sqrt(area / least)), std::max(width, height) / 100);

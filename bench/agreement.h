@@ -11,6 +11,7 @@ namespace kontur {
 /// The paper's method: in-plane normals of 1 mm, exact interpolation.
 inline SegmentOptions as_printed() {
     SegmentOptions options;
+    options.kernel = Kernel::triharmonic;
     options.normals = Normals::in_plane;
     options.normal_offset_mm = 1;
     options.solver = Solver::cholesky;

@@ -143,8 +143,10 @@ void add_holes(CLI::App& sub, std::optional<HoleEncoding>& holes) {
 
 void add_segment_method(CLI::App& sub, SegmentOptions& o) {
     constexpr double kMostMb = 1e9;
-    add_choice<Kernel>(sub, "--kernel", o.kernel, {{"triharmonic", Kernel::triharmonic}, {"biharmonic", Kernel::biharmonic}},
-                       "Radial function: r^3 or r");
+    add_choice<Kernel>(
+        sub, "--kernel", o.kernel,
+        {{"screened", Kernel::screened}, {"triharmonic", Kernel::triharmonic}, {"biharmonic", Kernel::biharmonic}},
+        "Radial function: r^3 that goes back to a mean, r^3 or r");
     add_choice<Normals>(sub, "--normals", o.normals, {{"surface", Normals::surface}, {"in-plane", Normals::in_plane}},
                         "Direction of the surface at a contour: from all contours together, or the contour's alone");
     sub.add_option("--normal-offset-mm", o.normal_offset_mm, "Length of the normal constraints [from the contours' extent]")

@@ -70,9 +70,10 @@ constexpr const char* kDescription = R"(<?xml version="1.0" encoding="utf-8"?>
       <name>kernel</name>
       <label>Kernel</label>
       <longflag>--kernel</longflag>
-      <description><![CDATA[Radial function: triharmonic (r^3) or biharmonic (r)]]></description>
+      <description><![CDATA[Radial function: triharmonic (r^3), screened (r^3 that goes back to a mean) or biharmonic (r)]]></description>
       <default>{kernel}</default>
       <element>triharmonic</element>
+      <element>screened</element>
       <element>biharmonic</element>
     </string-enumeration>
     <string-enumeration>

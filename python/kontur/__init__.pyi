@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 _Path = Union[str, "os.PathLike[str]"]
 _Progress = Callable[[str, float], object]
-_Kernel = Literal["triharmonic", "biharmonic"]
+_Kernel = Literal["screened", "triharmonic", "biharmonic"]
 _Normals = Literal["surface", "in-plane"]
 _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
 _Corners = Literal["rounded", "faithful"]

@@ -98,7 +98,7 @@ struct Words;
 
 template <>
 struct Words<Kernel> {
-    static constexpr std::array values{Kernel::triharmonic, Kernel::biharmonic};
+    static constexpr std::array values{Kernel::screened, Kernel::triharmonic, Kernel::biharmonic};
 };
 template <>
 struct Words<Normals> {
@@ -152,7 +152,7 @@ std::string word_of(Enum value) {
     return std::string(name(value));
 }
 
-/// {'triharmonic', 'biharmonic'}
+/// {'screened', 'triharmonic', 'biharmonic'}
 template <class Enum>
 std::string choices() {
     std::string text;

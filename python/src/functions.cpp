@@ -57,15 +57,15 @@ f(x) = p0 + p . x + sum of w_j phi(|x - c_j|); f > 0 inside, in mm near the surf
 
 Parameters
 ----------
-kernel : {'triharmonic', 'biharmonic'}
-    phi(r) = r^3 or r.
+kernel : {'screened', 'triharmonic', 'biharmonic'}
+    phi(r) = 192 (1 + r / 4) exp(-r / 4), r^3 or r.
 frame_center_mm : array_like, shape (3,)
 frame_scale_mm : float
     Unit coordinates u = (x - frame_center_mm) / frame_scale_mm, on which the other parameters are.
 centers : array_like, shape (n, 3)
 weights : array_like, shape (n,)
 polynomial : array_like, shape (4,)
-    p0 and p.
+    p0 and p. With the screened kernel p0 is the mean, f's value far from all centres, and p is 0.
 
 Examples
 --------
@@ -77,7 +77,7 @@ True
 )");
     constructor(function, &function_from, py::arg("kernel"), py::arg("frame_center_mm"), py::arg("frame_scale_mm"),
                 py::arg("centers"), py::arg("weights"), py::arg("polynomial"));
-    function.def_property_readonly("kernel", &ImplicitFunction::kernel, "{'triharmonic', 'biharmonic'}");
+    function.def_property_readonly("kernel", &ImplicitFunction::kernel, "{'screened', 'triharmonic', 'biharmonic'}");
     function.def_property_readonly(
         "frame_center_mm", [](const ImplicitFunction& f) { return f.frame().center; }, "ndarray, shape (3,), float64");
     function.def_property_readonly(
@@ -91,7 +91,7 @@ True
         "ndarray, shape (n,), float64: on unit coordinates.");
     function.def_property_readonly(
         "polynomial", [](const ImplicitFunction& f) { return py::array_t<double>(4, f.polynomial().data()); },
-        "ndarray, shape (4,), float64: on unit coordinates.");
+        "ndarray, shape (4,), float64: on unit coordinates; with the screened kernel the mean and 0.");
     method(function, "values", R"(Values of f at points.
 
 Parameters

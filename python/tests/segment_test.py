@@ -101,7 +101,7 @@ def test_wrong_options_are_refused_by_name(case):
         kontur.segment(case.contours, case.grid, qualty=0.5)
     with pytest.raises(TypeError, match="quality: float is needed, not 'high'"):
         kontur.segment(case.contours, case.grid, quality="high")
-    with pytest.raises(ValueError, match="'cubic' is none of {'triharmonic', 'biharmonic'}"):
+    with pytest.raises(ValueError, match="'cubic' is none of {'screened', 'triharmonic', 'biharmonic'}"):
         kontur.segment(case.contours, case.grid, kernel="cubic")
     with pytest.raises(kontur.InvalidInputError, match="quality"):
         kontur.segment(case.contours, case.grid, quality=0)

@@ -31,8 +31,9 @@ const ImplicitFunction& bumpy(Kernel kernel) {
             }
         return solve(set, {.kernel = k, .smoothing = 1e-5}).function;
     };
-    static const ImplicitFunction cubic = make(Kernel::triharmonic), linear = make(Kernel::biharmonic);
-    return kernel == Kernel::triharmonic ? cubic : linear;
+    static const ImplicitFunction screened = make(Kernel::screened), cubic = make(Kernel::triharmonic),
+                                  linear = make(Kernel::biharmonic);
+    return kernel == Kernel::screened ? screened : kernel == Kernel::triharmonic ? cubic : linear;
 }
 
 std::vector<Vec3> points_about_surface(std::size_t count, std::mt19937& random) {
@@ -52,7 +53,7 @@ std::vector<double> exact_values(const ImplicitFunction& function, const std::ve
 }
 
 class FastFunctionOfKernel : public testing::TestWithParam<Kernel> {};
-INSTANTIATE_TEST_SUITE_P(, FastFunctionOfKernel, testing::Values(Kernel::triharmonic, Kernel::biharmonic),
+INSTANTIATE_TEST_SUITE_P(, FastFunctionOfKernel, testing::Values(Kernel::screened, Kernel::triharmonic, Kernel::biharmonic),
                          [](const auto& test) { return std::string(name(test.param)); });
 
 TEST_P(FastFunctionOfKernel, AgreesWithDirectSumsFromAFractionOfTheirTerms) {

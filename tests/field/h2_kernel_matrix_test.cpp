@@ -76,7 +76,7 @@ double relative_error(Kernel kernel, const Points& points, const H2Options& opti
 
 TEST(H2KernelMatrix, ErrorIsAboutTheToleranceTimesTheNormOfTheWeights) {
     std::mt19937 random = test::random_of_this_test();
-    for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
+    for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic})
         for (const double tolerance : {1e-5, 1e-8, 1e-11}) {
             EXPECT_LT(relative_error(kernel, contours(3000), {.tolerance = tolerance}, random), 10)
                 << name(kernel) << tolerance;
@@ -116,7 +116,7 @@ TEST(H2KernelMatrix, DegenerateClustersDoNotSpoilIt) {
                                                           {"equal coordinates", lattice},
                                                           {"two places", together}};
     for (const auto& [what, points] : all)
-        for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
+        for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic})
             EXPECT_LT(relative_error(kernel, points, {.tolerance = 1e-9}, random), 10) << what << " " << name(kernel);
 }
 

@@ -28,7 +28,7 @@ Problem random_problem(std::size_t count, std::mt19937& random) {
 
 TEST(DirectKernelMatrix, MultipliesAsTheFullSumDoes) {
     std::mt19937 random = test::random_of_this_test();
-    for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
+    for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic})
         for (const std::size_t count : {1, 2, 31, 32, 33, 64, 65, 1000, 1500}) {
             const Problem p = random_problem(count, random);
             std::vector<double> expected(count), product(count, -1.0);

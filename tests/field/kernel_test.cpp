@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "kontur/field/implicit_function.h"
+#include "support/expect_error.h"
 #include "support/random.h"
 
 namespace kontur {
 namespace {
 
-constexpr Kernel kKernels[] = {Kernel::triharmonic, Kernel::biharmonic};
+constexpr Kernel kKernels[] = {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic};
 
 std::vector<Vec3> random_points(std::size_t count, std::mt19937& random) {
     std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -25,12 +26,24 @@ std::vector<double> random_weights(std::size_t count, std::mt19937& random) {
     return weights;
 }
 
+/// kernel_value by its definition; of the screened kernel what is left when its even powers are gone.
+double naive_kernel(Kernel kernel, double r) {
+    constexpr double l = kScreeningLength;
+    if (kernel == Kernel::biharmonic) return r;
+    if (kernel == Kernel::triharmonic) return std::pow(r, 3);
+    return screened_kernel(r) - 3 * std::pow(l, 3) + 1.5 * l * r * r;
+}
+
+double naive_slope(Kernel kernel, double r) {
+    constexpr double l = kScreeningLength;
+    if (kernel == Kernel::biharmonic) return 1;
+    if (kernel == Kernel::triharmonic) return 3 * r * r;
+    return -3 * l * r * std::exp(-r / l) + 3 * l * r;
+}
+
 double naive_sum(Kernel kernel, const std::vector<Vec3>& centers, const std::vector<double>& weights, const Vec3& at) {
     double sum = 0;
-    for (std::size_t j = 0; j < centers.size(); ++j) {
-        const double r = distance(at, centers[j]);
-        sum += weights[j] * (kernel == Kernel::triharmonic ? std::pow(r, 3) : r);
-    }
+    for (std::size_t j = 0; j < centers.size(); ++j) sum += weights[j] * naive_kernel(kernel, distance(at, centers[j]));
     return sum;
 }
 
@@ -38,7 +51,7 @@ Vec3 naive_gradient(Kernel kernel, const std::vector<Vec3>& centers, const std::
     Vec3 sum;
     for (std::size_t j = 0; j < centers.size(); ++j) {
         const double r = distance(at, centers[j]);
-        if (r > 0) sum += weights[j] * (kernel == Kernel::triharmonic ? 3 * r * r : 1.0) / r * (at - centers[j]);
+        if (r > 0) sum += weights[j] * naive_slope(kernel, r) / r * (at - centers[j]);
     }
     return sum;
 }
@@ -46,7 +59,12 @@ Vec3 naive_gradient(Kernel kernel, const std::vector<Vec3>& centers, const std::
 /// A function on a frame far from the origin.
 ImplicitFunction random_function(Kernel kernel, std::mt19937& random) {
     const PointArrays centers(random_points(77, random));
-    return {kernel, {{100, -200, 50}, 30}, centers, random_weights(77, random), {0.3, -1, 2, 0.5}};
+    const bool screened = kernel == Kernel::screened;
+    return {kernel,
+            {{100, -200, 50}, 30},
+            centers,
+            random_weights(77, random),
+            screened ? std::array<double, 4>{-30} : std::array<double, 4>{0.3, -1, 2, 0.5}};
 }
 
 TEST(SumKernel, IsTheObviousDoubleLoop) {
@@ -126,6 +144,38 @@ TEST(ImplicitFunction, ValueDoesNotDependOnTheBatch) {
                 }
             }
     }
+}
+
+/// Near the centres the sums of phi and the even powers, farther out sums of k itself.
+TEST(ImplicitFunction, ScreenedIsTheSumOfItsKernelAndTheMeanEverywhere) {
+    std::mt19937 random = test::random_of_this_test();
+    const ImplicitFunction f = random_function(Kernel::screened, random);
+    for (const double reach : {0.5, 2.0, 2.5, 3.0, 10.0, 1e3})
+        for (const Vec3& unit : random_points(20, random)) {
+            const Vec3 u = reach * normalized(unit);
+            double expected = f.polynomial()[0];
+            Vec3 slope;
+            for (std::size_t j = 0; j < f.centers().size(); ++j) {
+                const double r = distance(u, f.centers()[j]);
+                expected += f.weights()[j] * screened_kernel(r);
+                slope += f.weights()[j] * screened_kernel_slope(r) * (u - f.centers()[j]);
+            }
+            const Vec3 at = f.frame().center + f.frame().scale * u;
+            EXPECT_NEAR(f.value(at), expected, 1e-9) << reach;
+            EXPECT_LT(distance(f.gradient(at), slope / f.frame().scale), 1e-10) << reach;
+        }
+}
+
+TEST(ImplicitFunction, ScreenedHasNoPolynomialButItsMean) {
+    EXPECT_KONTUR_ERROR(ImplicitFunction(Kernel::screened, {}, PointArrays(std::vector<Vec3>{{}}), {1}, {-1, 0, 0.5, 0}),
+                        ErrorKind::invalid_input, "goes back to a mean");
+}
+
+TEST(ScreenedKernel, IsRCubedNearItsCentreAndEndsFarFromIt) {
+    for (const double r : {1e-3, 1e-2, 0.1})
+        EXPECT_NEAR(kernel_value(Kernel::screened, r) / (r * r * r), 1 - 0.375 * r / kScreeningLength, 2 * r * r / 100);
+    EXPECT_LT(screened_kernel(25 * kScreeningLength), 1e-6);
+    EXPECT_EQ(screened_kernel(0), 3 * std::pow(kScreeningLength, 3));
 }
 
 TEST(ImplicitFunction, DefaultIsZeroEverywhere) {

@@ -29,8 +29,11 @@ std::vector<double> matrix_times(Kernel kernel, const PointArrays& points, doubl
     std::vector<double> result(w.size());
     for (std::size_t i = 0; i < w.size(); ++i) {
         result[i] = diagonal * w[i];
-        for (std::size_t j = 0; j < w.size(); ++j)
-            result[i] += kernel_sign(kernel) * kernel_value(kernel, distance(points[i], points[j])) * w[j];
+        for (std::size_t j = 0; j < w.size(); ++j) {
+            const double r = distance(points[i], points[j]);
+            const double phi = kernel == Kernel::screened ? screened_kernel(r) : kernel_value(kernel, r);
+            result[i] += kernel_sign(kernel) * phi * w[j];
+        }
     }
     return result;
 }
@@ -109,7 +112,7 @@ TEST(MultiscaleOrder, EveryLevelRepresentsEachOccupiedCellOnce) {
 
 TEST(Preconditioner, IsTheExactInverseOfASmallSystem) {
     std::mt19937 random = test::random_of_this_test();
-    for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
+    for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic})
         for (const double diagonal : {0.0, 1e-2}) {
             const PointArrays points = random_points(300, random);
             const std::vector<double> w = admissible_weights(points, random);
@@ -156,7 +159,7 @@ TEST(Preconditioner, OnePatternServesAllDiagonalsAndKernels) {
     const PointArrays points = random_points(900, random);
     const auto pattern = std::make_shared<PreconditionerPattern>(points);
     std::vector<double> r(points.size(), 1.0), shared(r.size()), own(r.size());
-    for (const Kernel kernel : {Kernel::triharmonic, Kernel::biharmonic})
+    for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic})
         for (const double diagonal : {0.0, 1e-3, 1.0}) {
             Preconditioner(kernel, pattern, std::vector(points.size(), diagonal)).apply(r, shared);
             Preconditioner(kernel, std::make_shared<PreconditionerPattern>(points), std::vector(points.size(), diagonal))

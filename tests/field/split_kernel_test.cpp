@@ -8,7 +8,7 @@
 namespace kontur {
 namespace {
 
-constexpr Kernel kKernels[] = {Kernel::triharmonic, Kernel::biharmonic};
+constexpr Kernel kKernels[] = {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic};
 
 NearSources one_source(const Vec3& at, double weight) {
     NearSources sources;
@@ -20,18 +20,43 @@ NearSources one_source(const Vec3& at, double weight) {
     return sources;
 }
 
+/// The odd powers of r that are split: {factor, exponent}.
+std::vector<std::pair<double, double>> odd_powers_of(Kernel kernel) {
+    constexpr double l2 = kScreeningLength * kScreeningLength;
+    if (kernel == Kernel::biharmonic) return {{1, 1}};
+    if (kernel == Kernel::triharmonic) return {{1, 3}};
+    return {{1, 3}, {1 / (10 * l2), 5}, {1 / (280 * l2 * l2), 7}};
+}
+
+/// The series of r^exponent in q = (r / radius)^2 about 1, to its fifth power.
+double smooth_power(double exponent, double radius, double r) {
+    const double q = r * r / (radius * radius);
+    double series = 0, term = 1;
+    for (int m = 0; m <= 5; ++m) {
+        series += term;
+        term *= (exponent / 2 - m) / (m + 1) * (q - 1);
+    }
+    return std::pow(radius, exponent) * series;
+}
+
+TEST(SplitKernel, TheSplitPowersAreTheOddPartOfTheScreenedKernel) {
+    for (const double r : {0.01, 0.1, 0.5, 1.0, 2.0}) {
+        double sum = 0;
+        for (const auto& [factor, exponent] : odd_powers_of(Kernel::screened)) sum += factor * std::pow(r, exponent);
+        // The odd part of (1 + s) exp(-s) is s cosh s - sinh s.
+        const double s = r / kScreeningLength, odd = 3 * std::pow(kScreeningLength, 3) * (s * std::cosh(s) - std::sinh(s));
+        EXPECT_NEAR(sum / odd, 1, 1e-9 + 2e-8 * std::pow(r, 6)) << r;
+    }
+}
+
 TEST(SplitKernel, NearPartIsThatOfTheTaylorSeriesAndVanishesBeyondTheRadius) {
     const double radius = 0.7;
     for (const Kernel kernel : kKernels) {
-        const double a = kernel == Kernel::triharmonic ? 1.5 : 0.5;
         for (int step = 0; step <= 60; ++step) {
-            const double r = 0.02 * step, q = r * r / (radius * radius);
-            double series = 0, term = 1;  // of q^a about 1
-            for (int m = 0; m <= 5; ++m) {
-                series += term;
-                term *= (a - m) / (m + 1) * (q - 1);
-            }
-            const double expected = r < radius ? kernel_value(kernel, r) - std::pow(radius, 2 * a) * series : 0;
+            const double r = 0.02 * step;
+            double expected = 0;
+            for (const auto& [factor, exponent] : odd_powers_of(kernel))
+                if (r < radius) expected += factor * (std::pow(r, exponent) - smooth_power(exponent, radius, r));
             const Vec3 target = Vec3{0.1, -0.2, 0.3} + r * normalized({2, -1, 3});
             const double found = NearKernel(kernel, radius).value(one_source({0.1, -0.2, 0.3}, 2), target);
             EXPECT_NEAR(found, 2 * expected, 1e-15) << r;

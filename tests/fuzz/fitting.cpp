@@ -66,7 +66,7 @@ FitOptions fit_options(Choices& choose, double diameter, std::size_t points) {
     options.place.normal_offset_mm = odd(choose, choose.between(1e-4, 0.02) * diameter);
     options.place.merge_distance_mm = choose.flag() ? 0 : odd(choose, 6e-4 * diameter);
     options.solve.threads = 1;
-    options.solve.kernel = choose.flag() ? Kernel::biharmonic : Kernel::triharmonic;
+    options.solve.kernel = static_cast<Kernel>(choose.below(3));
     if (points < 600) options.solve.solver = static_cast<Solver>(choose.below(4));  // dense ones take n^3
     options.solve.smoothing = choose.flag() ? odd(choose, 1e-5) : 0;
     options.solve.tolerance_mm = odd(choose, 1e-4 * diameter);

@@ -42,6 +42,7 @@ void expect_numpy_agrees(const std::string& structure, const std::string& planes
                                 json = folder / (planes + ".json");
     const Grid grid = test::coarse(read_grid(folder / "truth.nii.gz"), coarsening);
     SegmentOptions options;
+    options.kernel = Kernel::triharmonic;
     options.normals = Normals::in_plane;
     options.normal_offset_mm = kOffset_mm;
     options.smoothing = 0;

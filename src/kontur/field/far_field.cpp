@@ -64,15 +64,11 @@ void for_each_stencil_node(const Index3& cell, const BlockAt& block_at, const Vi
 void DirectSum::values(const PointArrays& points, std::span<double> out, const Progress& progress) {
     const std::size_t centers = function_.centers().size();
     const std::size_t batch = std::max<std::size_t>(1024, kKernelValuesPerBatch / std::max<std::size_t>(centers, 1));
-    const auto& p = function_.polynomial();
     for (std::size_t begin = 0; begin < points.size(); begin += batch) {
         progress.check();
         const std::size_t end = std::min(points.size(), begin + batch);
-        sum_kernel(function_.kernel(), function_.centers(), function_.weights(), part(points, begin, end),
-                   out.subspan(begin, end - begin), threads_);
+        function_.values_at(part(points, begin, end), out.subspan(begin, end - begin), threads_);
     }
-    for (std::size_t i = 0; i < points.size(); ++i)
-        out[i] += p[0] + p[1] * points.x[i] + p[2] * points.y[i] + p[3] * points.z[i];
     kernel_values_ += static_cast<std::int64_t>(points.size() * centers);
 }
 

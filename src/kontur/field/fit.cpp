@@ -147,7 +147,7 @@ public:
         std::vector<Vec3> far, near;
         for (const Watched& watched : caps_)
             if (watched.active && watched.cap.far) far.push_back(watched.cap.position);
-        if (far.empty()) return 1;
+        if (far.empty() || kernel == Kernel::screened) return 1;
         std::sort(far.begin(), far.end(), before);
         std::copy_if(centers.begin(), centers.end(), std::back_inserter(near),
                      [&](const Vec3& p) { return !std::binary_search(far.begin(), far.end(), p, before); });

@@ -23,8 +23,14 @@ KONTUR_EVERY_INSTRUCTION_SET void fill(Kernel kernel, const PointArrays& proxies
         for (std::int32_t i = 0; i < rows; ++i) {
             const double dx = x[i] - node.x, dy = y[i] - node.y, dz = z[i] - node.z;
             const double squared = dx * dx + dy * dy + dz * dz;
-            a[i] = kernel == Kernel::triharmonic ? squared * std::sqrt(squared) : std::sqrt(squared);
+            a[i] = std::sqrt(squared);
         }
+        if (kernel != Kernel::biharmonic)
+            for (std::int32_t i = 0; i < rows; ++i) {
+                double factor = 1;
+                if (kernel == Kernel::screened) screened_factor(kScreenedValue, a[i], factor);
+                a[i] = a[i] * a[i] * a[i] * factor;
+            }
         std::fill(a + rows, a + lead, 0.0);
     }
 }

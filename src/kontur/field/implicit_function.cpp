@@ -3,11 +3,23 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/error.h"
 #include "kontur/base/smallest_ball.h"
 
 namespace kontur {
+namespace {
+
+/// How far from the origin all centres are within kScreenedReach.
+double near_radius(const PointArrays& centers) {
+    double farthest = 0;
+    for (std::size_t j = 0; j < centers.size(); ++j) farthest = std::max(farthest, norm(centers[j]));
+    return kScreenedReach - farthest;
+}
+
+}  // namespace
 
 struct ImplicitFunction::Data {
     Kernel kernel = Kernel::triharmonic;
@@ -15,7 +27,29 @@ struct ImplicitFunction::Data {
     PointArrays centers;
     std::vector<double> weights;
     std::array<double, 4> polynomial{};
+    EvenPowers smooth{};  // all but the sums of kernel_value: the polynomial and, of the screened kernel, the even powers
+    double near_radius = std::numeric_limits<double>::infinity();
+
+    /// Whether kernel_value does not hold for all centres, so that the screened kernel itself has to be summed.
+    bool is_far(const Vec3& point) const { return !(norm(point) <= near_radius); }
+    double far_value(const Vec3& at) const;
+    Vec3 far_gradient(const Vec3& at) const;
 };
+
+double ImplicitFunction::Data::far_value(const Vec3& at) const {
+    double sum = 0;
+    for (std::size_t j = 0; j < centers.size(); ++j) sum += weights[j] * screened_kernel(distance(at, centers[j]));
+    return polynomial[0] + sum;
+}
+
+Vec3 ImplicitFunction::Data::far_gradient(const Vec3& at) const {
+    Vec3 sum;
+    for (std::size_t j = 0; j < centers.size(); ++j) {
+        const Vec3 d = at - centers[j];
+        sum += weights[j] * screened_kernel_slope(norm(d)) * d;
+    }
+    return sum;
+}
 
 std::vector<Vec3> UnitFrame::to_unit(std::span<const Vec3> points) const {
     std::vector<Vec3> result;
@@ -32,10 +66,22 @@ UnitFrame unit_frame(std::span<const Vec3> points) {
 ImplicitFunction::ImplicitFunction() : data_(std::make_shared<const Data>()) {}
 
 ImplicitFunction::ImplicitFunction(Kernel kernel, const UnitFrame& frame, PointArrays centers, std::vector<double> weights,
-                                   std::array<double, 4> polynomial)
-    : data_(std::make_shared<const Data>(Data{kernel, frame, std::move(centers), std::move(weights), polynomial})) {
-    check_same_count("weights", data_->weights.size(), "centres", data_->centers.size());
+                                   const std::array<double, 4>& polynomial) {
+    check_same_count("weights", weights.size(), "centres", centers.size());
     check_above_0("the scale of the function's frame", frame.scale);
+    const Vec3 linear{polynomial[1], polynomial[2], polynomial[3]};
+    EvenPowers smooth{polynomial[0], linear, 0};
+    double near = std::numeric_limits<double>::infinity();
+    if (kernel == Kernel::screened) {
+        if (linear != Vec3{})
+            throw Error(ErrorKind::invalid_input,
+                        "the screened kernel goes back to a mean; its polynomial's last three numbers must be 0");
+        smooth = even_powers(centers, weights);
+        smooth.constant += polynomial[0];
+        near = near_radius(centers);
+    }
+    data_ =
+        std::make_shared<const Data>(Data{kernel, frame, std::move(centers), std::move(weights), polynomial, smooth, near});
 }
 
 Kernel ImplicitFunction::kernel() const { return data_->kernel; }
@@ -56,31 +102,40 @@ Vec3 ImplicitFunction::gradient(const Vec3& point_mm) const {
     return result;
 }
 
-void ImplicitFunction::add_polynomial(const PointArrays& points, std::span<double> values) const {
-    const auto& p = data_->polynomial;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        values[i] += p[0] + p[1] * points.x[i] + p[2] * points.y[i] + p[3] * points.z[i];
+/// Adds the smooth part to sums of kernel_value; far points get their value by sums of k instead.
+void ImplicitFunction::finish_values(const PointArrays& points, std::span<double> values) const {
+    const Data& d = *data_;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 at = points[i];
+        values[i] = d.is_far(at) ? d.far_value(at) : values[i] + d.smooth.value(at);
+    }
 }
 
-/// Adds the polynomial's and goes from the frame's unit to mm.
-void ImplicitFunction::finish_gradients(std::span<Vec3> gradients) const {
-    const Vec3 linear{data_->polynomial[1], data_->polynomial[2], data_->polynomial[3]};
-    for (Vec3& gradient : gradients) gradient = (gradient + linear) / data_->frame.scale;
+/// The same for gradients, and goes from the frame's unit to mm.
+void ImplicitFunction::finish_gradients(const PointArrays& points, std::span<Vec3> gradients) const {
+    const Data& d = *data_;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 at = points[i];
+        gradients[i] = (d.is_far(at) ? d.far_gradient(at) : gradients[i] + d.smooth.gradient(at)) / d.frame.scale;
+    }
+}
+
+void ImplicitFunction::values_at(const PointArrays& points, std::span<double> out, int threads) const {
+    sum_kernel(data_->kernel, data_->centers, data_->weights, points, out, threads);
+    finish_values(points, out);
 }
 
 void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, int threads) const {
     check_same_count("values", out.size(), "points", points_mm.size());
-    const Data& d = *data_;
-    const PointArrays points(d.frame.to_unit(points_mm));
-    sum_kernel(d.kernel, d.centers, d.weights, points, out, threads);
-    add_polynomial(points, out);
+    values_at(PointArrays(data_->frame.to_unit(points_mm)), out, threads);
 }
 
 void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads) const {
     check_same_count("gradients", out.size(), "points", points_mm.size());
     const Data& d = *data_;
-    sum_kernel_gradient(d.kernel, d.centers, d.weights, PointArrays(d.frame.to_unit(points_mm)), out, threads);
-    finish_gradients(out);
+    const PointArrays points(d.frame.to_unit(points_mm));
+    sum_kernel_gradient(d.kernel, d.centers, d.weights, points, out, threads);
+    finish_gradients(points, out);
 }
 
 void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values,
@@ -90,8 +145,8 @@ void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, threads);
-    add_polynomial(points, values);
-    finish_gradients(gradients);
+    finish_values(points, values);
+    finish_gradients(points, gradients);
 }
 
 }  // namespace kontur

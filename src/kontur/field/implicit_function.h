@@ -24,16 +24,18 @@ struct UnitFrame {
 /// The frame of a point set: centre and radius of its smallest ball (1 for a single point).
 UnitFrame unit_frame(std::span<const Vec3> points);
 
-/// f(x) = p0 + p . x + sum_j w_j phi(|x - c_j|) (paper Eq. 2), positive inside, in mm near the surface. Immutable, cheap to
-/// copy, safe to read from any thread.
+/// f(x) = p0 + p . x + sum_j w_j phi(|x - c_j|) (paper Eq. 2), positive inside, in mm near the surface. With the screened
+/// kernel phi is k of screened_kernel.h and p0 the mean that f goes back to far from all centres; p is 0.
+/// Immutable, cheap to copy, safe to read from any thread.
 class ImplicitFunction {
 public:
     /// The zero function.
     ImplicitFunction();
     /// `centers` in `frame`'s unit coordinates; `polynomial` = {p0, p1, p2, p3} on the same coordinates. Throws
-    /// Error(invalid_input) unless there is one weight for each centre and the frame's scale is above 0.
+    /// Error(invalid_input) unless there is one weight for each centre, the frame's scale is above 0 and, with the screened
+    /// kernel, p is 0.
     ImplicitFunction(Kernel kernel, const UnitFrame& frame, PointArrays centers, std::vector<double> weights,
-                     std::array<double, 4> polynomial);
+                     const std::array<double, 4>& polynomial);
 
     Kernel kernel() const;
     const UnitFrame& frame() const;
@@ -55,10 +57,13 @@ public:
     void values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values, std::span<Vec3> gradients,
                               int threads = 0) const;
 
+    /// values() of points in the unit frame.
+    void values_at(const PointArrays& points, std::span<double> out, int threads) const;
+
 private:
     struct Data;
-    void add_polynomial(const PointArrays& points, std::span<double> values) const;
-    void finish_gradients(std::span<Vec3> gradients) const;
+    void finish_values(const PointArrays& points, std::span<double> values) const;
+    void finish_gradients(const PointArrays& points, std::span<Vec3> gradients) const;
 
     std::shared_ptr<const Data> data_;
 };

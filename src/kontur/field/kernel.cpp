@@ -23,17 +23,29 @@ struct Sources {
     std::size_t count;
 };
 
-KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
+/// r^3, or the screened kernel. Inlined into one function for each, so that either is compiled for every instruction set.
+template <bool kScreened>
+[[gnu::always_inline]] inline void sum_cubes(const Sources& s, const Lanes& t, double* __restrict out) {
     alignas(64) double sum[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
         for (int l = 0; l < kLanes; ++l) {
             const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
-            const double r2 = dx * dx + dy * dy + dz * dz;
-            sum[l] += w * (r2 * std::sqrt(r2));
+            const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
+            double factor = 1;
+            if constexpr (kScreened) screened_factor(kScreenedValue, r, factor);
+            sum[l] += kScreened ? w * (r2 * (r * factor)) : w * (r2 * r);
         }
     }
     for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
+    sum_cubes<false>(s, t, out);
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void sum_screened(const Sources& s, const Lanes& t, double* __restrict out) {
+    sum_cubes<true>(s, t, out);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
@@ -49,19 +61,20 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& 
 }
 
 // phi'(r) / r is 3 r for r^3 and 1 / r for r.
-/// The gradients, and in `out` the values where they are wanted, too. Inlined into one function for each, so that either is
-/// compiled for every instruction set.
-template <bool kWithValues>
-[[gnu::always_inline]] inline void sum_triharmonic_slopes(const Sources& s, const Lanes& t, double* __restrict out,
-                                                          Lanes& slope) {
+/// The gradients, and in `out` the values where they are wanted, too.
+template <bool kScreened, bool kWithValues>
+[[gnu::always_inline]] inline void sum_cube_slopes(const Sources& s, const Lanes& t, double* __restrict out, Lanes& slope) {
     alignas(64) double sum[kLanes] = {}, gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j], w3 = 3 * s.w[j];
         for (int l = 0; l < kLanes; ++l) {
             const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
             const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
-            const double factor = w3 * r;
-            if constexpr (kWithValues) sum[l] += w * (r2 * r);
+            double value = 1, slope_factor = 1;
+            if constexpr (kScreened && kWithValues) screened_factor(kScreenedValue, r, value);
+            if constexpr (kScreened) screened_factor(kScreenedSlope, r, slope_factor);
+            const double factor = kScreened ? w3 * (r * slope_factor) : w3 * r;
+            if constexpr (kWithValues) sum[l] += kScreened ? w * (r2 * (r * value)) : w * (r2 * r);
             gx[l] += factor * dx;
             gy[l] += factor * dy;
             gz[l] += factor * dz;
@@ -76,12 +89,20 @@ template <bool kWithValues>
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_gradient(const Sources& s, const Lanes& t, Lanes& slope) {
-    sum_triharmonic_slopes<false>(s, t, nullptr, slope);
+    sum_cube_slopes<false, false>(s, t, nullptr, slope);
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void sum_screened_gradient(const Sources& s, const Lanes& t, Lanes& slope) {
+    sum_cube_slopes<true, false>(s, t, nullptr, slope);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic_both(const Sources& s, const Lanes& t, double* __restrict out,
                                                        Lanes& slope) {
-    sum_triharmonic_slopes<true>(s, t, out, slope);
+    sum_cube_slopes<false, true>(s, t, out, slope);
+}
+
+KONTUR_EVERY_INSTRUCTION_SET void sum_screened_both(const Sources& s, const Lanes& t, double* __restrict out, Lanes& slope) {
+    sum_cube_slopes<true, true>(s, t, out, slope);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic_gradient(const Sources& s, const Lanes& t, Lanes& out) {
@@ -141,9 +162,28 @@ PointArrays::PointArrays(std::span<const Vec3> points) {
     }
 }
 
+EvenPowers even_powers(const PointArrays& centers, std::span<const double> weights) {
+    constexpr double l = kScreeningLength;
+    long double sum = 0, squares = 0, x = 0, y = 0, z = 0;  // large terms that nearly cancel
+    for (std::size_t j = 0; j < centers.size(); ++j) {
+        const Vec3 c = centers[j];
+        const long double w = weights[j];
+        sum += w;
+        x += w * c.x;
+        y += w * c.y;
+        z += w * c.z;
+        squares += w * dot(c, c);
+    }
+    return {static_cast<double>(3 * l * l * l * sum - 1.5 * l * squares),
+            {static_cast<double>(3 * l * x), static_cast<double>(3 * l * y), static_cast<double>(3 * l * z)},
+            static_cast<double>(-1.5 * l * sum)};
+}
+
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                 std::span<double> out, int threads) {
-    const auto sum = kernel == Kernel::triharmonic ? sum_triharmonic : sum_biharmonic;
+    const auto sum = kernel == Kernel::screened      ? sum_screened
+                     : kernel == Kernel::triharmonic ? sum_triharmonic
+                                                     : sum_biharmonic;
     for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
         Lanes lanes;
         alignas(64) std::array<double, kLanes> result;
@@ -155,7 +195,9 @@ void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const doubl
 
 void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
                          const PointArrays& targets, std::span<Vec3> out, int threads) {
-    const auto sum = kernel == Kernel::triharmonic ? sum_triharmonic_gradient : sum_biharmonic_gradient;
+    const auto sum = kernel == Kernel::screened      ? sum_screened_gradient
+                     : kernel == Kernel::triharmonic ? sum_triharmonic_gradient
+                                                     : sum_biharmonic_gradient;
     for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
         Lanes lanes, result;
         load(targets, begin, count, lanes);
@@ -166,16 +208,17 @@ void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<co
 
 void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
                              const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients, int threads) {
-    if (kernel != Kernel::triharmonic) {
+    if (kernel == Kernel::biharmonic) {
         sum_kernel(kernel, centers, weights, targets, values, threads);
         sum_kernel_gradient(kernel, centers, weights, targets, gradients, threads);
         return;
     }
+    const auto sum = kernel == Kernel::screened ? sum_screened_both : sum_triharmonic_both;
     for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
         Lanes lanes, slope;
         alignas(64) std::array<double, kLanes> result;
         load(targets, begin, count, lanes);
-        sum_triharmonic_both(sources(centers, weights), lanes, result.data(), slope);
+        sum(sources(centers, weights), lanes, result.data(), slope);
         std::copy_n(result.begin(), count, values.begin() + static_cast<std::ptrdiff_t>(begin));
         for (std::size_t l = 0; l < count; ++l) gradients[begin + l] = {slope.x[l], slope.y[l], slope.z[l]};
     });

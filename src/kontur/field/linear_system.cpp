@@ -52,9 +52,16 @@ std::array<double, 4> linear_through(const PointArrays& centers, const std::arra
     return {values[0] - dot(gradient, origin), gradient.x, gradient.y, gradient.z};
 }
 
+void add_even_powers(Kernel kernel, const PointArrays& centers, std::span<const double> weights, std::span<double> image) {
+    if (kernel != Kernel::screened) return;
+    const EvenPowers powers = even_powers(centers, weights);
+    for (std::size_t i = 0; i < image.size(); ++i) image[i] += powers.value(centers[i]);
+}
+
 double largest_residual(const LinearSystem& system, const Coefficients& c, int threads) {
     std::vector<double> sums(system.size());
     sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, threads);
+    add_even_powers(system.kernel, system.centers, c.weights, sums);
     double largest = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const Vec3 p = system.centers[i];

@@ -16,19 +16,23 @@ struct LinearSystem {
     Kernel kernel;
     std::vector<double> smoothing;   ///< of every constraint
     PointArrays centers;             ///< unit coordinates
-    std::vector<double> values;      ///< mm
+    std::vector<double> values;      ///< mm, above the mean
     std::vector<double> start = {};  ///< weights that may be close to the solution; empty: none are known
     std::shared_ptr<const PreconditionerPattern> pattern = {};  ///< of these centres, if there is one already
 
     std::size_t size() const { return values.size(); }
     double entry(std::size_t i, std::size_t j) const {
-        const double dx = centers.x[i] - centers.x[j], dy = centers.y[i] - centers.y[j], dz = centers.z[i] - centers.z[j];
-        const double phi = kernel_value(kernel, std::sqrt(dx * dx + dy * dy + dz * dz));
-        return i == j ? phi + diagonal(i) : phi;
+        const double r = distance(centers[i], centers[j]);
+        const double value = kernel == Kernel::screened ? screened_kernel(r) : kernel_value(kernel, r);
+        return i == j ? value + diagonal(i) : value;
     }
     /// Smoothing enters with the kernel's sign: it must add to the definite direction.
     double diagonal(std::size_t i) const { return kernel_sign(kernel) * smoothing[i]; }
 };
+
+/// Adds to `image`, which holds the weights' sums of phi at the centres, what makes them sums of the definite kernel: the
+/// even powers of the screened kernel, nothing for the others.
+void add_even_powers(Kernel kernel, const PointArrays& centers, std::span<const double> weights, std::span<double> image);
 
 struct Coefficients {
     std::vector<double> weights;
@@ -45,9 +49,10 @@ struct Coefficients {
 /// Eq. 6 as printed, by dsysv (Bunch-Kaufman).
 Coefficients solve_dense(const LinearSystem& system);
 
-/// The reduced system, by Cholesky. Four well-spread centres carry the polynomial: with their Lagrange basis l_m, the
-/// weights that satisfy the side conditions are w = B v, and B^T Phi B is definite because phi is conditionally so. Blocked
-/// by tiles in a fixed order, so the result does not depend on the thread count.
+/// By Cholesky. The screened kernel's matrix is definite as it is. The others' is reduced: four well-spread centres carry
+/// the polynomial: with their Lagrange basis l_m, the weights that satisfy the side conditions are w = B v, and B^T Phi B is
+/// definite because phi is conditionally so. Blocked by tiles in a fixed order, so the result does not depend on the thread
+/// count.
 Coefficients solve_cholesky(const LinearSystem& system, int threads, const Progress& progress);
 
 /// Conjugate gradients on the weights that satisfy the side conditions.

@@ -55,7 +55,13 @@ template <Kernel kKernel, int kLanes>
     const Pack<kLanes> squared = dx * dx + dy * dy + dz * dz;
     Pack<kLanes> r;
     for (int l = 0; l < kLanes; ++l) r[l] = std::sqrt(squared[l]);
-    phi = kKernel == Kernel::triharmonic ? squared * r : r;
+    if constexpr (kKernel == Kernel::screened) {
+        Pack<kLanes> factor;
+        screened_factor(kScreenedValue, r, factor);
+        phi = squared * (r * factor);
+    } else {
+        phi = kKernel == Kernel::triharmonic ? squared * r : r;
+    }
 }
 
 /// At most kPacks * kLanes left nodes, held in registers while the right ones pass by.
@@ -105,7 +111,8 @@ template <int kLanes, Kernel kKernel, bool kMutual>
 template <int kLanes, bool kMutual>
 [[gnu::always_inline]] inline void add_sums_of(Kernel kernel, const NodeView& nodes, NodeRun left,
                                                std::span<const NodeRun> right, double* out) {
-    if (kernel == Kernel::triharmonic) add_all_sums<kLanes, Kernel::triharmonic, kMutual>(nodes, left, right, out);
+    if (kernel == Kernel::screened) add_all_sums<kLanes, Kernel::screened, kMutual>(nodes, left, right, out);
+    else if (kernel == Kernel::triharmonic) add_all_sums<kLanes, Kernel::triharmonic, kMutual>(nodes, left, right, out);
     else add_all_sums<kLanes, Kernel::biharmonic, kMutual>(nodes, left, right, out);
 }
 

@@ -47,15 +47,29 @@ void localise(const PointArrays& points, std::span<const std::int32_t> columns, 
 
 /// phi on coordinates divided by `radius` is phi / degree_scale(radius).
 double degree_scale(Kernel kernel, double radius) {
-    return kernel == Kernel::triharmonic ? radius * radius * radius : radius;
+    return kernel == Kernel::biharmonic ? radius : radius * radius * radius;
 }
 
-/// Lower triangle of sign phi + weight (1 + x.y), as small_cholesky wants it. The polynomial part changes
-/// nothing on weights that satisfy the side conditions and makes the matrix definite on all others.
-KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p, double weight, double* __restrict a,
-                                             int n) {
+/// What is added to sign phi: constant + linear x.y, on local coordinates.
+struct PolynomialWeights {
+    double constant, linear;
+};
+
+/// Such a part changes nothing on weights that satisfy the side conditions and makes the matrix definite on all others. The
+/// screened kernel has one of its own: of its even powers 3 l^3 and 3 l x.y, as far as rounding leaves r^3 beside them.
+PolynomialWeights polynomial_weights(Kernel kernel, double weight, double radius) {
+    constexpr double kMost = 1e9;
+    if (kernel != Kernel::screened) return {weight, weight};
+    const double l = kScreeningLength / radius;
+    return {std::min(3 * l * l * l, kMost), std::min(3 * l, kMost)};
+}
+
+/// Lower triangle of sign phi + polynomials, as small_cholesky wants it; r^3 stands for the screened kernel, whose further
+/// powers are small among neighbours.
+KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p, const PolynomialWeights& weights,
+                                             double* __restrict a, int n) {
     const double *x = p.x.data(), *y = p.y.data(), *z = p.z.data();
-    const bool cubic = kernel == Kernel::triharmonic;
+    const bool cubic = kernel != Kernel::biharmonic;
     const int lead = padded_rows(n);
     for (int j = 0; j < n; ++j, a += lead) {
         const double xj = x[j], yj = y[j], zj = z[j];
@@ -63,9 +77,20 @@ KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p
             const double dx = x[i] - xj, dy = y[i] - yj, dz = z[i] - zj;
             const double r2 = dx * dx + dy * dy + dz * dz;
             const double signed_phi = std::sqrt(r2) * (cubic ? r2 : -1.0);
-            a[i] = signed_phi + weight * (1 + (x[i] * xj + y[i] * yj + z[i] * zj));
+            a[i] = signed_phi + weights.constant + weights.linear * (x[i] * xj + y[i] * yj + z[i] * zj);
         }
     }
+}
+
+/// The same of the screened kernel itself.
+void fill_screened(const LocalPoints& p, double* a, int n) {
+    const double scale = 1 / (p.radius * p.radius * p.radius);
+    const auto at = [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        return Vec3{p.x[k], p.y[k], p.z[k]};
+    };
+    for (int j = 0; j < n; ++j, a += padded_rows(n))
+        for (int i = j; i < n; ++i) a[i] = scale * screened_kernel(p.radius * distance(at(i), at(j)));
 }
 
 /// Adds the points' own diagonal entries.
@@ -132,7 +157,10 @@ void Preconditioner::factorise_top(Kernel kernel, std::span<const double> diagon
     const double scale = degree_scale(kernel, local.radius);
     top_scale_ = 1 / scale;
     top_factor_.resize(columns.size() * static_cast<std::size_t>(padded_rows(top)));
-    fill_local(kernel, local, pattern_->options().polynomial_weight, top_factor_.data(), top);
+    if (kernel == Kernel::screened) fill_screened(local, top_factor_.data(), top);
+    else
+        fill_local(kernel, local, polynomial_weights(kernel, pattern_->options().polynomial_weight, local.radius),
+                   top_factor_.data(), top);
     add_diagonal(diagonal, columns, scale, top_factor_.data());
     if (!small_cholesky(top_factor_.data(), top))
         throw Error(ErrorKind::singular_system,
@@ -148,7 +176,8 @@ void Preconditioner::factorise(Kernel kernel, const PreconditionerPattern::Super
     const double scale = degree_scale(kernel, local.radius);
     std::vector<double> matrix(static_cast<std::size_t>(padded_rows(n)) * static_cast<std::size_t>(n));
     std::vector<double> inverse_rows(rows.size());
-    fill_local(kernel, local, pattern_->options().polynomial_weight, matrix.data(), n);
+    fill_local(kernel, local, polynomial_weights(kernel, pattern_->options().polynomial_weight, local.radius), matrix.data(),
+               n);
     add_diagonal(diagonal, pattern_->columns(node), scale, matrix.data());
     if (!small_cholesky(matrix.data(), n)) return;
     last_rows_of_inverse(matrix.data(), n, node.members, inverse_rows.data());

@@ -30,7 +30,8 @@ double largest(const Vector& a) {
     return result;
 }
 
-LinearPolynomials::LinearPolynomials(const PointArrays& centers) {
+LinearPolynomials::LinearPolynomials(Kernel kernel, const PointArrays& centers) {
+    if (kernel == Kernel::screened) return;
     basis_ = {Vector(centers.size(), 1.0), centers.x, centers.y, centers.z};
     for (std::size_t m = 0; m < 4; ++m) {
         const double before = std::sqrt(inner(basis_[m], basis_[m]));
@@ -63,6 +64,7 @@ void ProjectedOperator::tighten(double factor) {
 Vector ProjectedOperator::image(const KernelMatrix& matrix, const Vector& w) const {
     Vector out(w.size());
     matrix.multiply(w, out);
+    add_even_powers(system_.kernel, system_.centers, w, out);
     const double sign = kernel_sign(system_.kernel);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = sign * out[i] + system_.smoothing[i] * w[i];
     return out;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,17 +16,18 @@ void add_scaled(Vector& a, double s, const Vector& b);
 /// Largest absolute value.
 double largest(const Vector& a);
 
-/// An orthonormal basis of the linear polynomials' values at the centres.
+/// An orthonormal basis of the linear polynomials' values at the centres, or of nothing for the screened kernel, which is
+/// definite without side conditions.
 class LinearPolynomials {
 public:
-    /// Throws Error(singular_system) when all centres lie in one plane.
-    explicit LinearPolynomials(const PointArrays& centers);
+    /// Throws Error(singular_system) when all centres lie in one plane and the kernel needs side conditions.
+    LinearPolynomials(Kernel kernel, const PointArrays& centers);
 
     /// Removes the best linear fit.
     void project_out(Vector& v) const;
 
 private:
-    std::array<Vector, 4> basis_;
+    std::vector<Vector> basis_;
 };
 
 /// sign (Phi + diagonal) w, and what is known of its error.

@@ -31,9 +31,11 @@ void check_distinct(const std::vector<Vec3>& centers) {
 }
 
 void check(const ConstraintSet& constraints, const SolveOptions& options) {
-    if (constraints.size() < 4)
-        throw Error(ErrorKind::invalid_input, "there are " + std::to_string(constraints.size()) +
-                                                  " constraints; a linear polynomial in space needs at least 4");
+    const std::size_t least = options.kernel == Kernel::screened ? 1 : 4;
+    if (constraints.size() < least)
+        throw Error(ErrorKind::invalid_input,
+                    "there are " + std::to_string(constraints.size()) + " constraints; at least " + std::to_string(least) +
+                        (least == 4 ? " are needed, for a linear polynomial in space" : " is needed"));
     check_same_count("values", constraints.values.size(), "constraints", constraints.size());
     if (!constraints.trust.empty())
         check_same_count("degrees of trust", constraints.trust.size(), "constraints", constraints.size());
@@ -82,7 +84,14 @@ std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOp
 }
 
 /// phi of distances in mm is this much times phi of distances in the frame.
-double kernel_scale(Kernel kernel, const UnitFrame& frame) { return kernel_value(kernel, frame.scale); }
+double kernel_scale(Kernel kernel, const UnitFrame& frame) {
+    return kernel == Kernel::biharmonic ? frame.scale : frame.scale * frame.scale * frame.scale;
+}
+
+UnitFrame frame_of(const ConstraintSet& constraints, const SolveOptions& options) {
+    if (!options.ball) return unit_frame(constraints.centers);
+    return {options.ball->center, options.ball->radius > 0 ? options.ball->radius : 1.0};
+}
 
 /// The weights of those centres that the previous solve had too; the others' are 0.
 std::vector<double> start_weights(const std::vector<Vec3>& centers, const PreviousSolve& previous, double scale) {
@@ -117,7 +126,17 @@ std::string_view name(Solver solver) noexcept {
     return "?";
 }
 
-std::string_view name(Kernel kernel) noexcept { return kernel == Kernel::triharmonic ? "triharmonic" : "biharmonic"; }
+std::string_view name(Kernel kernel) noexcept {
+    switch (kernel) {
+        case Kernel::screened:
+            return "screened";
+        case Kernel::triharmonic:
+            return "triharmonic";
+        case Kernel::biharmonic:
+            return "biharmonic";
+    }
+    return "?";
+}
 
 void check_solve_options(const SolveOptions& options) {
     if (!(options.tolerance_mm > 0 && std::isfinite(options.tolerance_mm)))
@@ -142,10 +161,13 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
         check_same_count("weights of the previous solve", previous->weights.size(), "centres", previous->centers.size());
     progress.check();
 
-    const UnitFrame frame = unit_frame(constraints.centers);
+    const bool screened = options.kernel == Kernel::screened;
+    const UnitFrame frame = frame_of(constraints, options);
+    const double mean = screened ? kMeanRadii * frame.scale : 0;
     LinearSystem system{options.kernel, smoothing_of(constraints, options), PointArrays(frame.to_unit(constraints.centers)),
                         constraints.values};
-    static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane, which dsysv may not notice
+    for (double& value : system.values) value -= mean;
+    if (!screened) static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane: dsysv may not notice
     const double scale = kernel_scale(options.kernel, frame);
     if (previous && !previous->centers.empty()) {
         system.start = start_weights(constraints.centers, *previous, scale);
@@ -160,6 +182,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     Solution solution;
     solution.report = {options.solver,    system.size(), c.iterations,  c.residual,
                        c.residual_points, c.matrix_mb,   c.evaluations, c.seconds};
+    if (screened) c.polynomial = {mean, 0, 0, 0};
     solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
     return solution;
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "kontur/base/progress.h"
+#include "kontur/base/smallest_ball.h"
 #include "kontur/field/constraints.h"
 #include "kontur/field/implicit_function.h"
 
@@ -24,6 +26,7 @@ std::string_view name(Kernel kernel) noexcept;
 
 struct SolveOptions {
     Kernel kernel = Kernel::triharmonic;
+    std::optional<Ball3> ball{};  ///< mm, of what was drawn, sets the unit; unset: the smallest one of all constraints
     Solver solver = Solver::automatic;
     double smoothing = 0;        ///< >= 0, on unit coordinates, divided by each constraint's trust; 0: exact
     double tolerance_mm = 1e-3;  ///< iterative only: largest |f(c_i) - h_i| over all constraints at which it stops
@@ -64,10 +67,15 @@ struct PreviousSolve {
     std::shared_ptr<const PreconditionerPattern> pattern = {};
 };
 
-/// The variational interpolant through the constraints: Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
-/// Throws Error(singular_system) when the centres coincide or all lie in one plane, Error(too_large) when the dense matrix
-/// would exceed the memory limit, Error(invalid_input) for fewer than 4 constraints, values that are not finite or not one
-/// for each centre, or what `check_solve_options` refuses.
+/// The mean of the screened kernel's functions in radii of the ball, outside.
+inline constexpr double kMeanRadii = -1;
+
+/// The variational interpolant through the constraints: with the screened kernel the function that departs least from its
+/// mean, with the others Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
+/// Throws Error(singular_system) when the centres coincide or, but for the screened kernel, all lie in one plane,
+/// Error(too_large) when the dense matrix would exceed the memory limit, Error(invalid_input) for no constraint (fewer than
+/// 4 with other kernels than the screened), values that are not finite or not one for each centre, or what
+/// `check_solve_options` refuses.
 /// Results are the same bytes for any number of threads. The iterative solver starts from the weights that centres had in
 /// the `previous` solve, which is replaced by this one; so it takes fewer iterations to the same tolerance.
 Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {},

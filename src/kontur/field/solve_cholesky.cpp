@@ -76,14 +76,17 @@ struct ReducedBasis {
     }
 };
 
-void fill(TiledMatrix& a, const LinearSystem& system, const ReducedBasis& basis, double sign, int threads) {
+/// `entry(i, j)` is symmetric; the lower triangle is wanted.
+template <class Entry>
+void fill(TiledMatrix& a, const Entry& entry, int threads) {
     parallel_for(static_cast<std::int64_t>(a.tiles()), 1, threads, [&](std::int64_t first, std::int64_t last) {
         for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row)
             for (std::size_t column = 0; column <= row; ++column) {
                 double* tile = a.tile(row, column);
                 for (int j = 0; j < a.rows(column); ++j)
                     for (int i = row == column ? j : 0; i < a.rows(row); ++i)
-                        tile[i + j * kLead] = sign * basis.entry(system, a.begin(row) + i, a.begin(column) + j);
+                        tile[i + j * kLead] =
+                            entry(a.begin(row) + static_cast<std::size_t>(i), a.begin(column) + static_cast<std::size_t>(j));
             }
     });
 }
@@ -150,14 +153,28 @@ std::array<double, 4> polynomial_of(const LinearSystem& system, const ReducedBas
     return linear_through(system.centers, basis.spread, left);
 }
 
+Coefficients solve_definite(const LinearSystem& system, int threads, const Progress& progress) {
+    TiledMatrix matrix(system.size());
+    fill(
+        matrix, [&](std::size_t i, std::size_t j) { return system.entry(i, j); }, threads);
+    factorise(matrix, threads, progress);
+    Coefficients c;
+    c.weights = system.values;
+    substitute(matrix, c.weights);
+    c.matrix_mb = matrix.megabytes();
+    return c;
+}
+
 }  // namespace
 
 Coefficients solve_cholesky(const LinearSystem& system, int threads, const Progress& progress) {
     const SingleThreadedBlas guard;
+    if (system.kernel == Kernel::screened) return solve_definite(system, threads, progress);
     const double sign = kernel_sign(system.kernel);
     const ReducedBasis basis(system);
     TiledMatrix matrix(basis.rest.size());
-    fill(matrix, system, basis, sign, threads);
+    fill(
+        matrix, [&](std::size_t i, std::size_t j) { return sign * basis.entry(system, i, j); }, threads);
     factorise(matrix, threads, progress);
 
     std::vector<double> v(basis.rest.size());

@@ -9,11 +9,13 @@ namespace kontur {
 
 Coefficients solve_dense(const LinearSystem& system) {
     const SingleThreadedBlas guard;
-    const std::size_t k = system.size(), n = k + 4;
+    const std::size_t polynomials = system.kernel == Kernel::screened ? 0 : 4;
+    const std::size_t k = system.size(), n = k + polynomials;
     std::vector<double> matrix(n * n, 0.0);  // column major; dsysv reads the lower triangle
     for (std::size_t j = 0; j < k; ++j) {
         double* column = matrix.data() + j * n;
         for (std::size_t i = j; i < k; ++i) column[i] = system.entry(i, j);
+        if (polynomials == 0) continue;
         column[k] = 1;
         column[k + 1] = system.centers.x[j];
         column[k + 2] = system.centers.y[j];
@@ -32,7 +34,7 @@ Coefficients solve_dense(const LinearSystem& system) {
                                                     std::to_string(info) + " of " + std::to_string(n) + ")");
 
     Coefficients c;
-    for (std::size_t m = 0; m < 4; ++m) c.polynomial[m] = right[k + m];
+    for (std::size_t m = 0; m < polynomials; ++m) c.polynomial[m] = right[k + m];
     right.resize(k);
     c.weights = std::move(right);
     c.matrix_mb = static_cast<double>(n) * static_cast<double>(n) * 8 / (1 << 20);

@@ -84,7 +84,7 @@ public:
         : options_(options),
           progress_(progress),
           limit_(options.tolerance_mm),
-          polynomials_(system.centers),
+          polynomials_(system.kernel, system.centers),
           pattern_(system.pattern ? system.pattern
                                   : times_("neighbours",
                                            [&] {
@@ -132,7 +132,7 @@ public:
         Coefficients c;
         Vector left = system.values;
         add_scaled(left, -kernel_sign(system.kernel), image_.values);
-        c.polynomial = fit_linear(system, left);
+        if (system.kernel != Kernel::screened) c.polynomial = fit_linear(system, left);
         c.weights = std::move(weights_);
         c.iterations = iterations_;
         c.residual = residual_;

@@ -15,10 +15,17 @@ namespace kontur {
 /// summation method, Hardy et al. 2015). Summed over all centres, the smooth part is f averaged over balls of radius R: no
 /// larger than f, however large the weights are, because the Laplacians that annihilate phi turn the rest into an average.
 /// A cut without transition would leave sums that are many orders of magnitude larger than f.
+///
+/// Of the screened kernel only the odd powers of r are split, r^3 + r^5 / (10 l^2) + r^7 / (280 l^4) + ..., of which the
+/// first three matter for radii up to l: the even ones are polynomials in r^2 and thus smooth as they are.
 constexpr int kSplitDegree = 5;
+constexpr std::size_t kSplitPowers = 3;
 
-/// Coefficients of the smooth part's polynomial in q, lowest first.
-std::array<double, kSplitDegree + 1> split_polynomial(Kernel kernel);
+/// The odd powers that a kernel has, divided by the lowest: phi = R^m q^(m / 2) (1 + c1 q + c2 q^2) at the radius R.
+std::array<double, kSplitPowers> odd_powers(Kernel kernel, double radius);
+
+/// Coefficients of the smooth part's polynomial in q, lowest first, divided by R^m.
+std::array<double, kSplitDegree + 1> split_polynomial(Kernel kernel, double radius);
 
 constexpr std::size_t kNearLanes = 8;
 
@@ -38,6 +45,7 @@ public:
 private:
     Kernel kernel_;
     double radius_;
+    std::array<double, kSplitPowers> powers_, power_slopes_{};
     std::array<double, kSplitDegree + 1> polynomial_, slope_{};
 };
 

@@ -107,6 +107,21 @@ def test_wrong_options_are_refused_by_name(case):
         kontur.segment(case.contours, case.grid, quality=0)
 
 
+def test_options_out_of_their_range_are_refused_before_any_work(case, tmp_path):
+    nan = float("nan")
+    for editor in (kontur.Editor, lambda **options: kontur.LiveEditor(print, **options)):
+        for option in ("preview_spacing_mm", "refined_spacing_mm"):
+            with pytest.raises(kontur.InvalidInputError, match="spacing is nan mm; it must be finite and at least 0"):
+                editor(**{option: nan})
+    with pytest.raises(kontur.InvalidInputError, match="the window's width is 0"):
+        kontur.make_picture(kontur.TriangleMesh(numpy.empty((0, 3)), numpy.empty((0, 3), int)), case.contours, window=(40, 0))
+    path = tmp_path / "contours.mrk.json"
+    kontur.write_contours(path, case.contours)
+    for read in (kontur.read_contours, kontur.read_markups):
+        with pytest.raises(kontur.InvalidInputError, match="the tolerance for points off their plane is nan mm"):
+            read(path, plane_tolerance_mm=nan)
+
+
 def test_progress_is_called_on_this_thread_from_0_to_1(case):
     calls = []
     kontur.segment(case.contours, case.grid, progress=lambda *words: calls.append((threading.get_ident(), *words)))

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/extract/preview.h"
 #include "kontur/fitting.h"
@@ -41,6 +43,13 @@ EditedSurface surface_of(const Fit& fit, std::span<const Vec3> starts, const Pre
 }
 
 }  // namespace
+
+Editor::Editor(EditorOptions options) : options_(options) {
+    check_not_below_0("the preview's spacing", options_.preview_spacing_mm, " mm");
+    check_not_below_0("the refined surface's spacing", options_.refined_spacing_mm, " mm");
+    if (options_.preview_points < 1)
+        throw Error(ErrorKind::invalid_input, "the preview is fitted to 0 points; at least 1 is needed");
+}
 
 double Editor::preview_spacing(const ContourSet& contours) const {
     return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kSpacingFraction * diameter_mm(contours);

@@ -15,7 +15,7 @@ struct EditorOptions {
     SegmentOptions segment;             ///< how the contours are fitted; `voxelizer` and `mesh` do not matter
     double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: 1.5 % of the contours' diameter
     double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: a third of the preview's
-    std::size_t preview_points = 1000;  ///< about how many of the drawn points a preview is fitted to
+    std::size_t preview_points = 1000;  ///< about how many of the drawn points a preview is fitted to; at least 1
 };
 
 /// The surface through a set of contours.
@@ -39,7 +39,8 @@ struct EditedSurface {
 /// at a residual of 1e5 mm and more), and the set-up of a thousand points takes milliseconds.
 class Editor {
 public:
-    explicit Editor(EditorOptions options = {}) : options_(options) {}
+    /// Throws Error(invalid_input) for a spacing that is not finite or below 0 and for a preview of no points.
+    explicit Editor(EditorOptions options = {});
 
     /// Throws Error as check_contours and solve do; then the edit before stays the last one. A set without contours gives an
     /// empty surface.

@@ -39,6 +39,7 @@ public:
     /// Likewise, when a preview can be cut by planes but has no mesh yet.
     using BandListener = std::function<void(std::uint64_t edit, const SurfaceBand& band)>;
 
+    /// Throws as Editor does.
     LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {});
     /// Cancels what runs and waits for it.
     ~LiveEditor();

@@ -295,6 +295,33 @@ TEST(Preconditions, OfSegmenting) {
     expect_refused(rows);
 }
 
+TEST(Preconditions, OfEditing) {
+    std::vector<Row> rows;
+    const std::function<void(const EditorOptions&)> editing = [](const EditorOptions& o) { Editor{o}; };
+    const std::function<void(const EditorOptions&)> live = [](const EditorOptions& o) {
+        LiveEditor(o, [](const EditorUpdate&) {});
+    };
+    for (const auto& call : {editing, live}) {
+        add<EditorOptions>(rows, "preview", &EditorOptions::preview_spacing_mm, kBelow0, call, "preview's spacing");
+        add<EditorOptions>(rows, "refined", &EditorOptions::refined_spacing_mm, kBelow0, call, "refined surface's spacing");
+        add<EditorOptions>(rows, "points", &EditorOptions::preview_points, {0}, call, "0 points");
+    }
+    const auto refuse = [&](const std::string& part, const std::function<void(SegmentOptions&)>& spoil) {
+        EditorOptions options;
+        spoil(options.segment);
+        rows.push_back({"preview", [=] { Editor(options).preview(contours()); }, part});
+        rows.push_back({"refine", [=] { Editor(options).refine(contours()); }, part});
+    };
+    for (const double value : kNotAbove0) {
+        refuse("normal offset", [=](SegmentOptions& o) { o.normal_offset_mm = value; });
+        refuse("tolerance", [=](SegmentOptions& o) { o.tolerance_mm = value; });
+    }
+    for (const double value : kBelow0) refuse("smoothing", [=](SegmentOptions& o) { o.smoothing = value; });
+    for (const double value : {0.0, 1.5, kNan}) refuse("quality", [=](SegmentOptions& o) { o.quality = value; });
+    refuse("threads", [](SegmentOptions& o) { o.threads = -1; });
+    expect_refused(rows);
+}
+
 TEST(Preconditions, OfWhatComesAfter) {
     std::vector<Row> rows;
     const Mask& mask = segmentation().mask;
@@ -331,6 +358,18 @@ TEST(Preconditions, OfWhatComesAfter) {
     rows.push_back({"picture", [&] { make_picture(mesh, contours(), nullptr, {.width_px = 10}); }, "picture"});
     rows.push_back({"picture", [&] { make_picture(mesh, contours(), nullptr, {.threads = -1}); }, "threads"});
     rows.push_back({"picture", [] { make_picture(broken_mesh(), contours(), nullptr); }, "mesh"});
+    for (const double width : kNotAbove0)
+        rows.push_back({"window",
+                        [=, &mesh] {
+                            make_picture(mesh, contours(), nullptr, {.window = Window{40, width}});
+                        },
+                        "window's width"});
+    for (const double center : {kNan, kInfinite})
+        rows.push_back({"window",
+                        [=, &mesh] {
+                            make_picture(mesh, contours(), nullptr, {.window = Window{center, 1}});
+                        },
+                        "window's centre"});
     rows.push_back({"picture",
                     [&] {
                         const Image image = short_image();
@@ -345,12 +384,55 @@ TEST(Preconditions, OfWhatComesAfter) {
     rows.push_back({"shade", [&] { shade(mesh, tiny); }, "pixel"});
     rows.push_back({"shade", [&] { shade(mesh, good, {.samples = 0}); }, "samples"});
     rows.push_back({"shade", [&] { shade(broken_mesh(), good); }, "mesh"});
+    rows.push_back({"shade", [&] { shade(mesh, good, {.threads = -1}); }, "threads"});
+    for (const double part : {-0.1, 1.1, kNan})
+        for (const Vec3& color : {Vec3{part, 0, 0}, Vec3{0, part, 0}, Vec3{0, 0, part}})
+            rows.push_back({"colour", [=, &mesh] { shade(mesh, good, {.color = color}); }, "of the material"});
 
     const std::vector<float> slice(12);
     const EdgeMap edges(slice, 4, 3);
     rows.push_back({"edges", [&] { EdgeMap(slice, 4, 4); }, "4 x 4"});
     rows.push_back({"seed", [&] { LiveWire(edges, {4, 0}); }, "seed"});
     rows.push_back({"reach", [&] { LiveWire(edges, {1, 1}, -1); }, "reach"});
+    expect_refused(rows);
+}
+
+TEST(Preconditions, OfReading) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path series = folder.path(), markups = series / "a.mrk.json", image = series / "a.nrrd";
+    write_markups(markups, contours());
+    write_mask(image, segmentation().mask);
+    std::vector<Row> rows;
+    const std::function<void(const ReadContoursOptions&)> one = [=](const ReadContoursOptions& o) {
+        read_contours(markups, o);
+    };
+    const std::function<void(const ReadContoursOptions&)> several = [=](const ReadContoursOptions& o) {
+        read_contours(std::vector{markups}, o);
+    };
+    const std::function<void(const ReadMarkupsOptions&)> curves = [=](const ReadMarkupsOptions& o) {
+        read_markups(markups, o);
+    };
+    add<ReadContoursOptions>(rows, "one", &ReadContoursOptions::plane_tolerance_mm, kBelow0, one, "tolerance");
+    add<ReadContoursOptions>(rows, "several", &ReadContoursOptions::plane_tolerance_mm, kBelow0, several, "tolerance");
+    add<ReadMarkupsOptions>(rows, "markups", &ReadMarkupsOptions::plane_tolerance_mm, kBelow0, curves, "tolerance for");
+
+    const std::vector<std::int64_t> limits{0, -1};
+    for (const std::function<void(const ReadImageOptions&)>& call :
+         std::vector<std::function<void(const ReadImageOptions&)>>{
+             [=](const ReadImageOptions& o) { read_image(image, o); },
+             [=](const ReadImageOptions& o) { read_grid(image, o); },
+             [=](const ReadImageOptions& o) { read_mask(image, {}, o); }})
+        add<ReadImageOptions>(rows, "limit", &ReadImageOptions::max_voxels, limits, call, "limit of voxels");
+    for (const std::function<void(const DicomSeriesOptions&)>& call :
+         std::vector<std::function<void(const DicomSeriesOptions&)>>{
+             [=](const DicomSeriesOptions& o) { read_dicom_series(series, o); },
+             [=](const DicomSeriesOptions& o) { read_dicom_grid(series, o); }})
+        add<DicomSeriesOptions>(rows, "limit", &DicomSeriesOptions::max_voxels, limits, call, "limit of voxels");
+    for (const std::int64_t limit : limits) {
+        rows.push_back({"segments", [=] { read_dicom_segmentation(image, limit); }, "limit of voxels"});
+        rows.push_back({"labels", [=] { read_dicom_seg(image, {}, limit); }, "limit of voxels"});
+        rows.push_back({"masks", [=] { read_dicom_seg_masks(image, limit); }, "limit of voxels"});
+    }
     expect_refused(rows);
 }
 
@@ -363,6 +445,20 @@ TEST(Preconditions, OfWriting) {
         rows.push_back({name, [=] { write_image(path, short_image()); }, "values for a grid"});
         for (const std::int64_t label : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{65536}})
             rows.push_back({name, [=] { write_mask(path, segmentation().mask, {.label_value = label}); }, "label value"});
+    }
+    for (const double part : {-0.1, 1.1, kNan}) {
+        const auto path = folder.path() / "a.seg.nrrd";
+        rows.push_back({"colour",
+                        [=] {
+                            write_mask(path, segmentation().mask, {.segment_color = {part, 0, 0}});
+                        },
+                        "red of segment"});
+        const Image labels{grid(), segmentation().mask.values};
+        rows.push_back({"colour",
+                        [=] {
+                            write_image(path, labels, {.names = {{1, "a", {0, 0, part}}}});
+                        },
+                        "blue of segment 'a'"});
     }
     const auto mesh = folder.path() / "a.stl", picture = folder.path() / "a.png";
     rows.push_back({"mesh", [=] { write_mesh(mesh, broken_mesh()); }, "mesh"});

@@ -31,6 +31,14 @@ void check_not_below_0(std::string_view what, double value, std::string_view uni
     if (!(value >= 0 && std::isfinite(value))) refuse(what, text(value, unit), "finite and at least 0");
 }
 
+void check_finite(std::string_view what, double value, std::string_view unit) {
+    if (!std::isfinite(value)) refuse(what, text(value, unit), "finite");
+}
+
+void check_from_0_to_1(std::string_view what, double value) {
+    if (!(value >= 0 && value <= 1)) refuse(what, text(value, {}), "from 0 to 1");
+}
+
 void check_at_least(std::string_view what, std::int64_t value, std::int64_t least) {
     if (value < least) refuse(what, std::to_string(value), "at least " + std::to_string(least));
 }

@@ -12,6 +12,8 @@ namespace kontur {
 /// normal offset"), `unit` follows the value (" mm").
 void check_above_0(std::string_view what, double value, std::string_view unit = {});      ///< and finite
 void check_not_below_0(std::string_view what, double value, std::string_view unit = {});  ///< and finite
+void check_finite(std::string_view what, double value, std::string_view unit = {});
+void check_from_0_to_1(std::string_view what, double value);
 void check_at_least(std::string_view what, std::int64_t value, std::int64_t least);
 /// The number of threads: 0, the machine's, or more.
 void check_threads(int threads);

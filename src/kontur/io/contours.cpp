@@ -67,11 +67,16 @@ ReadContours read_polylines(const fs::path& path, const ReadContoursOptions& opt
     return {std::move(found.contours), "", std::move(found.notes)};
 }
 
+void check_tolerance(const ReadContoursOptions& options) {
+    check_tolerances({.plane_tolerance_mm = options.plane_tolerance_mm});
+}
+
 bool is_markups(const fs::path& path) { return has_extension(path, ".mrk.json"); }
 
 }  // namespace
 
 ReadContours read_contours(const fs::path& path, const ReadContoursOptions& options) {
+    check_tolerance(options);
     const std::string head = head_of(path);
     if (is_dicom(path, head)) return read_roi(path, options);
     if (is_polydata(path, head)) return read_polylines(path, options);
@@ -87,6 +92,7 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
+    check_tolerance(options);
     ReadContours all;
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     ReadContoursOptions of_others = options;

@@ -26,8 +26,8 @@ struct ReadContours {
 
 /// Reads kontur's contour file, 3D Slicer's markups, VTK's lines (.vtk, .vtp: closed curves, of which none has a name) or a
 /// DICOM RT structure set; the content decides which. Throws
-/// Error(unsupported) for any other file, Error(invalid_input) for a `roi` that it does not hold and what the format's own
-/// reader throws.
+/// Error(unsupported) for any other file, Error(invalid_input) for a `roi` that it does not hold, a tolerance below 0, and
+/// what the format's own reader throws.
 ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});
 
 /// The contours of several files as one object, in the order of the files, named after the first that has a name. Notes

@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/io/cie_lab.h"
 #include "kontur/io/dicom_frames.h"
@@ -27,6 +28,8 @@ struct SegFrame {
     std::int64_t segment = 0;  ///< 0: the frame is a label map, whose pixels name their segments
     std::int64_t k = 0;
 };
+
+void check_limit(std::int64_t max_voxels) { check_at_least("the limit of voxels", max_voxels, 1); }
 
 /// A segmentation in memory, its frames placed on a grid.
 class SegFile {
@@ -369,6 +372,7 @@ bool is_dicom_seg(const std::filesystem::path& path) {
 }
 
 DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std::int64_t max_voxels) {
+    check_limit(max_voxels);
     return named_after(path, [&] {
         SegFile file(path, max_voxels);
         file.count_voxels();
@@ -378,6 +382,7 @@ DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std
 
 DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment, std::int64_t max_voxels,
                         const Progress& progress) {
+    check_limit(max_voxels);
     return named_after(path, [&] {
         const SegFile file(path, max_voxels);
         const DicomSegmentation& found = file.description();
@@ -393,6 +398,7 @@ DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::in
 
 std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels,
                                        const Progress& progress) {
+    check_limit(max_voxels);
     return named_after(path, [&] { return masks_of(SegFile(path, max_voxels), max_voxels, progress); });
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_content.h"
 #include "kontur/io/dicom_doubts.h"
@@ -203,6 +204,7 @@ Located locate_in(DicomContent content, const DicomSeriesOptions& options, const
 }
 
 Located locate(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
+    check_at_least("the limit of voxels", options.max_voxels, 1);
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
     if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");

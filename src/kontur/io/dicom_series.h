@@ -66,11 +66,11 @@ std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder);
 /// may be a slice of this one gives a warning. A dose grid (RTDOSE) is read, in its unit, where it or its series is named or
 /// there is nothing else. The frames of an enhanced multi-frame image are slices like those in files of their own. Samples
 /// take the narrowest type that holds all values; a fractional slope makes them float. PixelPaddingValue is kept as an
-/// ordinary value. Throws Error(invalid_input) when the options leave more than one volume, listing them, or none, for two
-/// patients in one series and for different files with one SOP Instance UID; Error(unsupported) for missing slices,
-/// irregular spacing, several slices at one position, colour, lookup tables and other compression than JPEG, JPEG-LS, JPEG
-/// 2000, RLE and deflate; Error(corrupt_file) for damaged files of the series, naming the file; Error(too_large); Error(io)
-/// when there is nothing to read or a file cannot be read.
+/// ordinary value. Throws Error(invalid_input) when the options leave more than one volume, listing them, or none, or their
+/// limit is below 1, for two patients in one series and for different files with one SOP Instance UID; Error(unsupported)
+/// for missing slices, irregular spacing, several slices at one position, colour, lookup tables and other compression than
+/// JPEG, JPEG-LS, JPEG 2000, RLE and deflate; Error(corrupt_file) for damaged files of the series, naming the file;
+/// Error(too_large); Error(io) when there is nothing to read or a file cannot be read.
 DicomVolume read_dicom_series(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
                               const Progress& progress = {});
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/gipl.h"
@@ -157,6 +158,14 @@ void write(const fs::path& path, const ImageView& image, const Segments& segment
     }
 }
 
+void check_limit(const ReadImageOptions& options) { check_at_least("the limit of voxels", options.max_voxels, 1); }
+
+void check_color(const std::array<double, 3>& color, const std::string& name) {
+    constexpr std::array kParts{"red", "green", "blue"};
+    for (std::size_t n = 0; n < kParts.size(); ++n)
+        check_from_0_to_1(std::string("the ") + kParts[n] + " of segment '" + name + "'", color[n]);
+}
+
 }  // namespace
 
 void check_image_name(const fs::path& path) {
@@ -173,6 +182,7 @@ void check_label_value(std::int64_t value) {
 }
 
 Image read_image(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    check_limit(options);
     progress.check();
     switch (readable_format(path)) {
         case Format::nifti:
@@ -197,6 +207,7 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Pr
 }
 
 Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    check_limit(options);
     progress.check();
     switch (readable_format(path)) {
         case Format::nifti:
@@ -222,6 +233,7 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
 
 Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
                const Progress& progress) {
+    check_limit(options);
     const Image image = read_labels(path, label, options, progress);
     return select_mask(image, label, path.string());
 }
@@ -230,6 +242,7 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
     check_mask(mask);
     const std::int64_t value = options.label_value;
     check_label_value(value);
+    check_color(options.segment_color, options.segment_name);
     const auto segment = [&] { return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0}}; };
     const auto write_view = [&](ImageView view) {
         view.provenance = options.provenance;
@@ -243,6 +256,7 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
 
 void write_image(const fs::path& path, const Image& image, const WriteImageOptions& options) {
     check_image(image);
+    for (const LabelName& name : options.names) check_color(name.color, name.name);
     ImageView view(image);
     view.provenance = options.provenance;
     write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });

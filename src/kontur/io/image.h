@@ -19,7 +19,7 @@ namespace kontur {
 /// or the label map of a DICOM segmentation (whose segments must not overlap, unless `read_mask` is asked for one). The
 /// file's name says which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file
 /// (truncated, lying or contradictory), unsupported (a variant, or an unknown format: the message lists the known ones),
-/// too_large, invalid_input (options that fit no frame or series). Every message names the file.
+/// too_large, invalid_input (options that fit no frame or series, a limit below 1). Every message names the file.
 Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
 
 /// The geometry alone; reads no voxels.
@@ -52,7 +52,7 @@ struct WriteImageOptions {
 };
 
 /// Writes a mask in the format that the name says (.nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz, .mgh), whole or not at all.
-/// Throws as check_mask does.
+/// Throws as check_mask and check_label_value do, and Error(invalid_input) for a colour outside of its range.
 void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
 
 /// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label, named as in

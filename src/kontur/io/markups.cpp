@@ -230,6 +230,7 @@ std::string to_document(const ContourSet& set, const Provenance& provenance) {
 }  // namespace
 
 ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOptions& options) {
+    check_tolerances({.plane_tolerance_mm = options.plane_tolerance_mm});
     const json document = read_json_file(path);
     return in_context(path.string(), [&] { return read_set(document, options); });
 }

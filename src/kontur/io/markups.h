@@ -19,7 +19,8 @@ struct ReadMarkupsOptions {
 /// straight open curve takes the direction of another's. The set is named after its curve, or after what the names of
 /// several have in common.
 /// Throws Error naming file, markup and control point: unsupported (another type of markup, unit or schema), invalid_input
-/// (too few points, points on one line, a curve that is not planar, with the distance and the limit), corrupt_file.
+/// (too few points, a tolerance below 0, points on one line, a curve that is not planar, with the distance and the limit),
+/// corrupt_file.
 ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOptions& options = {});
 
 /// Writes one curve per contour and one point list for all single points, in LPS and mm, whole or not at all. 3D Slicer

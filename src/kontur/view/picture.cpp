@@ -138,6 +138,11 @@ void check_size(const PictureOptions& options) {
         throw Error(ErrorKind::too_large, "a picture of " + size + "; at most 16384 x 16384 are possible");
 }
 
+void check_window(const Window& window) {
+    check_finite("the window's centre", window.center);
+    check_above_0("the window's width", window.width);
+}
+
 }  // namespace
 
 Window picture::window_about(const Image& image, const Box3& box_mm) {
@@ -176,6 +181,7 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
     check_mesh(mesh);
     if (image) check_image(*image);
     check_threads(options.threads);
+    if (options.window) check_window(*options.window);
     const Layout layout = lay_out(options.width_px, options.height_px);
     Canvas canvas(options.width_px, options.height_px);
     canvas.fill({0, 0, static_cast<double>(options.width_px), static_cast<double>(options.height_px)}, kGround);

@@ -36,8 +36,9 @@ struct PictureOptions {
 /// legend and figures. Slices lie where most was drawn, else through the object's middle; they are turned to a
 /// tilted stack of contours (see `choose_slices`). Without an image (null) the slices
 /// stand on a plain ground; an empty mesh gives a picture that says so. Same input, same bytes (with the same fonts).
-/// Well under a second for 400,000 triangles on two cores. Throws Error(invalid_input) for a picture below the least size
-/// and what `check_mesh` and `check_image` refuse, Error(too_large) above 16384 pixels on a side.
+/// Well under a second for 400,000 triangles on two cores. Throws Error(invalid_input) for a picture below the least size,
+/// a window that is not finite or of no width, and what `check_mesh` and `check_image` refuse, Error(too_large) above 16384
+/// pixels on a side.
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
                       const PictureOptions& options = {});
 

@@ -137,6 +137,10 @@ ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeO
     check_at_least("the height of the view in pixels", camera.height, 1);
     check_above_0("the pixel size of the view", camera.pixel_mm, " mm");
     check_at_least("the number of samples per pixel", options.samples, 1);
+    check_from_0_to_1("the red of the material", options.color.x);
+    check_from_0_to_1("the green of the material", options.color.y);
+    check_from_0_to_1("the blue of the material", options.color.z);
+    check_threads(options.threads);
     const int samples = options.samples;
     const Camera fine_camera{camera.plane, camera.width * samples, camera.height * samples, camera.pixel_mm / samples};
     const DepthBuffer fine = render_depth(mesh, fine_camera, options.threads);

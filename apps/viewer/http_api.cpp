@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "kontur/base/error.h"
 #include "viewer/model_json.h"
@@ -72,8 +74,9 @@ HttpReply page_file(const std::string& path) {
     return {200, std::string(file->content_type), std::string(file->gzip), {{"Content-Encoding", "gzip"}}};
 }
 
-/// The known extension that a file name ends with. Nothing else of the name is used.
-std::string known_extension(const std::string& name, std::initializer_list<const char*> known) {
+/// The known extension that a file name ends with, in capitals or not. Nothing else of the name is used.
+std::string known_extension(std::string name, std::span<const char* const> known) {
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
     std::string list;
     for (const char* extension : known) {
         if (name.ends_with(extension)) return extension;
@@ -193,10 +196,10 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     const std::string file = target.parameter("name").value_or("");
     Upload upload;
     if (target.path == "/api/import/contours") {
-        upload.extension = known_extension(file, {".mrk.json", ".json", ".dcm"});
+        upload.extension = known_extension(file, kContourEndings);
     } else if (target.path == "/api/import/mask") {
         upload.content = Upload::Content::mask;
-        upload.extension = known_extension(file, {".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".mha"});
+        upload.extension = known_extension(file, kMaskEndings);
         upload.trace = trace_request(target);
     } else {
         return not_found();

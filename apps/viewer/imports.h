@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,13 @@
 #include "kontur/shape/contour.h"
 
 namespace kontur::viewer {
+
+/// What the names of files end with that can be imported, longer ones first; pages are told these lists. Formats in two
+/// files
+/// (.hdr with .img, .mhd, .nhdr) are not among them, for an upload is one, nor is GIPL, which never says how it lies in the
+/// patient.
+inline constexpr std::array kContourEndings{".mrk.json", ".json", ".dcm", ".vtk", ".vtp"};
+inline constexpr std::array kMaskEndings{".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".mha", ".mgh.gz", ".mgh", ".mgz"};
 
 /// Where a mask is cut into contours.
 struct TraceRequest {

@@ -235,6 +235,7 @@ std::string Session::greeting() {
                     {"contours", contours},
                     {"surfaces", surfaces},
                     {"history", history()},
+                    {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
                     {"page", page_state()}});
 }
 

@@ -441,6 +441,36 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 422 and str(tmp_path) not in body.decode()
 
 
+def test_every_format_that_the_page_is_told_of_can_be_imported(server, tmp_path):
+    """Files of each, by the command line's writers or, where it has none, by the tests' own."""
+    page = server.page()
+    structure = the_structure(page)
+    draw_ball(page, structure)
+    for name in ("contours.json", "mask.nii.gz"):
+        (tmp_path / name).write_bytes(server.request("GET", f"/api/export/{name}?structure={structure}")[2])
+    support = pathlib.Path(__file__).parent.parent / "support"
+    (tmp_path / "vtk").mkdir()
+    subprocess.run([sys.executable, support / "make_vtk.py", tmp_path / "vtk"], check=True)
+    subprocess.run([sys.executable, support / "make_rtstruct.py", "good", tmp_path / "a.dcm"], check=True)
+    imports = page.session["imports"]
+    for what, endings in (("contours", imports["contours"]), ("mask", imports["masks"])):
+        for ending in endings:
+            path = tmp_path / f"a{ending}"
+            if ending in (".vtk", ".vtp"):
+                path = sorted((tmp_path / "vtk").glob(f"*{ending}"))[0]
+            elif not path.exists():
+                source = tmp_path / ("contours.json" if what == "contours" else "mask.nii.gz")
+                made = subprocess.run([KONTUR, "convert", source, path], capture_output=True, text=True)
+                assert made.returncode == 0, made
+            name = f"A{ending.upper()}"
+            status, _, body = server.request("POST", f"/api/import/{what}?name={name}&planes=2&anyway=1", path.read_bytes())
+            assert status == 200 and json.loads(body)["structures"], (name, body)
+            assert page.do("undo")["label"].startswith("Import")
+    for name in ("a.gipl", "a.hdr", "a.mhd"):
+        status, _, body = server.request("POST", f"/api/import/mask?name={name}", b"")
+        assert status == 415 and imports["masks"][-1] in json.loads(body)["error"]["message"]
+
+
 def test_contours_that_may_not_belong_to_the_image_come_in_only_when_told_so(server):
     page = server.page()
     far = json.dumps(rings(31, 3, 20, x=900.0)).encode()

@@ -15,7 +15,8 @@ import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
 import { el } from "./ui/dom";
-import { firstHint, importFile, openExport, openHelp, openImport } from "./ui/dialogs";
+import { firstHint, openExport, openHelp } from "./ui/dialogs";
+import { importFile, openImport } from "./ui/imports";
 import { crosshairOnto, Panel, viewAlong } from "./ui/panel";
 import { Notices, StatusBar } from "./ui/status";
 import { Toolbar } from "./ui/toolbar";
@@ -389,6 +390,7 @@ export class App {
   private importServices() {
     return {
       http: this.http,
+      endings: this.session?.imports ?? { contours: [], masks: [] },
       failed: (error: unknown) => void this.notices.show("error", error instanceof Error ? error.message : String(error)),
       working: (text: string, cancel: () => void) => this.notices.working(text, cancel),
       imported: (file: string, structures: number[]) => {

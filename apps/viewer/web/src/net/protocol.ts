@@ -96,7 +96,14 @@ export interface Session {
   contours: Contour[];
   surfaces: Surface[];
   history: History;
+  imports: ImportEndings;
   page: unknown;
+}
+
+/** What the names of files end with that can be imported, in small letters. */
+export interface ImportEndings {
+  contours: string[];
+  masks: string[];
 }
 
 export interface Changed {

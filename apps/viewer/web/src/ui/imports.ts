@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Http } from "../net/http";
+import type { ImportEndings } from "../net/protocol";
+import { openDialog } from "./dialogs";
+import { button, el } from "./dom";
+import { accepted, importKind, sentence } from "./endings";
+
+export interface ImportServices {
+  http: Http;
+  endings: ImportEndings;
+  failed(error: unknown): void;
+  imported(file: string, structures: number[]): void;
+  /** Says so, with a button to cancel; returns what ends that. */
+  working(text: string, cancel: () => void): () => void;
+}
+
+export function openImport(services: ImportServices): void {
+  const choose = () => {
+    const file = input.files?.[0];
+    dialog.close();
+    if (file) importFile(file, services);
+  };
+  const input = el("input", { type: "file", accept: accepted(services.endings), title: "File to import", "data-test": "import-file", on: { change: choose } });
+  const dialog = openDialog(
+    "Import",
+    "import-dialog",
+    el("p", {}, "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH) is traced into contours. You can also drop a file onto the page."),
+    input,
+  );
+}
+
+export function importFile(file: File, services: ImportServices): void {
+  const kind = importKind(file.name, services.endings);
+  if (kind === "contours") void send("contours", file, {}, services);
+  else if (kind === "mask") openMaskImport(file, services);
+  else services.failed(new Error(`${file.name}: ${sentence(services.endings)}`));
+}
+
+function openMaskImport(file: File, services: ImportServices): void {
+  const axes = el(
+    "select",
+    { title: "Directions of the planes" },
+    el("option", { value: "axial,sagittal,coronal" }, "axial, sagittal and coronal"),
+    el("option", { value: "axial" }, "axial only"),
+  );
+  const planes = el("input", { type: "number", min: "1", max: "200", value: "9", class: "number" });
+  const go = button({
+    label: "Trace into contours",
+    title: "Import the mask",
+    class: "primary",
+    test: "import-mask",
+    click: () => {
+      dialog.close();
+      void send("mask", file, { axes: axes.value, planes: planes.value }, services);
+    },
+  });
+  const dialog = openDialog(
+    `Import ${file.name}`,
+    "mask-dialog",
+    el("p", {}, "Each label of the mask becomes a structure, drawn by contours on planes through it."),
+    el("label", { class: "field" }, "Planes", axes),
+    el("label", { class: "field" }, "Planes along each axis", planes),
+    el("div", { class: "dialog-buttons" }, go),
+  );
+}
+
+async function send(what: "contours" | "mask", file: File, options: Record<string, string>, services: ImportServices): Promise<void> {
+  const abort = new AbortController();
+  const done = services.working(`Importing ${file.name} …`, () => abort.abort());
+  try {
+    const { structures, doubts } = await services.http.import(what, file, options, abort.signal);
+    if (doubts.length === 0) services.imported(file.name, structures);
+    else askDespite(doubts, file.name, () => void send(what, file, { ...options, anyway: "1" }, services));
+  } catch (error) {
+    if (!abort.signal.aborted) services.failed(error);
+  }
+  done();
+}
+
+/** Nothing has been imported yet: what lies elsewhere may be another patient's. */
+function askDespite(doubts: string[], file: string, goOn: () => void): void {
+  const close = (then?: () => void) => () => {
+    dialog.close();
+    then?.();
+  };
+  const dialog = openDialog(
+    `Does ${file} belong to this image?`,
+    "doubts-dialog",
+    ...doubts.map((doubt) => el("p", { class: "warning-text" }, doubt)),
+    el("p", {}, "Nothing has been imported yet. Of another patient, or of another scan, the contours would be in the wrong place."),
+    el(
+      "div",
+      { class: "dialog-buttons" },
+      button({ label: "Import all the same", title: "Import it as it is", class: "choice", test: "import-anyway", click: close(goOn) }),
+      button({ label: "Do not import", title: "Leave the project as it is", class: "primary", test: "import-not", click: close() }),
+    ),
+  );
+}

@@ -118,6 +118,28 @@ std::string counted(std::size_t count, const char* thing) {
 
 std::size_t warning_count(const Facts& facts) { return facts.contains("warnings") ? facts["warnings"].size() : 0; }
 
+/// What the summary says of a case, from the report that `segment` wrote: of each structure, where it made several.
+Facts figures_of(const Facts& report) {
+    Facts facts;
+    for (const char* key : {"mask", "residual_mm", "warnings"})
+        if (report.contains(key)) facts[key] = report[key];
+    if (!report.contains("structures")) return facts;
+    Facts structures = Facts::array(), warnings = Facts::array();
+    double residual_max_mm = 0;
+    for (const Facts& structure : report["structures"]) {
+        Facts& told = structures.emplace_back();
+        for (const char* key : {"label", "name", "mask", "residual_mm"}) told[key] = structure.at(key);
+        residual_max_mm = std::max(residual_max_mm, structure.at("residual_mm").value("max", 0.0));
+        for (const Facts& warning : structure.at("warnings"))
+            warnings.push_back(fmt::format("{}: {}", structure.at("name").get<std::string>(), warning.get<std::string>()));
+    }
+    for (const Facts& warning : report.at("warnings")) warnings.push_back(warning);
+    facts["structures"] = std::move(structures);
+    facts["residual_mm"] = {{"max", residual_max_mm}};
+    facts["warnings"] = std::move(warnings);
+    return facts;
+}
+
 /// The sentence behind "kontur: error: " that a failed command ends with.
 std::string error_in(const fs::path& log, int exit_code) {
     constexpr std::string_view kMark = "kontur: error: ";
@@ -254,8 +276,7 @@ private:
         Facts facts = {{"exit_code", exit_code}, {"seconds", seconds}};
         if (exit_code != 0) facts["error"] = error_in(journal_.file(one, ".log"), exit_code);
         else if (const Facts report = Facts::parse(content_of(ended.report), nullptr, false); report.is_object())
-            for (const char* key : {"mask", "residual_mm", "warnings"})
-                if (report.contains(key)) facts[key] = report[key];
+            facts.update(figures_of(report));
         facts["made_from"] = ended.made_from;
         journal_.write(one, facts);
         if (one.report.empty()) fs::remove(ended.report);
@@ -270,8 +291,10 @@ private:
     static std::string line_about(const Case& one, const Facts& facts) {
         if (!succeeded(facts)) return fmt::format("{}: FAILED, {}\n", one.name, facts["error"].get<std::string>());
         const double volume_ml = facts.contains("mask") ? facts["mask"].value("volume_ml", 0.0) : 0.0;
+        const std::string made =
+            facts.contains("structures") ? counted(facts["structures"].size(), "structure") : in_ml(volume_ml);
         const std::size_t warnings = warning_count(facts);
-        return fmt::format("{}: {}, {:.1f} s{}\n", one.name, in_ml(volume_ml), facts["seconds"].get<double>(),
+        return fmt::format("{}: {}, {:.1f} s{}\n", one.name, made, facts["seconds"].get<double>(),
                            warnings > 0 ? ", " + counted(warnings, "warning") : "");
     }
 

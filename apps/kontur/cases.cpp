@@ -83,7 +83,10 @@ void add_option(Case& one, const OptionName& option, const std::string& value) {
             refuse(fmt::format("{} is yes or no, not {}", option.name, value));
         return;
     }
-    one.options.push_back(fmt::format("--{}={}", option.name, value));
+    // As `segment` takes several ROIs: each named by an option of its own.
+    const std::vector<std::string> values = option.name == "roi" ? split(value, ';') : std::vector{value};
+    if (values.empty()) refuse(fmt::format("the cell below '{}' names none", option.name));
+    for (const std::string& word : values) one.options.push_back(fmt::format("--{}={}", option.name, word));
     if (option.name == "image") one.inputs.emplace_back(value);
     if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "report"})) one.outputs.emplace_back(value);
     if (option.name == "output") one.output = value;

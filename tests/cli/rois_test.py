@@ -125,3 +125,33 @@ def test_names_that_dicom_cannot_hold_are_told(tmp_path, structures, images):
     assert result.returncode == 0, result
     assert result.stderr.count("has 70 characters, of which DICOM has room for 64") == 2
     assert pydicom.dcmread(tmp_path / "rs.dcm").StructureSetROISequence[0].ROIName == "x" * 64
+
+
+def test_a_batch_makes_several_rois_of_a_row_as_segment_does(tmp_path, structures, images):
+    (tmp_path / "RS.dcm").write_bytes(structures.read_bytes())
+    (tmp_path / "cases.csv").write_text(
+        f"case,contours,image,output,roi\nboth,RS.dcm,{images},all.nii,bladder; 3\none,RS.dcm,{images},one.nii,PTV\n")
+    result = kontur("batch", tmp_path / "cases.csv", "--summary", tmp_path / "summary.json")
+    assert result.returncode == 0, result
+    assert "both: 2 structures, " in result.stdout
+    words = ["--roi", "Bladder", "--roi", "PTV", "--image", images]
+    segmented = kontur("segment", structures, *words, "--output", tmp_path / "expected.nii", "--report", tmp_path / "expected.json")
+    assert segmented.returncode == 0, segmented
+    numpy.testing.assert_array_equal(read_nifti(tmp_path / "all.nii"), read_nifti(tmp_path / "expected.nii"))
+    expected = json.loads((tmp_path / "expected.json").read_text())["structures"]
+    both, one = json.loads((tmp_path / "summary.json").read_text())["cases"]
+    assert both["structures"] == [{key: s[key] for key in ("label", "name", "mask", "residual_mm")} for s in expected]
+    assert both["residual_mm"]["max"] == max(s["residual_mm"]["max"] for s in expected)
+    assert both["warnings"] == [f"{s['name']}: {warning}" for s in expected for warning in s["warnings"]]
+    assert one["mask"] == expected[1]["mask"] and "structures" not in one
+
+
+@pytest.mark.parametrize(
+    "roi, part",
+    [("Bladder;Bladder", "the ROI 'Bladder' is named twice"), ("Bladder;Liver", "there is no ROI 'Liver'"), (" ; ", "line 2: the cell below 'roi' names none")],
+)
+def test_a_batch_refuses_rois_that_make_no_sense(tmp_path, structures, images, roi, part):
+    (tmp_path / "cases.csv").write_text(f"contours,image,output,roi\n{structures},{images},all.nii,{roi}\n")
+    result = kontur("batch", tmp_path / "cases.csv")
+    assert result.returncode in (1, 65) and part in result.stdout + result.stderr
+    assert "all.nii" not in names(tmp_path)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,9 @@ struct Target {
     std::string_view name;
     void (*run)(Bytes);
 };
+
+/// By its name in the list of tests, not by its address.
+inline void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
 
 /// All of them; libFuzzer runs one (KONTUR_FUZZ_TARGET), the test suite replays findings through each.
 std::span<const Target> targets();

@@ -194,6 +194,12 @@ TEST_F(DicomSeriesTest, RefusesMosaics) {
                    "it is a Siemens mosaic, many slices in one image; convert it with dcm2niix first");
 }
 
+TEST_F(DicomSeriesTest, RefusesParametricMapsByWhatTheyAre) {
+    for (const char* name : {"enhanced_float", "enhanced_double"})
+        EXPECT_REFUSED(refusal(make(name)), unsupported,
+                       "enhanced0.dcm: its pixels are floating-point numbers, as of a parametric map, which are not read");
+}
+
 TEST_F(DicomSeriesTest, PassesOverLinksThatLeadNowhere) {
     const fs::path files = make("axial");
     fs::create_symlink("loop", files / "loop");

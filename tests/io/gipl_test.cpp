@@ -30,17 +30,10 @@ protected:
 };
 
 TEST_F(Gipl, ReadsWhatAnIndependentWriterWrites) {
-    int files = 0;
-    for (const auto& entry : fs::directory_iterator(folder.path())) {
-        if (entry.path().extension() == ".expect") continue;
-        const test::Expectation expected = test::read_expectation(entry.path());
-        const Image image = read_image(entry.path(), told);
-        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
-        EXPECT_EQ(read_grid(entry.path(), told), image.grid);
-        test::expect_same_values(image, expected.image, entry.path().string());
-        ++files;
-    }
-    EXPECT_EQ(files, 16);
+    EXPECT_EQ(test::compare_with_expectations(
+                  folder.path(), [&](const fs::path& path) { return read_image(path, told); },
+                  [&](const fs::path& path) { return read_grid(path, told); }),
+              16);
 }
 
 TEST_F(Gipl, IsReadOnlyByThoseWhoKnowHowItLies) {

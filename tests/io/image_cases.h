@@ -156,6 +156,28 @@ inline Expectation read_expectation(const std::filesystem::path& image_path) {
     return expected;
 }
 
+/// Reads every file in the folder that has an expectation beside it and compares grid and voxels; returns how many. Where
+/// `read_grid` is given, it has to give the same grid.
+inline int compare_with_expectations(const std::filesystem::path& folder,
+                                     const std::function<Image(const std::filesystem::path&)>& read,
+                                     const std::function<Grid(const std::filesystem::path&)>& read_grid = {}) {
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::filesystem::path& path = entry.path();
+        if (!std::filesystem::exists(path.string() + ".expect")) continue;
+        SCOPED_TRACE(path.string());
+        const Expectation expected = read_expectation(path);
+        const Image image = read(path);
+        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm);
+        if (read_grid) {
+            EXPECT_EQ(read_grid(path), image.grid);
+        }
+        expect_same_values(image, expected.image, path.string());
+        ++files;
+    }
+    return files;
+}
+
 /// Runs tests/support/image_oracle.py, an independent reader and writer; its complaints are the message.
 inline void run_image_oracle(const std::string& command, const std::filesystem::path& folder) {
     const std::filesystem::path log = folder / "oracle.log";

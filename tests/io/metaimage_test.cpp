@@ -72,16 +72,7 @@ TEST(MetaImage, IndependentReaderReadsWhatIsWritten) {
 TEST(MetaImage, ReadsWhatAnIndependentWriterWrites) {
     const test::TemporaryFolder folder;
     test::run_image_oracle("make-metaimage", folder.path());
-    int files = 0;
-    for (const auto& entry : fs::directory_iterator(folder.path())) {
-        if (entry.path().filename().string().find(".expect") != std::string::npos) continue;
-        const test::Expectation expected = test::read_expectation(entry.path());
-        const Image image = read_metaimage(entry.path());
-        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
-        test::expect_same_values(image, expected.image, entry.path().string());
-        ++files;
-    }
-    EXPECT_EQ(files, 59);
+    EXPECT_EQ(test::compare_with_expectations(folder.path(), [](const fs::path& path) { return read_metaimage(path); }), 59);
 }
 
 TEST(MetaImage, RejectsEveryTruncatedPrefix) {

@@ -103,33 +103,16 @@ TEST(Nifti, NibabelReadsWhatIsWritten) {
 TEST(Nifti, ReadsWhatNibabelWrites) {
     const test::TemporaryFolder folder;
     test::run_image_oracle("make-nifti", folder.path());
-    int files = 0;
-    for (const auto& entry : fs::directory_iterator(folder.path())) {
-        if (entry.path().extension() == ".expect") continue;
-        const test::Expectation expected = test::read_expectation(entry.path());
-        const Image image = read_nifti(entry.path());
-        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
-        test::expect_same_values(image, expected.image, entry.path().string());
-        ++files;
-    }
-    EXPECT_EQ(files, 59);
+    EXPECT_EQ(test::compare_with_expectations(folder.path(), [](const fs::path& path) { return read_nifti(path); }), 59);
 }
 
 TEST(Nifti, ReadsPairsByEitherName) {
     const test::TemporaryFolder folder;
     test::run_image_oracle("make-pairs", folder.path());
-    int files = 0;
-    for (const auto& entry : fs::directory_iterator(folder.path())) {
-        const fs::path expectation = entry.path().string() + ".expect";
-        if (!fs::exists(expectation)) continue;
-        const test::Expectation expected = test::read_expectation(entry.path());
-        const Image image = read_image(entry.path());
-        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
-        EXPECT_EQ(read_grid(entry.path()), image.grid) << entry.path();
-        test::expect_same_values(image, expected.image, entry.path().string());
-        ++files;
-    }
-    EXPECT_EQ(files, 25);
+    EXPECT_EQ(test::compare_with_expectations(
+                  folder.path(), [](const fs::path& path) { return read_image(path); },
+                  [](const fs::path& path) { return read_grid(path); }),
+              25);
     for (const char* name : {"a.hdr", "a.img"})
         expect_error(ErrorKind::unsupported, "Analyze 7.5", [&] { read_image(folder / "analyze" / name); });
 }

@@ -85,16 +85,7 @@ TEST(Nrrd, IndependentReaderReadsWhatIsWritten) {
 TEST(Nrrd, ReadsWhatAnIndependentWriterWrites) {
     const test::TemporaryFolder folder;
     test::run_image_oracle("make-nrrd", folder.path());
-    int files = 0;
-    for (const auto& entry : fs::directory_iterator(folder.path())) {
-        if (entry.path().filename().string().find(".expect") != std::string::npos) continue;
-        const test::Expectation expected = test::read_expectation(entry.path());
-        const Image image = read_nrrd(entry.path());
-        EXPECT_LE(corner_distance_mm(image.grid, expected.image.grid), expected.tolerance_mm) << entry.path();
-        test::expect_same_values(image, expected.image, entry.path().string());
-        ++files;
-    }
-    EXPECT_EQ(files, 91);
+    EXPECT_EQ(test::compare_with_expectations(folder.path(), [](const fs::path& path) { return read_nrrd(path); }), 91);
 }
 
 TEST(Nrrd, SegmentsComeBack) {

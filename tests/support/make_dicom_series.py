@@ -243,6 +243,10 @@ def make(case, folder):
     write_truth(folder, affine, truth)
 
 
+# Parametric maps (PS3.3 C.7.6.24 and C.7.6.25): element, type, bits.
+FLOATING = {"enhanced_float": ("FloatPixelData", "<f4", 32), "enhanced_double": ("DoubleFloatPixelData", "<f8", 64)}
+
+
 def group(**values):
     item = Dataset()
     for word, value in values.items():
@@ -294,6 +298,12 @@ def make_enhanced(case, folder):
         set_pixels(d, np.array([stored[k] + v for v, k in half]))
         if case == "enhanced_rle":
             d.compress(RLELossless)
+        if case in FLOATING:
+            word, kind, bits = FLOATING[case]
+            setattr(d, word, np.array([stored[k] for v, k in half], kind).tobytes())
+            d.BitsAllocated = bits
+            for word in ("PixelData", "BitsStored", "HighBit", "PixelRepresentation"):
+                delattr(d, word)
         d.save_as(files / f"enhanced{number}.dcm", write_like_original=False)
     write_truth(folder, np.column_stack([row * SPACING[1], column * SPACING[0], STEP * normal, ORIGIN]), truth)
 

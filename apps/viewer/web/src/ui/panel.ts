@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import { coincide, heightOver } from "../geometry/plane";
+import { heightOver } from "../geometry/plane";
 import { dot } from "../geometry/vec";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import type { Contour, Structure, Surface, ViewName } from "../net/protocol";
+import type { Contour, Structure, ViewName } from "../net/protocol";
 import { VIEW_NAMES } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { PLANE_COLORS, VIEW_TITLES } from "../view/palette";
 import { button, el, listen } from "./dom";
 import { ICONS } from "./icons";
+import { qualityOf } from "./quality";
 
 export interface PanelServices {
   navigation: Navigation;
@@ -24,8 +25,6 @@ export interface PanelServices {
 }
 
 const KIND_LABELS: Record<Contour["kind"], string> = { freehand: "freehand", spline: "spline", livewire: "live-wire", mixed: "mixed" };
-
-const SAME_PLANE_MM = 0.01;
 
 /** Structures with their contours, and how well the surface fits them. */
 export class Panel {
@@ -249,45 +248,10 @@ export class Panel {
     const { project } = this.services;
     const structure = project.activeStructure;
     const surface = structure && project.surfaces.get(structure.id);
-    const contours = structure ? project.contoursOf(structure.id) : [];
-    this.quality.replaceChildren(...this.qualityEntries(surface, contours), ...this.selfCrossings(contours));
+    this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], this.services.goTo));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);
-  }
-
-  private qualityEntries(surface: Surface | undefined, contours: Contour[]): HTMLElement[] {
-    if (!surface || surface.stage === "none") {
-      const troubles = surface ? this.troubles(surface) : [];
-      return troubles.length > 0 ? troubles : [el("p", { class: "empty" }, "No surface yet.")];
-    }
-    const entries: HTMLElement[] = [];
-    const guess = depthGuess(contours);
-    if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", `${volume(surface.volume_ml)} ml`, guess !== null));
-    if (guess) entries.push(el("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
-    const { residual } = surface;
-    if (residual) {
-      entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
-      entries.push(this.place(`largest residual ${residual.max_mm.toFixed(2)} mm`, residual.at, "Go to where the surface is farthest from a contour", "residual"));
-    }
-    return [...entries, ...this.troubles(surface)];
-  }
-
-  private troubles({ conflicts = [], warnings = [] }: Surface): HTMLElement[] {
-    const title = "Go to where two contours contradict each other";
-    return [
-      ...warnings.map((text) => el("p", { class: "warning-text" }, text)),
-      ...conflicts.map(({ at, distance_mm }) => this.place(`contours disagree by ${distance_mm.toFixed(1)} mm`, at, title, "conflict")),
-    ];
-  }
-
-  private selfCrossings(contours: Contour[]): HTMLElement[] {
-    const places = contours.flatMap((contour) => contour.self_crossings.slice(0, 1));
-    return places.map((at) => this.place("a contour crosses itself", at, "Go to where it crosses itself", "self-crossing"));
-  }
-
-  private place(label: string, at: Vec3, title: string, kind: "residual" | "conflict" | "self-crossing"): HTMLElement {
-    return button({ label, icon: kind === "residual" ? ICONS.lines : ICONS.warning, title, class: kind === "residual" ? "place" : "place warning", test: kind, click: () => this.services.goTo(at) });
   }
 }
 
@@ -302,18 +266,6 @@ export function crosshairOnto(contour: Contour, crosshair: Vec3): Vec3 {
   const height = heightOver(contour.plane, crosshair);
   return crosshair.map((value, i) => value - height * contour.plane.normal[i]!) as unknown as Vec3;
 }
-
-const volume = (ml: number): string => (ml >= 100 ? ml.toFixed(0) : ml.toPrecision(3));
-
-/** What no line says of the object that these contours make; null where they say enough. */
-function depthGuess(contours: readonly Contour[]): string | null {
-  const [first] = contours;
-  if (!first || !contours.every(({ plane }) => coincide(plane, first.plane, SAME_PLANE_MM))) return null;
-  return `${contours.length === 1 ? "One contour" : "All contours lie in one plane"}: the depth is a guess. Draw another one across, or on another slice.`;
-}
-
-const figure = (label: string, value: string, isGuess = false): HTMLElement =>
-  el("div", { class: isGuess ? "figure guess" : "figure" }, el("span", {}, label), el("strong", {}, value));
 
 function eye(visible: boolean, click: () => void): HTMLButtonElement {
   return button({ icon: visible ? ICONS.eye : ICONS.eyeOff, title: visible ? "Hide" : "Show", class: "icon-button small" + (visible ? "" : " dimmed"), part: "eye", click });

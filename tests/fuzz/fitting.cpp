@@ -48,7 +48,13 @@ std::size_t few(Choices& choose) {
     return kFew[choose.below(7)];
 }
 
-FitOptions fit_options(Choices& choose, double diameter, std::size_t points) {
+/// Of a system that the last fit may have to solve: every point, and every cap and probe, which may all be exceeded.
+std::size_t most_constraints(const PreparedContours& prepared) {
+    return prepared.points.size() + prepared.caps.size() + prepared.leak_probes.size();
+}
+
+FitOptions fit_options(Choices& choose, double diameter, const PreparedContours& prepared) {
+    const std::size_t points = prepared.points.size();
     FitOptions options;
     options.normals = choose.below(4) == 1 ? Normals::in_plane : Normals::surface;
     options.rounds = choose.below(5) - (choose.below(32) == 1 ? 3 : 0);
@@ -67,7 +73,8 @@ FitOptions fit_options(Choices& choose, double diameter, std::size_t points) {
     options.place.merge_distance_mm = choose.flag() ? 0 : odd(choose, 6e-4 * diameter);
     options.solve.threads = 1;
     options.solve.kernel = static_cast<Kernel>(choose.below(3));
-    if (points < 600) options.solve.solver = static_cast<Solver>(choose.below(4));  // dense ones take n^3
+    // Dense ones take n^3: some seconds each for the 4,000 of a drawing of 147 points, with the sanitizers.
+    if (most_constraints(prepared) < 1200) options.solve.solver = static_cast<Solver>(choose.below(4));
     options.solve.smoothing = choose.flag() ? odd(choose, 1e-5) : 0;
     options.solve.tolerance_mm = odd(choose, 1e-4 * diameter);
     options.solve.max_iterations = 1 + choose.below(200);
@@ -107,7 +114,7 @@ void fitting(Bytes bytes) {
     const ReconcileOptions reconciling{.conflicts = static_cast<Conflicts>(choose.below(3)),
                                        .offset_mm = odd(choose, 0.0045 * diameter)};
     reconcile(prepared.points, find_crossings(set), reconciling);
-    check(fit(prepared, fit_options(choose, diameter, prepared.points.size())), prepared, smallest_ball(set).center);
+    check(fit(prepared, fit_options(choose, diameter, prepared)), prepared, smallest_ball(set).center);
 }
 
 }  // namespace kontur::fuzz

@@ -52,6 +52,8 @@ constexpr TraceOptions kTraceOptions{.step_mm = 0, .tolerance_mm = 0.1, .min_are
 /// Address sanitizers reserve terabytes, and would die of a limit that a plain build never meets.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kLimitsMemory = false;
+#elif defined(__has_feature)  // clang's way to say so
+constexpr bool kLimitsMemory = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
 #else
 constexpr bool kLimitsMemory = true;
 #endif

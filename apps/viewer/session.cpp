@@ -375,7 +375,8 @@ json Session::add_contour(const Members& m) {
     SketchOptions options;
     // The page sends control points that `path` has snapped already.
     options.snap = false;
-    DrawnContour contour = draw_contour(sketch_from(m), m.plane("plane"), edges_, options);
+    const Plane plane = m.plane("plane");  // of two wrong members every compiler's program names the same
+    DrawnContour contour = draw_contour(sketch_from(m), plane, edges_, options);
     contour.structure = structure_of(project_.state(), m.id("structure")).id;
     contour.hole = m.flag_or("hole", false);
     return put("Draw a contour", std::move(contour), m);

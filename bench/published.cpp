@@ -21,7 +21,7 @@ PreparedContours published_contours(const PhantomCase& phantom, double quality) 
     PrepareOptions options;
     options.quality = quality;
     options.least_segments = 0;
-    options.caps = false;
+    options.bounds = false;
     return prepare(phantom.contours, options);
 }
 
@@ -31,6 +31,7 @@ Segmentation segment_as_published(const PhantomCase& phantom, Solver solver, dou
     FitOptions options;
     options.normals = Normals::in_plane;
     options.place = published_placing();
+    options.solve.kernel = Kernel::triharmonic;
     options.solve.solver = solver;
 
     Segmentation result;
@@ -44,6 +45,7 @@ Segmentation segment_as_published(const PhantomCase& phantom, Solver solver, dou
     report.residual = timed(report, "measure", [&] { return residual(fitted.function, phantom.contours); });
     report.quality = quality;
     report.centres = fitted.report.centres;
+    report.kernel = options.solve.kernel;
     report.normals = options.normals;
     report.solves = fitted.solves;
     return result;

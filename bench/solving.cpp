@@ -22,6 +22,7 @@ Json solving(const PhantomCase& phantom, int repeat) {
         for (const int threads : thread_counts()) {
             if (solver == Solver::dense && threads > 1) continue;  // dsysv runs on one thread
             SolveOptions options;
+            options.kernel = Kernel::triharmonic;
             options.solver = solver;
             options.threads = threads;
             SolveReport report;

@@ -17,7 +17,7 @@ _Corners = Literal["rounded", "faithful"]
 _Conflicts = Literal["reconcile", "newest-wins", "exact"]
 _FillRule = Literal["even-odd", "declared"]
 _Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
-_ConstraintKind = Literal["boundary", "normal", "interior", "exterior", "cap"]
+_ConstraintKind = Literal["boundary", "normal", "interior", "exterior", "bound"]
 
 class _Stop(Protocol):
     def is_set(self) -> bool: ...
@@ -49,13 +49,23 @@ class Body:
     def values(self, points: ArrayLike) -> NDArray[numpy.float64]: ...
     def outward_normals(self, points: ArrayLike) -> NDArray[numpy.float64]: ...
 
-class Cap:
+class Bound:
     @property
     def position(self) -> NDArray[numpy.float64]: ...
     @property
+    def least_mm(self) -> float: ...
+    @property
     def most_mm(self) -> float: ...
     @property
-    def value_mm(self) -> float: ...
+    def noise_mm(self) -> float: ...
+    @property
+    def kind(self) -> str: ...
+
+class Bounds:
+    @property
+    def bounds(self) -> list[Bound]: ...
+    @property
+    def notes(self) -> list[str]: ...
 
 class Comparison:
     @property
@@ -76,6 +86,7 @@ class ConstraintSet:
         values: ArrayLike,
         kinds: Sequence[_ConstraintKind] | None = None,
         trust: ArrayLike | None = None,
+        noise_mm: ArrayLike | None = None,
     ) -> None: ...
     @property
     def centers(self) -> NDArray[numpy.float64]: ...
@@ -85,6 +96,8 @@ class ConstraintSet:
     def kinds(self) -> list[str]: ...
     @property
     def trust(self) -> NDArray[numpy.float64]: ...
+    @property
+    def noise_mm(self) -> NDArray[numpy.float64]: ...
     def __len__(self) -> int: ...
 
 class Contour:
@@ -295,7 +308,7 @@ class Editor:
         preview_spacing_mm: float = 0.0,
         refined_spacing_mm: float = 0.0,
         preview_points: int = 1000,
-        kernel: _Kernel = "triharmonic",
+        kernel: _Kernel = "screened",
         normals: _Normals = "surface",
         normal_offset_mm: float | None = None,
         smoothing: float | None = None,
@@ -397,7 +410,7 @@ class Fit:
     @property
     def merged(self) -> int: ...
     @property
-    def capped(self) -> int: ...
+    def bounded(self) -> int: ...
     @property
     def constraints(self) -> int: ...
     @property
@@ -466,12 +479,6 @@ class ImplicitFunction:
     def __call__(self, points: ArrayLike, threads: int = 0) -> NDArray[numpy.float64]: ...
     def gradients(self, points: ArrayLike, threads: int = 0) -> NDArray[numpy.float64]: ...
 
-class Limits:
-    @property
-    def caps(self) -> list[Cap]: ...
-    @property
-    def leak_probes(self) -> list[Cap]: ...
-
 class LiveEditor:
     def __init__(
         self,
@@ -480,7 +487,7 @@ class LiveEditor:
         preview_spacing_mm: float = 0.0,
         refined_spacing_mm: float = 0.0,
         preview_points: int = 1000,
-        kernel: _Kernel = "triharmonic",
+        kernel: _Kernel = "screened",
         normals: _Normals = "surface",
         normal_offset_mm: float | None = None,
         smoothing: float | None = None,
@@ -597,9 +604,9 @@ class PreparedContours:
     @property
     def crossings(self) -> NDArray[numpy.float64]: ...
     @property
-    def caps(self) -> list[Cap]: ...
+    def bounds(self) -> list[Bound]: ...
     @property
-    def leak_probes(self) -> list[Cap]: ...
+    def ball(self) -> tuple[NDArray[numpy.float64], float] | None: ...
     @property
     def notes(self) -> list[str]: ...
     @property
@@ -652,7 +659,7 @@ class SegmentReport:
     @property
     def merged(self) -> int: ...
     @property
-    def capped(self) -> int: ...
+    def bounded(self) -> int: ...
     @property
     def centres(self) -> int: ...
     @property
@@ -847,9 +854,9 @@ def files_sha256(
 
 def fill(surface: SurfaceLattice, threads: int = 0) -> Mask: ...
 
-def find_crossings(contours: ContourSet) -> list[Crossing]: ...
+def find_bounds(contours: ContourSet, threads: int = 0) -> Bounds: ...
 
-def find_limits(contours: ContourSet) -> Limits: ...
+def find_crossings(contours: ContourSet) -> list[Crossing]: ...
 
 def find_nesting(contours: ContourSet, tolerance_mm: float) -> Nesting: ...
 
@@ -868,10 +875,11 @@ def fit(
     early_tolerance_factor: float = 30.0,
     tilt_points: int = 1000,
     most_points: int = 0,
-    cap_rounds: int = 8,
+    most_solves: int = 3,
     normal_offset_mm: float = 1.0,
     merge_distance_mm: float = 0.0,
-    kernel: _Kernel = "triharmonic",
+    kernel: _Kernel = "screened",
+    ball: tuple[ArrayLike, float] | None = None,
     solver: _Solver = "automatic",
     smoothing: float = 0.0,
     tolerance_mm: float = 0.001,
@@ -964,7 +972,7 @@ def prepare(
     fill_rule: _FillRule = "even-odd",
     gaps: bool = True,
     click_margin_mm: float = 1.0,
-    caps: bool = True,
+    bounds: bool = True,
     copy_shift_mm: float = 0.0,
 ) -> PreparedContours: ...
 
@@ -1120,7 +1128,7 @@ def segment(
     *,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
-    kernel: _Kernel = "triharmonic",
+    kernel: _Kernel = "screened",
     normals: _Normals = "surface",
     normal_offset_mm: float | None = None,
     smoothing: float | None = None,
@@ -1142,7 +1150,7 @@ def segment(
     *,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
-    kernel: _Kernel = "triharmonic",
+    kernel: _Kernel = "screened",
     normals: _Normals = "surface",
     normal_offset_mm: float | None = None,
     smoothing: float | None = None,
@@ -1180,7 +1188,8 @@ def solve(
     *,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
-    kernel: _Kernel = "triharmonic",
+    kernel: _Kernel = "screened",
+    ball: tuple[ArrayLike, float] | None = None,
     solver: _Solver = "automatic",
     smoothing: float = 0.0,
     tolerance_mm: float = 0.001,

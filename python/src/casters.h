@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
+#include "kontur/base/smallest_ball.h"
 #include "kontur/extract/track.h"
 #include "kontur/extract/voxelize.h"
 #include "kontur/field/constraints.h"
@@ -138,13 +139,13 @@ struct Words<NiftiTransform> {
 };
 
 inline std::string_view name(ConstraintKind kind) {
-    constexpr std::array<std::string_view, 5> kNames{"boundary", "normal", "interior", "exterior", "cap"};
+    constexpr std::array<std::string_view, 5> kNames{"boundary", "normal", "interior", "exterior", "bound"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 template <>
 struct Words<ConstraintKind> {
     static constexpr std::array values{ConstraintKind::boundary, ConstraintKind::normal, ConstraintKind::interior,
-                                       ConstraintKind::exterior, ConstraintKind::cap};
+                                       ConstraintKind::exterior, ConstraintKind::bound};
 };
 
 template <class Enum>
@@ -267,6 +268,23 @@ struct type_caster<kontur::Index3> {
         return true;
     }
     static handle cast(const kontur::Index3& n, return_value_policy, handle) { return make_tuple(n.i, n.j, n.k).release(); }
+};
+
+/// (centre, radius)
+template <>
+struct type_caster<kontur::Ball3> {
+    PYBIND11_TYPE_CASTER(kontur::Ball3, const_name("tuple[numpy.ndarray, float]"));
+
+    bool load(handle source, bool convert) {
+        make_caster<std::pair<kontur::Vec3, double>> parts;
+        if (!parts.load(source, convert)) return false;
+        const auto& [center, radius] = cast_op<std::pair<kontur::Vec3, double>>(parts);
+        value = {center, radius};
+        return true;
+    }
+    static handle cast(const kontur::Ball3& ball, return_value_policy, handle) {
+        return make_tuple(object(pybind11::cast(ball.center)), ball.radius).release();
+    }
 };
 
 /// The corners of smallest and largest coordinates; an array of float64, shape (2, 3), in Python.

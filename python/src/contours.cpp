@@ -205,11 +205,7 @@ Examples
         "bounding_box", [](const ContourSet& s) { return bounding_box(s); },
         "ndarray, shape (2, 3), float64: lowest and highest coordinates of all contour points, mm.");
     set.def_property_readonly(
-        "smallest_ball",
-        [](const ContourSet& s) {
-            const Ball3 ball = smallest_ball(s);
-            return py::make_tuple(py::cast(ball.center), ball.radius);
-        },
+        "smallest_ball", [](const ContourSet& s) { return smallest_ball(s); },
         "tuple of an ndarray of shape (3,) and a float: centre and radius of the smallest ball around all points, mm.");
     set.def_property_readonly("diameter_mm", &diameter_mm,
                               "float: diameter of that ball, which the method's lengths are fractions of.");

@@ -20,6 +20,7 @@ std::string type_text() {
     else if constexpr (std::is_floating_point_v<Value>) return "float";
     else if constexpr (std::is_same_v<Value, std::string>) return "str";
     else if constexpr (std::is_same_v<Value, std::array<double, 3>>) return "(float, float, float)";
+    else if constexpr (std::is_same_v<Value, Ball3>) return "(array_like, float)";
     else return type_text<typename Value::value_type>() + " or None";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/field/caps.h"
+#include "kontur/field/bounds.h"
 #include "kontur/field/fit.h"
 #include "kontur/field/orient.h"
 #include "kontur/field/prepare.h"
@@ -29,7 +29,8 @@ Keywords<PrepareOptions> prepare_keywords() {
         .field("gaps", &PrepareOptions::gaps, "Keep normal constraints clear of the opposite wall.")
         .field("click_margin_mm", &PrepareOptions::click_margin_mm,
                "How far f must be from 0 at interior and exterior points.")
-        .field("caps", &PrepareOptions::caps, "Limit the extrapolation beyond the last contours, and watch for leaks.")
+        .field("bounds", &PrepareOptions::bounds,
+               "Keep f on the drawn planes' sides, and end the object beyond the last of them.")
         .field("copy_shift_mm", &PrepareOptions::copy_shift_mm,
                "> 0: coplanar contours get a copy of the first one, shifted by this.");
 }
@@ -39,7 +40,11 @@ Keywords<Options>& solve_fields(Keywords<Options>& keywords, Access access) {
     const auto to = [access](auto member) {
         return [ access, member ](Options & options) -> auto& { return access(options).*member; };
     };
-    return keywords.field("kernel", to(&SolveOptions::kernel), "Radial function: r^3 or r.")
+    return keywords
+        .field("kernel", to(&SolveOptions::kernel), "Radial function: r^3 that goes back to a mean outside, r^3 or r.")
+        .field("ball", to(&SolveOptions::ball),
+               "Centre and radius in mm of what was drawn, as `ContourSet.smallest_ball`: the unit, of which the screened "
+               "kernel's length is 4; None: the smallest one of all constraints (`fit`: the prepared contours').")
         .field("solver", to(&SolveOptions::solver), "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
         .field("smoothing", to(&SolveOptions::smoothing), "On unit coordinates; 0 interpolates exactly.")
         .field("tolerance_mm", to(&SolveOptions::tolerance_mm), "Of the iterative solver, at all constraints.")
@@ -67,7 +72,8 @@ Keywords<FitOptions> fit_keywords() {
                "On tolerance_mm, in the rounds before the last.")
         .field("tilt_points", &FitOptions::tilt_points, "About how many of the points take part in these rounds.")
         .field("most_points", &FitOptions::most_points, "The last fit uses about as many points; 0: all.")
-        .field("cap_rounds", &FitOptions::cap_rounds, "Most further fits while caps or leak probes are exceeded.")
+        .field("most_solves", &FitOptions::most_solves,
+               "At most so many with all points, while other bounds should be held than were.")
         .field(
             "normal_offset_mm", [](FitOptions& o) -> double& { return o.place.normal_offset_mm; },
             "Length of the normal constraints.")
@@ -115,19 +121,26 @@ void bind_types(py::module_& m) {
         "`reconcile`.");
     prepared.def_readonly("crossings", &PreparedContours::crossings,
                           "ndarray, shape (m, 3): mm, where contours cross themselves.");
-    prepared.def_readonly("caps", &PreparedContours::caps, "list of Cap: limits beyond the last contours.");
-    prepared.def_readonly("leak_probes", &PreparedContours::leak_probes, "list of Cap: limits where a leak would show.");
+    prepared.def_readonly(
+        "bounds", &PreparedContours::bounds,
+        "list of Bound: in the drawn planes, beyond the last of them, and at interior and exterior points.");
+    prepared.def_readonly(
+        "ball", &PreparedContours::ball,
+        "(ndarray, float): centre and radius of the smallest ball around all that was drawn, mm; None without "
+        "contours.");
     prepared.def_readonly("notes", &PreparedContours::notes, "list of str: choices made for you and doubts.");
     prepared.def_readonly("coplanar", &PreparedContours::coplanar, "bool: all contours lie in one plane.");
 
-    py::class_<Cap> cap(m, "Cap", "A point that the object should not reach.");
-    cap.def_readonly("position", &Cap::position, "ndarray, shape (3,): mm.");
-    cap.def_readonly("most_mm", &Cap::most_mm, "float: f must not exceed it there.");
-    cap.def_readonly("value_mm", &Cap::value_mm, "float: prescribed if it does.");
+    py::class_<Bound> bound(m, "Bound", "An interval that f is to keep at a place.");
+    bound.def_readonly("position", &Bound::position, "ndarray, shape (3,): mm.");
+    bound.def_readonly("least_mm", &Bound::least_mm, "float: may be -inf.");
+    bound.def_readonly("most_mm", &Bound::most_mm, "float: may be inf.");
+    bound.def_readonly("noise_mm", &Bound::noise_mm, "float: standard deviation.");
+    bound.def_readonly("kind", &Bound::kind, "str: of the constraint that it becomes where f would leave the interval.");
 
-    py::class_<Limits> limits(m, "Limits", "What bounds the extrapolation beyond the contours.");
-    limits.def_readonly("caps", &Limits::caps, "list of Cap: beyond the last contours.");
-    limits.def_readonly("leak_probes", &Limits::leak_probes, "list of Cap: where a leak would show.");
+    py::class_<Bounds> bounds(m, "Bounds", "What bounds the object beside the lines.");
+    bounds.def_readonly("bounds", &Bounds::bounds, "list of Bound");
+    bounds.def_readonly("notes", &Bounds::notes, "list of str: a word on a thickness that is but a guess.");
 
     py::class_<SolveReport> report(m, "SolveReport", "What the solver did.");
     report.def_readonly("solver", &SolveReport::solver, "str: the one that ran.");
@@ -146,7 +159,7 @@ void bind_types(py::module_& m) {
     fit_type.def_readonly("solves", &Fit::solves, "int");
     fit_type.def_readonly("iterations", &Fit::iterations, "int: over all solves.");
     fit_type.def_readonly("merged", &Fit::merged, "int: near-duplicate constraints left out.");
-    fit_type.def_readonly("capped", &Fit::capped, "int: caps that became constraints.");
+    fit_type.def_readonly("bounded", &Fit::bounded, "int: bounds at which f is held.");
     fit_type.def_readonly("constraints", &Fit::constraints, "int: kept.");
     fit_type.def_readonly("tilt_change_degrees", &Fit::tilt_change_degrees, "float: mean, in the last round.");
     fit_type.def_property_readonly(
@@ -182,8 +195,9 @@ Contour
     define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.", &refine,
            py::arg("contour"), py::arg("least_segments") = 0);
     define(
-        m, "find_limits", "Where the extrapolation beyond the contours is bounded: Limits.",
-        [](const ContourSet& set) { return find_limits(DrawnPlanes(set)); }, py::arg("contours"));
+        m, "find_bounds", "What the drawn planes and the ends of the object say of f beside the lines: Bounds.",
+        [](const ContourSet& set, int threads) { return unlocked([&] { return find_bounds(DrawnPlanes(set), threads); }); },
+        py::arg("contours"), py::arg("threads") = 0);
 
     const auto preparing = prepare_keywords();
     define(
@@ -256,6 +270,8 @@ Fit
     define(
         m, "solve", R"(The variational interpolant through constraints (Turk and O'Brien 2002).
 
+With the screened kernel it is the function that departs least from its mean, with the others the smoothest one.
+
 Parameters
 ----------
 constraints : ConstraintSet
@@ -269,7 +285,7 @@ Solution
 Raises
 ------
 SingularSystemError
-    When the centres coincide or all lie in one plane.
+    When centres coincide or, but for the screened kernel, all lie in one plane.
 
 Examples
 --------

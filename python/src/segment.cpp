@@ -13,7 +13,7 @@ namespace {
 
 Keywords<SegmentOptions> segment_keywords() {
     return Keywords<SegmentOptions>()
-        .field("kernel", &SegmentOptions::kernel, "Radial function: r^3 or r.")
+        .field("kernel", &SegmentOptions::kernel, "Radial function: r^3 that goes back to a mean outside, r^3 or r.")
         .field("normals", &SegmentOptions::normals,
                "Direction of the surface at a contour: from all contours together, or the contour's alone (the paper's).")
         .field("normal_offset_mm", &SegmentOptions::normal_offset_mm,
@@ -93,7 +93,7 @@ void bind_report(py::module_& m) {
         .field("points", &Report::points, "int: drawn points.")
         .field("constraints", &Report::constraints, "int: placed and kept.")
         .field("merged", &Report::merged, "int: constraints left out because others are close by.")
-        .field("capped", &Report::capped, "int: constraints that end the object beyond its last contours.")
+        .field("bounded", &Report::bounded, "int: bounds at which f is held: outside in a drawn plane, or beyond an end.")
         .field("centres", &Report::centres, "int: weights of the implicit function.")
         .field("kernel", &Report::kernel, "str")
         .field("normals", &Report::normals, "str")

@@ -33,6 +33,7 @@ def test_the_stages_make_what_segment_makes(case, kidney):
     fitted = kontur.fit(prepared, normal_offset_mm=kidney.report.normal_offset_mm,
                         merge_distance_mm=6e-4 * diameter, smoothing=kidney.report.smoothing,
                         tolerance_mm=1.5e-5 * diameter)
+    assert (fitted.solves, fitted.bounded) == (kidney.report.solves, kidney.report.bounded)
     starts = numpy.concatenate([prepared.positions] + [contour.points for contour in case.contours.contours])
     surface = kontur.track_surface_adaptively(fitted.function, case.grid, starts)
     assert numpy.array_equal(kontur.fill(surface).values, kidney.mask.values)
@@ -76,8 +77,18 @@ def test_the_function_is_the_sum_that_its_parts_say(kidney):
     points = numpy.random.default_rng(3).normal(scale=20, size=(5, 3)) + f.frame_center_mm
     unit = (points - f.frame_center_mm) / f.frame_scale_mm
     radii = numpy.linalg.norm(unit[:, None] - f.centers, axis=2)
-    expected = radii**3 @ f.weights + f.polynomial[0] + unit @ f.polynomial[1:]
-    assert numpy.allclose(f(points), expected, rtol=1e-9, atol=1e-9)
+    kernel = 192 * (1 + radii / 4) * numpy.exp(-radii / 4)
+    assert f.kernel == "screened" and (f.polynomial[1:] == 0).all() and f.polynomial[0] == -f.frame_scale_mm
+    assert numpy.allclose(f(points), kernel @ f.weights + f.polynomial[0], rtol=1e-9, atol=1e-8)
+
+
+def test_far_from_all_that_was_drawn_the_function_is_its_mean(case, kidney):
+    centre, radius = case.contours.smallest_ball
+    assert numpy.allclose(centre, kidney.function.frame_center_mm) and radius == kidney.function.frame_scale_mm
+    directions = numpy.random.default_rng(4).normal(size=(100, 3))
+    directions /= numpy.linalg.norm(directions, axis=1, keepdims=True)
+    assert (kidney.function(centre + 2 * radius * directions) < 0).all()
+    assert numpy.allclose(kidney.function(centre + 300 * radius * directions), -radius, rtol=1e-9)
 
 
 def test_threads_do_not_change_a_byte(case, kidney):

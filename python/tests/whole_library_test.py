@@ -141,7 +141,7 @@ def test_fast_functions_agree_with_direct_sums_and_survive_a_stop():
     some = slice(0, 2000)
     assert numpy.abs(values[some] - function(points[some])).max() < 0.02
     assert numpy.abs(fast.gradients(points[some]) - function.gradients(points[some])).max() < 0.05
-    assert fast.kernel_values > 0 and fast.exact.kernel == "triharmonic"
+    assert fast.kernel_values > 0 and fast.exact.kernel == "screened"
 
     class Now:
         def is_set(self):
@@ -161,15 +161,62 @@ def test_findings_name_places(case):
 
 
 def test_placed_constraints_solve_to_the_papers_surface(case):
-    prepared = kontur.prepare(case.contours, quality=0.3)
+    prepared = kontur.prepare(case.contours, quality=0.3, bounds=False)
+    assert prepared.bounds == []
     placed = kontur.place_constraints(prepared, normal_offset_mm=1).constraints
     assert set(placed.kinds) == {"boundary", "normal"} and set(placed.values) == {0, -1} and (placed.trust == 1).all()
-    direct = kontur.solve(placed, solver="dense").function
-    fitted = kontur.fit(prepared, normals="in-plane", normal_offset_mm=1, solver="dense", cap_rounds=0).function
+    direct = kontur.solve(placed, solver="dense", ball=prepared.ball).function
+    fitted = kontur.fit(prepared, normals="in-plane", normal_offset_mm=1, solver="dense").function
     at = case.contours.bounding_box.mean(axis=0)
     assert direct(at) == pytest.approx(float(fitted(at)), rel=1e-6)
     with pytest.raises(kontur.InvalidInputError, match="slope"):
         kontur.place_constraints(prepared, slopes=numpy.zeros(len(prepared.positions)))
+
+
+def test_a_constraint_with_noise_is_followed_less_closely():
+    centres = numpy.array([[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10], [3, 3, 3]], float)
+    values = numpy.array([0, 0, 0, 0, 2], float)
+    missed = []
+    for noise in (0, 0.5, 2):
+        constraints = kontur.ConstraintSet(centres, values, noise_mm=[0, 0, 0, 0, noise])
+        assert constraints.noise_mm.tolist() == [0, 0, 0, 0, noise]
+        solution = kontur.solve(constraints, solver="dense", ball=([2, 2, 2], 20))
+        assert solution.function.frame_scale_mm == 20
+        assert numpy.abs(solution.function(centres[:4])).max() < 1e-9
+        missed.append(2 - float(solution.function(centres[4])))
+    assert abs(missed[0]) < 1e-9 < 0.01 < missed[1] < missed[2] < 2
+    assert (kontur.ConstraintSet(centres, values).noise_mm == 0).all()
+    for wrong, words in (([1, 2], "noise of 2"), (numpy.full(5, -1), "at least 0"), (numpy.full(5, numpy.nan), "finite")):
+        with pytest.raises(kontur.InvalidInputError, match=words):
+            kontur.ConstraintSet(centres, values, noise_mm=wrong)
+    with pytest.raises(TypeError, match="ball"):
+        kontur.solve(constraints, ball=20)
+
+
+def test_bounds_say_what_is_inside_and_what_is_outside(case):
+    found = kontur.find_bounds(case.contours)
+    prepared = kontur.prepare(case.contours)
+    assert found.notes == [] and len(prepared.bounds) == len(found.bounds) > 100
+    positions = numpy.array([bound.position for bound in found.bounds])
+    truth = case.body.values(positions)
+    least, most, noise = (numpy.array([getattr(bound, name) for bound in found.bounds]) for name in ("least_mm", "most_mm", "noise_mm"))
+    inside, outside = least > 0, most <= 0
+    assert {bound.kind for bound in found.bounds} == {"bound"}
+    assert (inside != outside).all() and (least[outside] == -numpy.inf).all() and (most[inside] == numpy.inf).all() and (noise > 0).all()
+    assert (truth[inside] > 0).all() and (truth[outside] < 0).mean() > 0.95
+    alone = kontur.find_bounds(kontur.ContourSet([case.contours[0]]))
+    assert "guess" in alone.notes[0]
+
+
+def test_clicks_are_bounds_without_noise(case):
+    centre, radius = case.contours.smallest_ball
+    far = centre + [0, 0, 1.8 * radius]
+    clicked = kontur.prepare(kontur.ContourSet(list(case.contours), exterior=[far], interior=[centre]), click_margin_mm=0.5)
+    [interior] = [bound for bound in clicked.bounds if bound.kind == "interior"]
+    [exterior] = [bound for bound in clicked.bounds if bound.kind == "exterior"]
+    assert numpy.array_equal(interior.position, centre) and numpy.array_equal(exterior.position, far)
+    assert (interior.least_mm, interior.most_mm, interior.noise_mm) == (0.5, numpy.inf, 0)
+    assert (exterior.least_mm, exterior.most_mm, exterior.noise_mm) == (-numpy.inf, -0.5, 0)
 
 
 def test_nesting_and_fill_rule():

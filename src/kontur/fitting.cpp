@@ -18,7 +18,7 @@ constexpr double kMergeFraction = 6e-4;
 constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
 
-FitOptions fit_options(const ContourSet& contours, const SegmentOptions& options, double diameter_mm) {
+FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     FitOptions fit;
     fit.normals = options.normals;
     fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diameter_mm);
@@ -27,7 +27,6 @@ FitOptions fit_options(const ContourSet& contours, const SegmentOptions& options
         throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
                                                           fit.place.normal_offset_mm));
     fit.solve.kernel = options.kernel;
-    if (options.kernel == Kernel::screened) fit.solve.ball = smallest_ball(contours);
     fit.solve.solver = options.solver;
     fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
     fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
@@ -46,7 +45,7 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
     if (options.normals == Normals::in_plane) {
         prepare.corners = Corners::rounded;
         prepare.least_segments = 0;
-        prepare.caps = false;
+        prepare.bounds = false;
         prepare.gaps = false;
         prepare.copy_shift_mm = fitting.place.normal_offset_mm;
     }
@@ -78,7 +77,7 @@ std::optional<Vec3> surface_near(const Vec3& point, const ImplicitFunction& func
 
 Fitting fitting_for(const ContourSet& contours, const SegmentOptions& options) {
     const double diameter = diameter_mm(contours);
-    const FitOptions fit = fit_options(contours, options, diameter);
+    const FitOptions fit = fit_options(options, diameter);
     const ReconcileOptions reconcile{
         .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
         .offset_mm = kOffsetFraction * diameter};

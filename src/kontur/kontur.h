@@ -39,7 +39,7 @@
 #include "kontur/io/rtstruct.h"
 
 // Contours become a function.
-#include "kontur/field/caps.h"
+#include "kontur/field/bounds.h"
 #include "kontur/field/constraints.h"
 #include "kontur/field/corners.h"
 #include "kontur/field/fast_function.h"

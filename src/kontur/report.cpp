@@ -59,7 +59,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"constraints", report.constraints},
         {"centres", report.centres},
         {"merged", report.merged},
-        {"capped", report.capped},
+        {"bounded", report.bounded},
         {"kernel", name(report.kernel)},
         {"normals", name(report.normals)},
         {"normal_offset_mm", report.normal_offset_mm},

@@ -90,7 +90,9 @@ void describe_crossings(const ContourSet& contours, const Grid& grid, SegmentRep
 }
 
 /// A value on the surface and one beside it for each point, and what ends the object; fewer where some nearly repeat others.
-std::size_t expected_centres(const PreparedContours& prepared) { return 2 * prepared.points.size() + prepared.caps.size(); }
+std::size_t expected_centres(const PreparedContours& prepared) {
+    return 2 * prepared.points.size() + prepared.bounds.size();
+}
 
 /// Whether one of the voxels around a point is in the mask.
 bool touches(const Mask& mask, const Affine3& to_index, const Vec3& p) {
@@ -144,7 +146,7 @@ void describe_fit(const PreparedContours& prepared, const Fit& fit, const FitOpt
     report.solves = fit.solves;
     report.iterations = fit.iterations;
     report.merged = fit.merged;
-    report.capped = fit.capped;
+    report.bounded = fit.bounded;
     if (prepared.coplanar)
         report.warnings.push_back(
             options.normals == Normals::surface

@@ -20,10 +20,10 @@
 
 namespace kontur {
 
-/// How contours become a segmentation. `normals = in_plane`, `normal_offset_mm = 1`, `solver = dense` is the paper as
-/// printed.
+/// How contours become a segmentation. `kernel = triharmonic`, `normals = in_plane`, `normal_offset_mm = 1`,
+/// `solver = dense` is the paper as printed.
 struct SegmentOptions {
-    Kernel kernel = Kernel::triharmonic;
+    Kernel kernel = Kernel::screened;
     Normals normals = Normals::surface;
     std::optional<double> normal_offset_mm{};  ///< length of the normal constraints; unset: 0.45 % of the contours' diameter
     std::optional<double> smoothing{};         ///< on unit coordinates; unset: 1e-5 with surface normals, else 0
@@ -45,9 +45,9 @@ struct SegmentReport {
     std::size_t points = 0;       ///< drawn points
     std::size_t constraints = 0;  ///< placed and kept
     std::size_t merged = 0;       ///< constraints left out because others lie within 0.06 % of the diameter
-    std::size_t capped = 0;       ///< constraints that end the object beyond its last contours
+    std::size_t bounded = 0;      ///< bounds at which f is held: outside in a drawn plane, or beyond an end
     std::size_t centres = 0;      ///< weights of the implicit function
-    Kernel kernel = Kernel::triharmonic;
+    Kernel kernel = Kernel::screened;
     Normals normals = Normals::surface;
     double normal_offset_mm = 0;
     double smoothing = 0;

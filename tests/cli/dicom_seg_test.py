@@ -41,7 +41,7 @@ def test_segment_writes_the_mask_that_it_writes_elsewhere(tmp_path, images, cont
     seen = subprocess.run(words, capture_output=True, text=True)
     assert seen.returncode == 0, seen
     assert "1 Läsion SEMIAUTOMATIC kontur" in seen.stdout
-    assert "kernel=triharmonic normals=surface" in seen.stdout
+    assert "kernel=screened normals=surface" in seen.stdout
     same = json.loads(kontur("compare", tmp_path / "mask.dcm", tmp_path / "mask.nii.gz", "--json").stdout)
     assert same["dice"] == 1
 

@@ -14,14 +14,13 @@ TEST(ClickBounds, AreMetByEveryPointThatLiesDeepEnoughAnyway) {
     ContourSet set;
     set.interior = {{1, 2, 3}};
     set.exterior = {{4, 5, 6}};
-    const std::vector<Cap> bounds = click_bounds(set, 0.5);
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    const std::vector<Bound> bounds = click_bounds(set, 0.5);
     ASSERT_EQ(bounds.size(), 2u);
-    EXPECT_TRUE(bounds[0].allows(7) && bounds[0].allows(0.5));
-    EXPECT_FALSE(bounds[0].allows(0.4) || bounds[0].allows(-1));
-    EXPECT_TRUE(bounds[1].allows(-7) && bounds[1].allows(-0.5));
-    EXPECT_FALSE(bounds[1].allows(-0.4) || bounds[1].allows(1));
-    EXPECT_EQ(bounds[0].value_mm, 0.5);
-    EXPECT_EQ(bounds[1].value_mm, -0.5);
+    EXPECT_EQ(bounds[0].least_mm, 0.5);
+    EXPECT_EQ(bounds[0].most_mm, kInfinite);
+    EXPECT_EQ(bounds[1].least_mm, -kInfinite);
+    EXPECT_EQ(bounds[1].most_mm, -0.5);
 }
 
 TEST(ContradictoryClicks, NameThePointTheContourAndTheDistance) {

@@ -25,13 +25,13 @@ TEST(PlaceConstraints, ValuesAreThoseOfADistance) {
     const std::vector<double> slopes{1, 0.5};
     using enum ConstraintKind;
     const std::vector<PointConstraint> single_points{
-        {{-3, 0, 0}, 2, interior}, {{9, 0, 0}, -2, exterior}, {{0, 0, 8}, 0, cap}};
+        {{-3, 0, 0}, 2, interior}, {{9, 0, 0}, -2, exterior}, {{0, 0, 8}, 0, bound}};
     const PlacedConstraints placed = place_constraints(points, slopes, single_points, {.normal_offset_mm = 2});
     EXPECT_EQ(placed.constraints.centers,
               (std::vector<Vec3>{{0, 0, 0}, {0, 5, 0}, {2, 0, 0}, {0, 7, 0}, {-3, 0, 0}, {9, 0, 0}, {0, 0, 8}}));
     EXPECT_EQ(placed.constraints.values, (std::vector<double>{0, 0, -2, -1, 2, -2, 0}));
     EXPECT_EQ(placed.constraints.kinds,
-              (std::vector<ConstraintKind>{boundary, boundary, normal, normal, interior, exterior, cap}));
+              (std::vector<ConstraintKind>{boundary, boundary, normal, normal, interior, exterior, bound}));
     EXPECT_EQ(placed.merged, 0u);
 }
 

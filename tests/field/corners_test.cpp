@@ -108,7 +108,7 @@ TEST(Corners, StackedStarsKeepTheirTips) {
     options.corners = Corners::faithful;
     const Segmentation result = segment(set, grid_around(bounding_box(set), {2, 2, 2}, 8), options);
     EXPECT_LT(result.report.residual.max_mm, 0.4);
-    EXPECT_LT(result.report.capped, 400u);
+    EXPECT_LT(result.report.bounded, 400u);
 }
 
 }  // namespace

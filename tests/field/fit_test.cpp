@@ -45,8 +45,8 @@ TEST(Fit, FindsTheTiltOfTheSurfaceFromAllContoursTogether) {
         EXPECT_LT(mean_tilt_error(c, prepared, surface), 1.5) << name;
         EXPECT_GT(mean_tilt_error(c, prepared, in_plane), 8) << name << " leaves something to find";
         EXPECT_LT(surface.tilt_change_degrees, 1) << name;
-        EXPECT_EQ(surface.solves, 4);
-        EXPECT_EQ(in_plane.solves, 1);
+        EXPECT_LE(surface.solves, options.rounds + options.most_solves);
+        EXPECT_LE(in_plane.solves, options.most_solves);
         EXPECT_LE(surface.iterations, 10 * surface.solves) << name;
         for (const double slope : surface.slopes) {
             EXPECT_GE(slope, options.least_slope) << name;
@@ -72,7 +72,7 @@ PreparedContours numbered_circles(const std::vector<std::int32_t>& numbers) {
         const double z = -36 + 72.0 * c / (count - 1);
         set.contours.push_back(test::circle(make_plane({0, 0, z}, {0, 0, 1}), std::sqrt(1600 - z * z), 60));
     }
-    PreparedContours prepared = prepare(set, {.least_segments = 0, .caps = false});
+    PreparedContours prepared = prepare(set, {.least_segments = 0, .bounds = false});
     for (BoundaryPoint& point : prepared.points) point.contour = numbers[static_cast<std::size_t>(point.contour)];
     return prepared;
 }

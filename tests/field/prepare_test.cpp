@@ -45,9 +45,9 @@ TEST(Prepare, ReducesAndRefinesBeforeItOrients) {
     EXPECT_GE(prepare(set).points.size(), 3u * 40u);
 }
 
-TEST(Prepare, FindsCapsUnlessToldNotTo) {
-    EXPECT_FALSE(prepare(test::three_circles()).caps.empty());
-    EXPECT_TRUE(prepare(test::three_circles(), {.caps = false}).caps.empty());
+TEST(Prepare, FindsBoundsUnlessToldNotTo) {
+    EXPECT_FALSE(prepare(test::three_circles()).bounds.empty());
+    EXPECT_TRUE(prepare(test::three_circles(), {.bounds = false}).bounds.empty());
 }
 
 }  // namespace

@@ -173,6 +173,20 @@ TEST(Solve, TheScreenedKernelGoesBackToItsMean) {
     }
 }
 
+/// So many that the residual is checked at samples only.
+TEST(Solve, TheScreenedKernelServesVeryManyConstraints) {
+    ConstraintSet set;
+    constexpr int kCount = 64000;
+    for (int i = 0; i < kCount; ++i) {  // a spiral over a ball of 50 mm
+        const double z = 1 - (2.0 * i + 1) / kCount, azimuth = 2.399963 * i, r = std::sqrt(1 - z * z);
+        set.centers.push_back(50.0 * Vec3{r * std::cos(azimuth), r * std::sin(azimuth), z});
+        set.values.push_back(std::sin(0.1 * set.centers.back().x));
+    }
+    const Solution solution = solve(set, {.kernel = Kernel::screened, .smoothing = 1e-5, .tolerance_mm = 1e-2});
+    EXPECT_LT(solution.report.residual_points, set.size());
+    EXPECT_LT(solution.report.residual, 1e-2);
+}
+
 TEST(Solve, TheBallOfWhatWasDrawnSetsTheUnit) {
     const ConstraintSet set = crossing_contours(40);
     const Ball3 ball{{1, 2, 3}, 50};
@@ -252,7 +266,15 @@ TEST(Solve, RefusesUnusableInput) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_KONTUR_ERROR(solve(good, {.smoothing = infinity}), ErrorKind::invalid_input, "the smoothing is inf");
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = infinity}), ErrorKind::invalid_input, "tolerance is inf mm");
+    EXPECT_KONTUR_ERROR(solve(good, {.ball = Ball3{{}, -5}}), ErrorKind::invalid_input, "a radius of -5 mm");
+    EXPECT_KONTUR_ERROR(solve(good, {.ball = Ball3{{std::nan(""), 0, 0}, 5}}), ErrorKind::invalid_input, "the centre");
     ConstraintSet bad = good;
+    bad.noise_mm = {1, 2};
+    EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "2 noises");
+    bad.noise_mm.assign(bad.size(), 0);
+    bad.noise_mm[4] = -1;
+    EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "the noise of constraint 5 is -1 mm");
+    bad = good;
     bad.centers[6].y = std::nan("");
     EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "constraint 7 is not finite");
     bad = good;

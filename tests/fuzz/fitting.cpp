@@ -33,7 +33,7 @@ PrepareOptions prepare_options(Choices& choose, double diameter) {
     options.threads = 1;
     options.quality = choose.flag() ? 1 : odd(choose, choose.between(0.05, 1));
     options.least_segments = choose.below(50) - 1;
-    options.caps = choose.below(4) != 1;
+    options.bounds = choose.below(4) != 1;
     options.copy_shift_mm = choose.below(4) == 1 ? odd(choose, 0.005 * diameter) : 0;
     options.fill_rule = choose.flag() ? FillRule::declared : FillRule::even_odd;
     options.gaps = choose.below(4) != 1;
@@ -48,10 +48,8 @@ std::size_t few(Choices& choose) {
     return kFew[choose.below(7)];
 }
 
-/// Of a system that the last fit may have to solve: every point, and every cap and probe, which may all be exceeded.
-std::size_t most_constraints(const PreparedContours& prepared) {
-    return prepared.points.size() + prepared.caps.size() + prepared.leak_probes.size();
-}
+/// Of a system that the last fit may have to solve: every point, and every bound, all of which f may leave.
+std::size_t most_constraints(const PreparedContours& prepared) { return prepared.points.size() + prepared.bounds.size(); }
 
 FitOptions fit_options(Choices& choose, double diameter, const PreparedContours& prepared) {
     const std::size_t points = prepared.points.size();
@@ -64,7 +62,7 @@ FitOptions fit_options(Choices& choose, double diameter, const PreparedContours&
     options.early_tolerance_factor = odd(choose, 30);
     options.tilt_points = choose.below(32) == 1 ? 0 : few(choose);
     options.most_points = choose.flag() ? few(choose) : 0;
-    options.cap_rounds = choose.below(4) - (choose.below(32) == 1 ? 5 : 0);
+    options.most_solves = 1 + choose.below(4) - (choose.below(32) == 1 ? 5 : 0);
     if (choose.below(4) == 1) {
         options.start_slopes.assign(points + (choose.below(16) == 1 ? 1 : 0), choose.between(0.1, 1));
         options.start_slopes.front() = odd(choose, 0.5);

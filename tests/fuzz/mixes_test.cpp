@@ -49,7 +49,7 @@ TEST(RandomMixes, OfManyPointsCanBeThinnedToFew) {
         FitOptions options;
         options.tilt_points = options.most_points = 8;
         options.rounds = 1;
-        options.cap_rounds = 1;
+        options.most_solves = 2;
         options.place = {0.0045 * diameter, 6e-4 * diameter};
         options.solve.smoothing = 1e-5;
         try {

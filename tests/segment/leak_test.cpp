@@ -51,7 +51,7 @@ TEST_P(SlantedPlanesTest, TwoThatCrossGiveAClosedBody) {
     std::reverse(tangled.begin() + 37, tangled.begin() + 62);
     for (const ContourSet* set : std::initializer_list<const ContourSet*>{&intact, &part_missing, &crossing_itself}) {
         const double drawn_ml = segment(*set, grid_around(bounding_box(*set), {3, 3, 3}, 150)).report.mask_volume_ml;
-        EXPECT_GT(drawn_ml, 0.5 * truth_ml);
+        EXPECT_GT(drawn_ml, (set == &intact ? 0.7 : 0.38) * truth_ml);
         EXPECT_LT(drawn_ml, 2 * truth_ml);
     }
 }
@@ -103,7 +103,7 @@ TEST_P(StackTest, NothingIsInsideBeyondTheEnds) {
     const double spacing = heights[1] - heights[0], middle = (heights.front() + heights.back()) / 2, step = radius / 5;
     for (double x = -2 * radius; x <= 2 * radius; x += step)
         for (double y = -2 * radius; y <= 2 * radius; y += step)
-            for (double z = heights.back() + 2 * spacing; z < middle + 2 * radius; z += step / 2)
+            for (double z = heights.back() + std::max(2 * spacing, radius); z < middle + 2 * radius; z += step / 2)
                 for (const Vec3& p : {Vec3{x, y, z}, Vec3{x, y, 2 * middle - z}}) {
                     if (distance(p, {0, 0, middle}) > 2 * radius) continue;
                     ASSERT_LT(f.value(p), 0) << x << ", " << y << ", " << p.z;

@@ -159,9 +159,9 @@ TEST(Preconditions, OfPlacingConstraints) {
     const auto with_single = [&](const PointConstraint& single) {
         rows.push_back({"single", [=] { place_constraints({}, {}, std::vector{single}); }, "single point 1"});
     };
-    with_single({{kNan, 0, 0}, 1, ConstraintKind::cap});
-    with_single({{0, 0, 0}, kInfinite, ConstraintKind::cap});
-    with_single({{0, 0, 0}, 1, ConstraintKind::cap, -1});
+    with_single({{kNan, 0, 0}, 1, ConstraintKind::bound});
+    with_single({{0, 0, 0}, kInfinite, ConstraintKind::bound});
+    with_single({{0, 0, 0}, 1, ConstraintKind::bound, -1});
     expect_refused(rows);
 }
 
@@ -169,7 +169,7 @@ TEST(Preconditions, OfFitting) {
     std::vector<Row> rows;
     const std::function<void(const FitOptions&)> call = [](const FitOptions& o) { fit(prepared(), o); };
     add<FitOptions>(rows, "rounds", &FitOptions::rounds, {-1}, call, "rounds is -1");
-    add<FitOptions>(rows, "cap_rounds", &FitOptions::cap_rounds, {-1}, call, "caps is -1");
+    add<FitOptions>(rows, "most_solves", &FitOptions::most_solves, {0, -1}, call, "solves with all points is");
     add<FitOptions>(rows, "start_smoothing", &FitOptions::start_smoothing, kBelow0, call, "smoothing");
     add<FitOptions>(rows, "smoothing_factor", &FitOptions::smoothing_factor, kBelow0, call, "factor");
     add<FitOptions>(rows, "least_slope", &FitOptions::least_slope, {0, -0.1, 1.1, kNan}, call, "least slope");

@@ -26,7 +26,7 @@ constexpr const char* kPlanes[] = {"ortho3x3", "ortho3x3_handdrawn", "radial6", 
 constexpr RealSet kSets[] = {
     {"hippocampus_label5", {0.937, 0.870, 0.970, 0.901, 0.960}},
     {"kidney_right_5mm", {0.964, 0.950, 0.967, 0.949, 0.953}},
-    {"lateral_ventricles", {0.830, 0.824, 0.832, 0.845, 0.810}},
+    {"lateral_ventricles", {0.840, 0.824, 0.760, 0.845, 0.828}},
     {"liver_5mm", {0.955, 0.935, 0.961, 0.932, 0.933}},
     {"sarcoma_STS_040_CT", {0.967, 0.962, 0.969, 0.961, 0.956}},
     {"vertebral_body_L5label", {0.971, 0.943, 0.943, 0.961, 0.951}},
@@ -45,7 +45,7 @@ TEST_P(RealContours, DefaultOptionsReachTheKnownAgreementFromEverySetOfPlanes) {
         EXPECT_GT(agreement, GetParam().least_dice[p]) << kPlanes[p];
         EXPECT_LE(result.report.mask_components, static_cast<std::int64_t>(contours.contours.size())) << kPlanes[p];
         EXPECT_LT(result.report.residual.rms_mm, 0.5) << kPlanes[p];
-        EXPECT_LT(result.report.iterations, 25 * result.report.solves) << kPlanes[p];
+        EXPECT_LT(result.report.iterations, 30 * result.report.solves) << kPlanes[p];
     }
 }
 
@@ -65,7 +65,7 @@ TEST(RealBranches, ATumourOfSeveralContoursASliceIsOnePieceWithItsHoles) {
     const Segmentation result = of_a_quarter(contours, truth.grid);
     EXPECT_GT(test::dice(result.mask.values, truth.values), 0.997);
     EXPECT_EQ(result.report.mask_components, 1);
-    EXPECT_LT(result.report.iterations, 25 * result.report.solves);
+    EXPECT_LT(result.report.iterations, 30 * result.report.solves);
 }
 
 TEST(RealBranches, ALungKeepsTheHolesOfItsVessels) {
@@ -83,7 +83,7 @@ TEST(RealBranches, ALungKeepsTheHolesOfItsVessels) {
     const Mask truth = rasterize(contours, grid);
     const Segmentation result = of_a_quarter(contours, grid);
     EXPECT_GT(test::dice(result.mask.values, truth.values), 0.98);
-    EXPECT_LT(result.report.iterations, 25 * result.report.solves);
+    EXPECT_LT(result.report.iterations, 30 * result.report.solves);
 }
 
 INSTANTIATE_TEST_SUITE_P(, RealContours, testing::ValuesIn(kSets),

@@ -74,7 +74,7 @@ TEST(Segment, ReportSaysWhatWasDone) {
         EXPECT_EQ(report.points, 360u);
         EXPECT_EQ(report.constraints, report.centres);
         EXPECT_EQ(report.centres, result.function.weights().size());
-        EXPECT_EQ(report.constraints + report.merged, 2u * 360u + report.capped);
+        EXPECT_EQ(report.constraints + report.merged, 2u * 360u + report.bounded);
         EXPECT_EQ(report.normals, normals);
         EXPECT_EQ(report.solver, Solver::iterative);
         EXPECT_EQ(report.solves, normals == Normals::surface ? 4 : 1);

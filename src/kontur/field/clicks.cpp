@@ -18,11 +18,13 @@ struct Conflict {
     std::size_t contour;
 };
 
-std::optional<Conflict> conflict(const Vec3& point, bool interior, const std::vector<Section>& sections) {
+enum class Side { interior, exterior, surface };
+
+std::optional<Conflict> conflict(const Vec3& point, Side side, const std::vector<Section>& sections) {
     std::optional<Conflict> worst;
     for (const Section& section : sections) {
         const Point2 at = section.plane.to_uv(point);
-        if (section.contains(at) == interior) continue;
+        if (side != Side::surface && section.contains(at) == (side == Side::interior)) continue;
         const auto [clearance, position, outline] = section.nearest(at);
         if (clearance < 2 * std::abs(section.plane.distance_to(point))) continue;
         if (!worst || clearance > worst->clearance_mm) worst = Conflict{clearance, section.contours[outline]};
@@ -49,32 +51,29 @@ bool passes_near(const ImplicitFunction& function, const Vec3& point, double rea
 
 }  // namespace
 
-std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    std::vector<Cap> bounds;
+std::vector<Bound> click_bounds(const ContourSet& set, double margin_mm) {
+    std::vector<Bound> bounds;
     for (const Vec3& p : set.interior)
-        bounds.push_back({.position = p,
-                          .most_mm = kNone,
-                          .value_mm = margin_mm,
-                          .least_mm = margin_mm,
-                          .kind = ConstraintKind::interior});
+        bounds.push_back({.position = p, .least_mm = margin_mm, .kind = ConstraintKind::interior});
     for (const Vec3& p : set.exterior)
-        bounds.push_back({.position = p, .most_mm = -margin_mm, .value_mm = -margin_mm, .kind = ConstraintKind::exterior});
+        bounds.push_back({.position = p, .most_mm = -margin_mm, .kind = ConstraintKind::exterior});
     return bounds;
 }
 
 std::vector<std::string> contradictory_clicks(const DrawnPlanes& planes, double margin_mm) {
     const ContourSet& set = planes.set;
     std::vector<std::string> sentences;
-    const auto check = [&](const std::vector<Vec3>& points, bool interior) {
+    const auto check = [&](const std::vector<Vec3>& points, Side side, std::string_view kind, std::string_view where) {
         for (std::size_t i = 0; i < points.size(); ++i)
-            if (const auto found = conflict(points[i], interior, planes.sections))
-                sentences.push_back(fmt::format("{} point {} contradicts contour {}: it lies {:.3g} mm on its {}",
-                                                interior ? "interior" : "exterior", i + 1, found->contour + 1,
-                                                found->clearance_mm, interior ? "outside" : "inside"));
+            if (const auto found = conflict(points[i], side, planes.sections); found && found->clearance_mm > margin_mm)
+                sentences.push_back(fmt::format("{} point {} contradicts contour {}: it lies {:.3g} mm {}", kind, i + 1,
+                                                found->contour + 1, found->clearance_mm, where));
     };
-    check(set.interior, true);
-    check(set.exterior, false);
+    check(set.interior, Side::interior, "interior", "on its outside");
+    check(set.exterior, Side::exterior, "exterior", "on its inside");
+    std::vector<Vec3> on_surface;
+    for (const SurfacePoint& p : set.surface) on_surface.push_back(p.position);
+    check(on_surface, Side::surface, "surface", "from its line");
     for (std::size_t i = 0; i < set.interior.size(); ++i)
         for (std::size_t e = 0; e < set.exterior.size(); ++e)
             if (const double apart = distance(set.interior[i], set.exterior[e]); apart < margin_mm)

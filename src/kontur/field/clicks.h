@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/field/caps.h"
+#include "kontur/field/bounds.h"
 #include "kontur/field/implicit_function.h"
 #include "kontur/shape/contour.h"
 
@@ -14,11 +14,11 @@ struct DrawnPlanes;
 
 /// Interior and exterior points as bounds, at least `margin_mm` inside and outside: a point that lies on its side anyway
 /// changes nothing, however deep it lies.
-std::vector<Cap> click_bounds(const ContourSet& set, double margin_mm);
+std::vector<Bound> click_bounds(const ContourSet& set, double margin_mm);
 
 /// What is contradictory about them, one sentence each, points counted from 1: a point on the wrong side of the contours
-/// drawn in a plane close by (nearer than half its distance to them), and an interior point within `margin_mm` of an
-/// exterior one.
+/// drawn in a plane close by (nearer than half its distance to them), a surface point far from them there, and an interior
+/// point within `margin_mm` of an exterior one.
 std::vector<std::string> contradictory_clicks(const DrawnPlanes& planes, double margin_mm);
 
 /// The points that did not get their side, one sentence each, and one on those of the set's surface points that the surface

@@ -110,7 +110,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
     check_points(points, single_points);
     PlacedConstraints result;
     SpacingFilter filter(options.merge_distance_mm);
-    const auto place = [&](const Vec3& at, double value, ConstraintKind kind, double trust = 1) {
+    const auto place = [&](const Vec3& at, double value, ConstraintKind kind, double trust = 1, double noise_mm = 0) {
         if (!filter.accept(at)) {
             ++result.merged;
             return false;
@@ -119,6 +119,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         result.constraints.values.push_back(value);
         result.constraints.kinds.push_back(kind);
         result.constraints.trust.push_back(trust);
+        result.constraints.noise_mm.push_back(noise_mm);
         return true;
     };
 
@@ -131,7 +132,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], ConstraintKind::normal,
               points[i].trust);
     }
-    for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind, p.trust);
+    for (const PointConstraint& p : single_points) place(p.position, p.value, p.kind, p.trust, p.noise_mm);
     return result;
 }
 

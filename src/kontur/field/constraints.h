@@ -27,7 +27,7 @@ enum class ConstraintKind : std::uint8_t {
     normal,    ///< f = -offset at a contour point moved outward by the offset
     interior,  ///< f > 0 at a single point
     exterior,  ///< f < 0 at a single point
-    cap,       ///< f bounded beyond the last contour
+    bound,     ///< f kept within an interval
 };
 
 /// A constraint at a single point.
@@ -35,7 +35,8 @@ struct PointConstraint {
     Vec3 position;
     double value;
     ConstraintKind kind;
-    double trust = 1;  ///< > 0: how closely f is to follow, against smoothness
+    double trust = 1;     ///< > 0: how closely f is to follow, against smoothness
+    double noise_mm = 0;  ///< >= 0: standard deviation of the value
 };
 
 /// Where the implicit function is prescribed, and its value there. Values are in mm, so that |f| near the surface is about
@@ -44,7 +45,8 @@ struct ConstraintSet {
     std::vector<Vec3> centers;
     std::vector<double> values;
     std::vector<ConstraintKind> kinds;
-    std::vector<double> trust;  ///< > 0, the smoothing of a constraint is divided by it; empty: all 1
+    std::vector<double> trust;     ///< > 0, the smoothing of a constraint is divided by it; empty: all 1
+    std::vector<double> noise_mm;  ///< >= 0, standard deviations of the values, beside smoothing; empty: all 0
 
     std::size_t size() const { return centers.size(); }
 };

@@ -93,7 +93,7 @@ void append_dome(const Section& region, const std::vector<Probe>& inside, double
         const double rim = 1 - probe.depth / widest;
         const Vec3 base = region.plane.from_uv(probe.at), up = sign * height * region.plane.normal;
         ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour});
-        ends.guards.push_back({base + 1.5 * up, -height / 4, -height / 2});
+        ends.guards.push_back({.position = base + 1.5 * up, .most_mm = -height / 4, .noise_mm = 0.05 * height});
     }
 }
 

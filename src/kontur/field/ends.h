@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/field/caps.h"
+#include "kontur/field/bounds.h"
 #include "kontur/field/constraints.h"
 
 namespace kontur {
@@ -14,7 +14,7 @@ struct DrawnPlanes;
 /// What the contours that end the object (ContourEnd) add to the fit.
 struct Ends {
     std::vector<BoundaryPoint> lids;  ///< points of the surface
-    std::vector<Cap> guards;          ///< beyond them
+    std::vector<Bound> guards;        ///< beyond them
     std::vector<std::string> notes;   ///< ends that could not be followed, a sentence each, contours counted from 1
 };
 

@@ -60,9 +60,10 @@ std::size_t single_point_step(const std::vector<BoundaryPoint>& points, std::siz
     return (singles + most - 1) / most;
 }
 
-/// Every few of the points, evenly along the contours, about `most` > 0 in all; short contours keep more of theirs.
+/// Every few of the points, evenly along the contours, about `most` > 0 in all; short contours keep more of theirs, unless
+/// there are very many of them.
 Indices thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
-    constexpr double kLeastPerStretch = 24;
+    constexpr double kMostPerShort = 24, kLeastPerShort = 6;
     Indices kept;
     if (points.size() <= most) {
         kept.resize(points.size());
@@ -70,8 +71,14 @@ Indices thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
         return kept;
     }
     const std::vector<double> lengths = stretch_lengths(points);
-    double total = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) total += follows(points, i) ? 0 : lengths[i];
+    double total = 0, stretches = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!follows(points, i)) {
+            total += lengths[i];
+            ++stretches;
+        }
+    const double per_short =
+        std::clamp(4 * static_cast<double>(most) / std::max(stretches, 1.0), kLeastPerShort, kMostPerShort);
     const double step = total / static_cast<double>(most);
     const std::size_t every = single_point_step(points, most);
 
@@ -79,7 +86,7 @@ Indices thin(const std::vector<BoundaryPoint>& points, std::size_t most) {
     for (std::size_t i = 0, single = 0; i < points.size(); ++i) {
         if (points[i].contour == kNoContour && single++ % every != 0) continue;
         if (follows(points, i)) since += distance(points[i].position, points[i - 1].position);
-        if (follows(points, i) && since < std::min(step, lengths[i] / kLeastPerStretch)) continue;
+        if (follows(points, i) && since < std::min(step, lengths[i] / per_short)) continue;
         kept.push_back(i);
         since = 0;
     }
@@ -104,117 +111,71 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
     return change / static_cast<double>(after.size()) * 180 / M_PI;
 }
 
-/// The caps and leak probes, and which of them have become constraints.
-class ActiveCaps {
+/// The bounds, and at which limit of theirs f is held.
+class ActiveBounds {
 public:
-    explicit ActiveCaps(const PreparedContours& contours) : first_probe_(contours.caps.size()) {
-        for (const Cap& cap : contours.caps)
-            caps_.push_back({cap, cap.from_start || (contours.coplanar && cap.kind == ConstraintKind::cap)});
-        for (const Cap& probe : contours.leak_probes) caps_.push_back({probe});
+    explicit ActiveBounds(const std::vector<Bound>& bounds) : bounds_(bounds), held_(bounds.size(), Held::no) {
+        for (const Bound& bound : bounds) positions_.push_back(bound.position);
     }
 
-    /// Activates the caps that the function violates; true if there are new ones. Leak probes are looked at only when there
-    /// are none: without its caps the object runs on, and what it meets there is no leak. Of the probes that the last
-    /// function kept well, one of a few is looked at: a leak is larger than their distance. If it shows a leak, all are.
-    /// A leak far beyond the ends does not bring back those that were forgotten near the object.
-    bool update(const ImplicitFunction& function, int threads) {
-        Indices caps(first_probe_), doubtful, others;
-        std::iota(caps.begin(), caps.end(), std::size_t{0});
-        const std::size_t before = count();
-        evaluate(function, caps, threads);
-        if (count() > before) return true;
-        for (std::size_t i = first_probe_; i < caps_.size(); ++i) (is_doubtful(i) ? doubtful : others).push_back(i);
-        evaluate(function, doubtful, threads);
-        if (count() == before) return false;
-        evaluate(function, others, threads);
-        const bool leaks_near = std::any_of(caps_.cbegin() + static_cast<std::ptrdiff_t>(first_probe_), caps_.cend(),
-                                            [](const Watched& probe) { return probe.active && !probe.cap.far; });
-        for (Watched& watched : caps_)
-            watched.active = watched.active || (watched.forgotten && (leaks_near || watched.cap.far));
-        return true;
+    /// Holds f where it leaves its interval, and lets it go where it keeps it by itself; true if that changed anything.
+    bool update(const ImplicitFunction& function, double tolerance_mm, int threads) {
+        std::vector<double> values(bounds_.size());
+        function.values(positions_, values, threads);
+        bool changed = false;
+        for (std::size_t i = 0; i < bounds_.size(); ++i) {
+            const double slack = held_[i] == Held::no ? tolerance_mm : 0;
+            const Held next = values[i] > bounds_[i].most_mm + slack    ? Held::at_most
+                              : values[i] < bounds_[i].least_mm - slack ? Held::at_least
+                                                                        : Held::no;
+            changed = changed || next != held_[i];
+            held_[i] = next;
+        }
+        return changed;
     }
 
     void append_to(std::vector<PointConstraint>& points) const {
-        for (const Watched& watched : caps_)
-            if (const Cap& cap = watched.cap; watched.active)
-                points.push_back({cap.position, cap.value_mm, cap.kind, cap.trust});
-    }
-
-    /// Far probes that are constraints widen the unit ball in which smoothing is measured. By what it is to be multiplied so
-    /// that they change nothing near the object.
-    double smoothing_share(const std::vector<Vec3>& centers, Kernel kernel) const {
-        const auto before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
-        std::vector<Vec3> far, near;
-        for (const Watched& watched : caps_)
-            if (watched.active && watched.cap.far) far.push_back(watched.cap.position);
-        if (far.empty() || kernel == Kernel::screened) return 1;
-        std::sort(far.begin(), far.end(), before);
-        std::copy_if(centers.begin(), centers.end(), std::back_inserter(near),
-                     [&](const Vec3& p) { return !std::binary_search(far.begin(), far.end(), p, before); });
-        return kernel_value(kernel, smallest_ball(near).radius / smallest_ball(centers).radius);
-    }
-
-    /// Leaks so far may come from the smoothing of early fits: they count again only if a fit from now on leaks, too.
-    void forget_leaks() {
-        for (std::size_t i = first_probe_; i < caps_.size(); ++i) caps_[i].forgotten = std::exchange(caps_[i].active, false);
-    }
-
-    std::size_t count() const {
-        return static_cast<std::size_t>(
-            std::count_if(caps_.begin(), caps_.end(), [](const Watched& w) { return w.active; }));
-    }
-
-private:
-    struct Watched {
-        Cap cap;
-        bool active = false;
-        bool forgotten = false;                                      ///< a leak of an early fit
-        double value_mm = std::numeric_limits<double>::quiet_NaN();  ///< of the last function for which it was computed
-    };
-
-    bool is_doubtful(std::size_t i) const {
-        constexpr std::size_t kSampleEvery = 4;
-        return i % kSampleEvery == 0 || !(caps_[i].value_mm < caps_[i].cap.value_mm / 2);
-    }
-
-    void evaluate(const ImplicitFunction& function, const Indices& indices, int threads) {
-        std::vector<Vec3> positions;
-        for (const std::size_t i : indices) positions.push_back(caps_[i].cap.position);
-        std::vector<double> values(indices.size());
-        function.values(positions, values, threads);
-        for (std::size_t n = 0; n < indices.size(); ++n) {
-            Watched& watched = caps_[indices[n]];
-            watched.value_mm = values[n];
-            watched.active = watched.active || !watched.cap.allows(values[n]);
+        for (std::size_t i = 0; i < bounds_.size(); ++i) {
+            const Bound& bound = bounds_[i];
+            if (held_[i] == Held::no) continue;
+            points.push_back({.position = bound.position,
+                              .value = held_[i] == Held::at_most ? bound.most_mm : bound.least_mm,
+                              .kind = bound.kind,
+                              .noise_mm = bound.noise_mm});
         }
     }
 
-    std::vector<Watched> caps_;
-    std::size_t first_probe_;  ///< of the leaks; behind all others
+private:
+    enum class Held : std::uint8_t { no, at_least, at_most };
+
+    const std::vector<Bound>& bounds_;
+    std::vector<Vec3> positions_;
+    std::vector<Held> held_;
 };
 
 /// The solves of one fit, with what they share and what they leave behind.
 class Fitter {
 public:
     Fitter(const PreparedContours& contours, const FitOptions& options, const Progress& progress)
-        : all_(contours.points), options_(options), progress_(progress), caps_(contours) {}
+        : all_(contours.points), ball_(contours.ball), options_(options), progress_(progress), bounds_(contours.bounds) {}
 
-    /// Solves for points with these slopes; true if the function exceeds caps that it did not exceed before.
+    /// Solves for points with these slopes; true if other bounds should have been held.
     bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes,
                    const SolveOptions& solving) {
         std::vector<PointConstraint> single_points;
-        caps_.append_to(single_points);
+        bounds_.append_to(single_points);
+        result_.bounded = single_points.size();
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
-        SolveOptions near_object = solving;
-        near_object.smoothing *= caps_.smoothing_share(placed.constraints.centers, solving.kernel);
-        const Solution solution = solve(placed.constraints, near_object, progress_of_next_solve(), &previous_);
+        SolveOptions in_ball = solving;
+        if (solving.kernel == Kernel::screened && !solving.ball) in_ball.ball = ball_;
+        const Solution solution = solve(placed.constraints, in_ball, progress_of_next_solve(), &previous_);
         result_.function = solution.function;
         result_.report = solution.report;
         result_.iterations += solution.report.iterations;
         result_.merged = placed.merged;
         result_.constraints = placed.constraints.size();
         ++result_.solves;
-        return caps_.update(result_.function, options_.solve.threads);
+        return bounds_.update(result_.function, 2 * solving.tolerance_mm, options_.solve.threads);
     }
 
     /// Finds the tilts of the surface from a part of the points.
@@ -239,14 +200,12 @@ public:
         result_.slopes = options_.start_slopes;
         result_.slopes.resize(all_.size(), 1.0);
         if (finds_slopes()) find_slopes();
-        caps_.forget_leaks();
         const Indices kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
         const std::vector<BoundaryPoint> points = pick(all_, kept);
         const std::vector<double> slopes = pick(result_.slopes, kept);
         SolveOptions solving = options_.solve;
         solving.smoothing *= share(points);
-        for (int more = 0; solve_for(points, slopes, solving) && more < options_.cap_rounds;) ++more;
-        result_.capped = caps_.count();
+        for (int more = 0; solve_for(points, slopes, solving) && more + 1 < options_.most_solves;) ++more;
         return std::move(result_);
     }
 
@@ -271,9 +230,10 @@ private:
     }
 
     const std::vector<BoundaryPoint>& all_;
+    const std::optional<Ball3>& ball_;
     const FitOptions& options_;
     const Progress& progress_;
-    ActiveCaps caps_;
+    ActiveBounds bounds_;
     PreviousSolve previous_;
     Fit result_;
 };
@@ -284,7 +244,7 @@ std::string_view name(Normals normals) noexcept { return normals == Normals::sur
 
 void check_fit_options(const FitOptions& options, std::size_t points) {
     check_at_least("the number of rounds", options.rounds, 0);
-    check_at_least("the number of rounds for caps", options.cap_rounds, 0);
+    check_at_least("the number of solves with all points", options.most_solves, 1);
     check_not_below_0("the start's smoothing", options.start_smoothing);
     check_not_below_0("the smoothing's factor", options.smoothing_factor);
     if (!(options.least_slope > 0 && options.least_slope <= 1))

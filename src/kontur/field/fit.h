@@ -25,7 +25,7 @@ struct FitOptions {
     std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
     std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
     std::size_t most_points = 0;         ///< the last fit uses about as many points; 0: all
-    int cap_rounds = 8;                  ///< most further fits while caps or leak probes are exceeded that were not before
+    int most_solves = 3;                 ///< with all points, while other bounds should be held than were
     PlaceOptions place;
     SolveOptions solve;
 };
@@ -36,7 +36,7 @@ struct Fit {
     int solves = 0;
     int iterations = 0;              ///< over all solves
     std::size_t merged = 0;          ///< near-duplicate constraints left out
-    std::size_t capped = 0;          ///< caps that became constraints
+    std::size_t bounded = 0;         ///< bounds at which f is held
     std::size_t constraints = 0;     ///< kept
     double tilt_change_degrees = 0;  ///< mean change of the tilts in the last round
     std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
@@ -56,8 +56,8 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 /// amplify it from round to round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start
 /// contradicts itself.
 ///
-/// Where f exceeds the limit of a cap or leak probe after a round, the limit becomes a constraint of the later rounds; on
-/// coplanar contours all caps do from the start. Interior and exterior points are bounds of the same kind. Throws Error as
+/// Where f leaves the interval of a bound after a round, the bound becomes a datum with noise of the next one, as long as f
+/// leans on it. Interior and exterior points are bounds of the same kind. Throws Error as
 /// check_fit_options, place_constraints and solve do.
 Fit fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress = {});
 

@@ -116,18 +116,17 @@ void append_boundary(ContourSet& set, std::size_t drawn, const DrawnCorners& cor
 }
 
 void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, PreparedContours& prepared) {
-    if (options.caps) {
-        Limits limits = find_limits(planes, options.threads);
-        prepared.caps = std::move(limits.caps);
-        prepared.leak_probes = std::move(limits.leak_probes);
+    if (options.bounds) {
+        Bounds limits = find_bounds(planes, options.threads);
+        prepared.bounds = std::move(limits.bounds);
         if (!prepared.coplanar) prepared.notes.insert(prepared.notes.end(), limits.notes.begin(), limits.notes.end());
         const Ends ends = find_ends(planes);
         prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
-        prepared.caps.insert(prepared.caps.end(), ends.guards.begin(), ends.guards.end());
+        prepared.bounds.insert(prepared.bounds.end(), ends.guards.begin(), ends.guards.end());
         prepared.notes.insert(prepared.notes.end(), ends.notes.begin(), ends.notes.end());
     }
-    const std::vector<Cap> clicks = click_bounds(planes.set, options.click_margin_mm);
-    prepared.caps.insert(prepared.caps.end(), clicks.begin(), clicks.end());
+    const std::vector<Bound> clicks = click_bounds(planes.set, options.click_margin_mm);
+    prepared.bounds.insert(prepared.bounds.end(), clicks.begin(), clicks.end());
     const std::vector<std::string> doubts = contradictory_clicks(planes, options.click_margin_mm);
     prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
 }
@@ -168,6 +167,7 @@ PreparedContours prepare(const ContourSet& drawn, const PrepareOptions& options)
     apply_fill_rule(set, options.fill_rule);
     note_tidied(tidy(set, {1.5e-5 * diameter, 1.5e-4 * diameter}), prepared.notes);
     const DrawnPlanes planes(set);
+    prepared.ball = planes.ball;
     prepared.coplanar = is_coplanar(planes);
 
     ContourSet fitted = set;

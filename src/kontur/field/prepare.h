@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "kontur/field/caps.h"
+#include "kontur/base/smallest_ball.h"
+#include "kontur/field/bounds.h"
 #include "kontur/field/constraints.h"
 #include "kontur/field/corners.h"
 #include "kontur/shape/contour_nesting.h"
@@ -15,7 +17,7 @@ struct PrepareOptions {
     double quality = 1.0;      ///< fraction of each contour's points to keep (reduce), in (0, 1]
     int least_segments = 48;   ///< contours of fewer segments, times quality, are subdivided (refine); of more than 100
                                ///< contours each gets less, at least 12; 0: the paper's rule
-    bool caps = true;          ///< limit the extrapolation beyond the last contours, and watch for leaks
+    bool bounds = true;        ///< keep f on the drawn planes' sides, and end the object beyond the last of them
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
     FillRule fill_rule = FillRule::even_odd;  ///< what contours inside others mean
     bool gaps = true;                         ///< keep normal constraints clear of the opposite wall (find_gaps)
@@ -30,15 +32,15 @@ struct PreparedContours {
     std::vector<BoundaryPoint> points;
     std::vector<Vec3> crossings;          ///< mm, where contours cross themselves
     std::vector<Vec3> between_crossings;  ///< mm, on edges of lobes that hold no point of a contour
-    std::vector<Cap> caps;                ///< beyond the last contours, and the interior and exterior points
-    std::vector<Cap> leak_probes;
-    std::vector<std::string> notes;  ///< choices made for the user and doubts, one sentence each
-    bool coplanar = false;           ///< all that was drawn lies in one plane, so it alone does not determine a surface
+    std::vector<Bound> bounds;            ///< beside the lines, beyond the last of them, and at interior and exterior points
+    std::vector<std::string> notes;       ///< choices made for the user and doubts, one sentence each
+    std::optional<Ball3> ball{};          ///< mm, the smallest one around all that was drawn
+    bool coplanar = false;                ///< all that was drawn lies in one plane, so it alone does not determine a surface
 };
 
 /// Finds the holes (apply_fill_rule; the points' indices are those after it), cleans (tidy), reduces, refines and orients
 /// every contour, finds the sides of open contours and what the ends of the object add. Contours in one plane leave f free
-/// across it and the system singular: either the caps or the shifted copy must close the surface. Throws
+/// across it and the system singular: either the bounds or the shifted copy must close the surface. Throws
 /// Error(invalid_input) for a contour that encloses nothing, and for options outside of their range.
 PreparedContours prepare(const ContourSet& set, const PrepareOptions& options = {});
 

@@ -95,6 +95,7 @@ CheckedImage ProjectedOperator::checked_image(const Vector& w) const {
 
 double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image, std::size_t samples) const {
     const double sign = kernel_sign(system_.kernel);
+    const EvenPowers powers = system_.kernel == Kernel::screened ? even_powers(system_.centers, w) : EvenPowers{};
     double largest = 0;
     for (std::size_t begin = 0; begin < samples; begin += kSamplesPerStep) {
         progress_.check();
@@ -106,9 +107,11 @@ double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image
         }
         Vector exact(points.size());
         sum_kernel(system_.kernel, system_.centers, w, PointArrays(positions), exact, options_.threads);
-        for (std::size_t s = 0; s < points.size(); ++s)
-            largest = std::max(largest,
-                               std::abs(sign * exact[s] + system_.smoothing[points[s]] * w[points[s]] - image[points[s]]));
+        for (std::size_t s = 0; s < points.size(); ++s) {
+            const double sum = exact[s] + powers.value(positions[s]);
+            const double expected = sign * sum + system_.smoothing[points[s]] * w[points[s]];
+            largest = std::max(largest, std::abs(expected - image[points[s]]));
+        }
     }
     return largest;
 }

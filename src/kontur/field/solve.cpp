@@ -39,6 +39,14 @@ void check(const ConstraintSet& constraints, const SolveOptions& options) {
     check_same_count("values", constraints.values.size(), "constraints", constraints.size());
     if (!constraints.trust.empty())
         check_same_count("degrees of trust", constraints.trust.size(), "constraints", constraints.size());
+    if (!constraints.noise_mm.empty())
+        check_same_count("noises", constraints.noise_mm.size(), "constraints", constraints.size());
+    for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
+        if (!(constraints.noise_mm[i] >= 0 && std::isfinite(constraints.noise_mm[i])))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the noise of constraint {} is {:g} mm; it must be finite and at "
+                                    "least 0",
+                                    i + 1, constraints.noise_mm[i]));
     for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!is_finite(constraints.centers[i]) || !std::isfinite(constraints.values[i]))
             throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
@@ -71,8 +79,14 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
     return c;
 }
 
-std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options) {
+/// The smoothing that a noise of 1 radius is worth, if functions are taken to have gradients of length 1 in the mean: the
+/// screened kernel's have one of length sqrt(9 l).
+constexpr double kSmoothingOfNoise = 9 * kScreeningLength;
+
+std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double radius_mm) {
     std::vector<double> smoothing(constraints.size(), options.smoothing);
+    for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
+        smoothing[i] += kSmoothingOfNoise * std::pow(constraints.noise_mm[i] / radius_mm, 2);
     for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
         smoothing[i] /= constraints.trust[i];
         if (!std::isfinite(smoothing[i]))
@@ -139,6 +153,13 @@ std::string_view name(Kernel kernel) noexcept {
 }
 
 void check_solve_options(const SolveOptions& options) {
+    if (options.ball &&
+        !(is_finite(options.ball->center) && options.ball->radius >= 0 && std::isfinite(options.ball->radius)))
+        throw Error(
+            ErrorKind::invalid_input,
+            fmt::format("the ball that sets the unit has a radius of {:g} mm; it and the centre must be finite and the "
+                        "radius at least 0",
+                        options.ball->radius));
     if (!(options.tolerance_mm > 0 && std::isfinite(options.tolerance_mm)))
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the solver's tolerance is {:g} mm; it must be finite and above 0", options.tolerance_mm));
@@ -164,8 +185,8 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
     const bool screened = options.kernel == Kernel::screened;
     const UnitFrame frame = frame_of(constraints, options);
     const double mean = screened ? kMeanRadii * frame.scale : 0;
-    LinearSystem system{options.kernel, smoothing_of(constraints, options), PointArrays(frame.to_unit(constraints.centers)),
-                        constraints.values};
+    LinearSystem system{options.kernel, smoothing_of(constraints, options, frame.scale),
+                        PointArrays(frame.to_unit(constraints.centers)), constraints.values};
     for (double& value : system.values) value -= mean;
     if (!screened) static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane: dsysv may not notice
     const double scale = kernel_scale(options.kernel, frame);

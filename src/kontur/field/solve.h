@@ -25,7 +25,7 @@ std::string_view name(Solver solver) noexcept;
 std::string_view name(Kernel kernel) noexcept;
 
 struct SolveOptions {
-    Kernel kernel = Kernel::triharmonic;
+    Kernel kernel = Kernel::screened;
     std::optional<Ball3> ball{};  ///< mm, of what was drawn, sets the unit; unset: the smallest one of all constraints
     Solver solver = Solver::automatic;
     double smoothing = 0;        ///< >= 0, on unit coordinates, divided by each constraint's trust; 0: exact

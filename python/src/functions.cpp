@@ -65,7 +65,8 @@ frame_scale_mm : float
 centers : array_like, shape (n, 3)
 weights : array_like, shape (n,)
 polynomial : array_like, shape (4,)
-    p0 and p. With the screened kernel p0 is the mean, f's value far from all centres, and p is 0.
+    p0 and p. With the screened kernel p0 is the mean and p is 0; beyond a, the larger of 1.25 and the farthest centre's
+    distance from 0, f is less by 16 frame_scale_mm (|u| - a)^3.
 
 Examples
 --------

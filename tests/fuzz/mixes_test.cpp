@@ -7,7 +7,7 @@
 #include "fuzz/drawings.h"
 #include "fuzz/targets.h"
 #include "kontur/base/error.h"
-#include "kontur/field/fit.h"
+#include "kontur/fitting.h"
 #include "support/random.h"
 
 namespace kontur::fuzz {
@@ -60,6 +60,41 @@ TEST(RandomMixes, OfManyPointsCanBeThinnedToFew) {
         }
     }
     EXPECT_GT(fitted, 5);
+}
+
+/// The ball around all that was drawn and clicked inside.
+Ball3 ball_of(const ContourSet& set) {
+    std::vector<Vec3> points = set.interior;
+    for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
+    for (const SurfacePoint& p : set.surface) points.push_back(p.position);
+    return smallest_ball(points);
+}
+
+/// Contradictory contours, stretches, clicks: whatever is drawn, the object ends.
+TEST(RandomMixes, AreNowhereInsideBeyondTwiceTheBallOfWhatWasDrawn) {
+    std::mt19937 random = test::random_of_this_test();
+    std::normal_distribution<double> normal;
+    int fitted = 0;
+    for (int mix = 0; mix < 60; ++mix) {
+        const std::vector<std::uint8_t> bytes = random_bytes(6000, random);
+        Choices choose(bytes);
+        const ContourSet set = mixed_drawing(choose);
+        ImplicitFunction f;
+        try {
+            const Fitting fitting = fitting_for(set, {.quality = 0.3});
+            f = fit(prepare(set, fitting), fitting.fit).function;
+        } catch (const Error&) {
+            continue;
+        }
+        ++fitted;
+        const Ball3 ball = ball_of(set);
+        for (const double reach : {2.0, 2.5, 3.0, 4.0, 6.0, 12.0, 50.0})
+            for (int direction = 0; direction < 100; ++direction) {
+                const Vec3 d = normalized({normal(random), normal(random), normal(random)});
+                ASSERT_LT(f.value(ball.center + reach * ball.radius * d), 0) << "mix " << mix << " at " << reach << " radii";
+            }
+    }
+    EXPECT_GT(fitted, 30);
 }
 
 }  // namespace

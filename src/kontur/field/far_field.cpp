@@ -67,7 +67,7 @@ void DirectSum::values(const PointArrays& points, std::span<double> out, const P
     for (std::size_t begin = 0; begin < points.size(); begin += batch) {
         progress.check();
         const std::size_t end = std::min(points.size(), begin + batch);
-        function_.values_at(part(points, begin, end), out.subspan(begin, end - begin), threads_);
+        function_.sums_at(part(points, begin, end), out.subspan(begin, end - begin), threads_);
     }
     kernel_values_ += static_cast<std::int64_t>(points.size() * centers);
 }

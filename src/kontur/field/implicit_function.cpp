@@ -12,12 +12,15 @@
 namespace kontur {
 namespace {
 
-/// How far from the origin all centres are within kScreenedReach.
-double near_radius(const PointArrays& centers) {
+double farthest_from_origin(const PointArrays& centers) {
     double farthest = 0;
     for (std::size_t j = 0; j < centers.size(); ++j) farthest = std::max(farthest, norm(centers[j]));
-    return kScreenedReach - farthest;
+    return farthest;
 }
+
+// Drawings that contradict themselves make sums of k that are still positive at several radii. What is subtracted beyond all
+// centres and a quarter of a radius outside of the unit ball is flat at its begin up to the second derivative.
+constexpr double kFallFrom = 1.25, kFall = 16;
 
 }  // namespace
 
@@ -28,7 +31,8 @@ struct ImplicitFunction::Data {
     std::vector<double> weights;
     std::array<double, 4> polynomial{};
     EvenPowers smooth{};  // all but the sums of kernel_value: the polynomial and, of the screened kernel, the even powers
-    double near_radius = std::numeric_limits<double>::infinity();
+    double near_radius = std::numeric_limits<double>::infinity();  // up to it all centres are within kScreenedReach
+    double fall_from = std::numeric_limits<double>::infinity();
 
     /// Whether kernel_value does not hold for all centres, so that the screened kernel itself has to be summed.
     bool is_far(const Vec3& point) const { return !(norm(point) <= near_radius); }
@@ -71,17 +75,19 @@ ImplicitFunction::ImplicitFunction(Kernel kernel, const UnitFrame& frame, PointA
     check_above_0("the scale of the function's frame", frame.scale);
     const Vec3 linear{polynomial[1], polynomial[2], polynomial[3]};
     EvenPowers smooth{polynomial[0], linear, 0};
-    double near = std::numeric_limits<double>::infinity();
+    double near = std::numeric_limits<double>::infinity(), fall = near;
     if (kernel == Kernel::screened) {
         if (linear != Vec3{})
             throw Error(ErrorKind::invalid_input,
                         "the screened kernel goes back to a mean; its polynomial's last three numbers must be 0");
         smooth = even_powers(centers, weights);
         smooth.constant += polynomial[0];
-        near = near_radius(centers);
+        const double farthest = farthest_from_origin(centers);
+        near = kScreenedReach - farthest;
+        fall = std::max(kFallFrom, farthest);
     }
-    data_ =
-        std::make_shared<const Data>(Data{kernel, frame, std::move(centers), std::move(weights), polynomial, smooth, near});
+    data_ = std::make_shared<const Data>(
+        Data{kernel, frame, std::move(centers), std::move(weights), polynomial, smooth, near, fall});
 }
 
 Kernel ImplicitFunction::kernel() const { return data_->kernel; }
@@ -116,18 +122,31 @@ void ImplicitFunction::finish_gradients(const PointArrays& points, std::span<Vec
     const Data& d = *data_;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3 at = points[i];
-        gradients[i] = (d.is_far(at) ? d.far_gradient(at) : gradients[i] + d.smooth.gradient(at)) / d.frame.scale;
+        const Vec3 gradient = d.is_far(at) ? d.far_gradient(at) : gradients[i] + d.smooth.gradient(at);
+        gradients[i] = (gradient + fall_gradient_at(at)) / d.frame.scale;
     }
 }
 
-void ImplicitFunction::values_at(const PointArrays& points, std::span<double> out, int threads) const {
+double ImplicitFunction::fall_at(const Vec3& point) const {
+    const double beyond = norm(point) - data_->fall_from;
+    return beyond > 0 ? -kFall * data_->frame.scale * beyond * beyond * beyond : 0;
+}
+
+Vec3 ImplicitFunction::fall_gradient_at(const Vec3& point) const {
+    const double beyond = norm(point) - data_->fall_from;
+    return beyond > 0 ? -3 * kFall * data_->frame.scale * beyond * beyond * normalized(point) : Vec3{};
+}
+
+void ImplicitFunction::sums_at(const PointArrays& points, std::span<double> out, int threads) const {
     sum_kernel(data_->kernel, data_->centers, data_->weights, points, out, threads);
     finish_values(points, out);
 }
 
 void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, int threads) const {
     check_same_count("values", out.size(), "points", points_mm.size());
-    values_at(PointArrays(data_->frame.to_unit(points_mm)), out, threads);
+    const PointArrays points(data_->frame.to_unit(points_mm));
+    sums_at(points, out, threads);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += fall_at(points[i]);
 }
 
 void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads) const {
@@ -146,6 +165,7 @@ void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, threads);
     finish_values(points, values);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += fall_at(points[i]);
     finish_gradients(points, gradients);
 }
 

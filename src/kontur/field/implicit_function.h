@@ -25,8 +25,9 @@ struct UnitFrame {
 UnitFrame unit_frame(std::span<const Vec3> points);
 
 /// f(x) = p0 + p . x + sum_j w_j phi(|x - c_j|) (paper Eq. 2), positive inside, in mm near the surface. With the screened
-/// kernel phi is k of screened_kernel.h and p0 the mean that f goes back to far from all centres; p is 0.
-/// Immutable, cheap to copy, safe to read from any thread.
+/// kernel phi is k of screened_kernel.h and p0 the mean that f goes back to away from all centres; p is 0; and from
+/// a = 1.25 in the unit frame or the farthest centre on f falls by another 16 (|x| - a)^3 radii, so that it is negative far
+/// away whatever the weights are. Immutable, cheap to copy, safe to read from any thread.
 class ImplicitFunction {
 public:
     /// The zero function.
@@ -57,8 +58,11 @@ public:
     void values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values, std::span<Vec3> gradients,
                               int threads = 0) const;
 
-    /// values() of points in the unit frame.
-    void values_at(const PointArrays& points, std::span<double> out, int threads) const;
+    /// values() of points in the unit frame, without the fall far away, which interpolation had better not see.
+    void sums_at(const PointArrays& points, std::span<double> out, int threads) const;
+    /// The fall at a point in the unit frame, <= 0, in mm, and its gradient there.
+    double fall_at(const Vec3& point) const;
+    Vec3 fall_gradient_at(const Vec3& point) const;
 
 private:
     struct Data;

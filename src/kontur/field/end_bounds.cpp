@@ -48,7 +48,12 @@ double reach_of_points(const ContourSet& set, const Plane& plane, double sign) {
 class End {
 public:
     End(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, const DrawnRegion& own, double sign)
-        : planes_(planes), regions_(regions), own_(own), sign_(sign), up_(sign * own.section.plane.normal) {}
+        : planes_(planes),
+          regions_(regions),
+          own_(own),
+          sign_(sign),
+          up_(sign * own.section.plane.normal),
+          reach_of_others_(reach_of_others()) {}
 
     /// Over one of the region's outlines. True if the end was needed there and its height is a guess.
     bool append(std::size_t outline, std::vector<Bound>& bounds) const {
@@ -57,13 +62,14 @@ public:
             if (probe.outline == outline) deepest = std::max(deepest, probe.depth);
         if (deepest == 0) return false;
         const auto [height, belief] = end_height(planes_, own_.section, sign_, deepest);
-        const double left = 1 - smooth_step(0, kLedByOthers * height, reach_of_others());
+        const double left = 1 - smooth_step(0, kLedByOthers * height, reach_of_others_);
         if (left < kLeastBelief) return false;
         const double noise = height * (belief * kNoise + (1 - belief) * kGuessNoise);
-        double open = 0;  // how surely nothing lies ahead, however near
+        const bool is_guess = belief < kGuess;
+        double open = 0;  // where it is a guess, how surely nothing lies ahead, however near
         const auto add = [&](const Vec3& foot, double above, double most_mm) {
             const double needed = left * (1 - led_on(foot, height));
-            open = std::max(open, left * (1 - led_on(foot, planes_.tolerance_mm)));
+            if (is_guess) open = std::max(open, left * (1 - led_on(foot, planes_.tolerance_mm)));
             if (needed > kLeastBelief)
                 bounds.push_back({.position = foot + above * up_, .most_mm = most_mm, .noise_mm = faded(noise, needed)});
         };
@@ -77,7 +83,7 @@ public:
         const Polygon2& line = own_.section.outlines[outline];
         for (std::size_t i = 0; i < line.size(); i += std::max<std::size_t>(1, line.size() / kRimPoints))
             add(own_.section.plane.from_uv(line[i]), height, -height / 4);
-        return open > 0.5 && belief < kGuess;
+        return open > 0.5;
     }
 
 private:
@@ -129,6 +135,7 @@ private:
     const DrawnRegion& own_;
     double sign_;
     Vec3 up_;
+    double reach_of_others_;
 };
 
 }  // namespace

@@ -67,10 +67,6 @@ struct FastFunction::State {
         return all_within(points.x) && all_within(points.y) && all_within(points.z);
     }
 
-    void add_fall(const PointArrays& points, std::span<double> values) const {
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] += exact.fall_at(points[i]);
-    }
-
     void count_direct(std::size_t points) {
         direct_kernel_values += static_cast<std::int64_t>(points * exact.centers().size());
     }
@@ -100,7 +96,7 @@ void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out
     const PointArrays points(s.exact.frame().to_unit(points_mm));
     if (s.field && s.reaches(points)) {
         s.field->values(points, out, progress);
-        s.add_fall(points, out);
+        s.exact.add_fall(points, out);
         const std::vector<std::size_t> checked = s.choose_checked(points.size());
         std::vector<double> exact(checked.size());
         s.exact.values(pick(points_mm, checked), exact, s.options.threads);
@@ -110,7 +106,7 @@ void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out
         s.drop_field();
     }
     DirectSum(s.exact, s.options.threads).values(points, out, progress);
-    s.add_fall(points, out);
+    s.exact.add_fall(points, out);
     s.count_direct(points.size());
 }
 

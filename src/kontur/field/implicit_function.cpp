@@ -127,9 +127,10 @@ void ImplicitFunction::finish_gradients(const PointArrays& points, std::span<Vec
     }
 }
 
-double ImplicitFunction::fall_at(const Vec3& point) const {
-    const double beyond = norm(point) - data_->fall_from;
-    return beyond > 0 ? -kFall * data_->frame.scale * beyond * beyond * beyond : 0;
+void ImplicitFunction::add_fall(const PointArrays& points, std::span<double> sums) const {
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        if (const double beyond = norm(points[i]) - data_->fall_from; beyond > 0)
+            sums[i] -= kFall * data_->frame.scale * beyond * beyond * beyond;
 }
 
 Vec3 ImplicitFunction::fall_gradient_at(const Vec3& point) const {
@@ -146,7 +147,7 @@ void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double>
     check_same_count("values", out.size(), "points", points_mm.size());
     const PointArrays points(data_->frame.to_unit(points_mm));
     sums_at(points, out, threads);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += fall_at(points[i]);
+    add_fall(points, out);
 }
 
 void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads) const {
@@ -165,7 +166,7 @@ void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, threads);
     finish_values(points, values);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += fall_at(points[i]);
+    add_fall(points, values);
     finish_gradients(points, gradients);
 }
 

@@ -60,8 +60,9 @@ public:
 
     /// values() of points in the unit frame, without the fall far away, which interpolation had better not see.
     void sums_at(const PointArrays& points, std::span<double> out, int threads) const;
-    /// The fall at a point in the unit frame, <= 0, in mm, and its gradient there.
-    double fall_at(const Vec3& point) const;
+    /// Adds the fall, in mm, to sums at points in the unit frame.
+    void add_fall(const PointArrays& points, std::span<double> sums) const;
+    /// Its gradient at a point in the unit frame.
     Vec3 fall_gradient_at(const Vec3& point) const;
 
 private:

@@ -14,15 +14,15 @@
 
 #include "agreement.h"
 #include "kontur/base/error.h"
+#include "kontur/drawing/prepare.h"
 #include "kontur/extract/track.h"
-#include "kontur/field/prepare.h"
-#include "kontur/fitting.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/phantom.h"
 #include "kontur/segment.h"
+#include "kontur/stages.h"
 
 namespace kontur {
 namespace {
@@ -70,11 +70,12 @@ std::vector<Vec3> drawn_points(const ContourSet& set) {
 
 /// What estimating the tilts costs: the default's fit with the true tilts instead.
 Mask segment_told_the_tilts(const PhantomCase& drawn, const Grid& grid) {
-    Fitting fitting = fitting_for(drawn.contours, {});
-    const PreparedContours prepared = prepare(drawn.contours, fitting);
-    fitting.fit.rounds = 0;
-    fitting.fit.start_slopes = true_slopes(*drawn.body, prepared.points);
-    const Fit told = fit(prepared, fitting.fit);
+    const Drawing drawing(drawn.contours);
+    StageOptions stages = stage_options({}, drawing.diameter_mm());
+    const PreparedContours prepared = prepare(drawing, stages);
+    stages.fit.rounds = 0;
+    stages.fit.start_slopes = true_slopes(*drawn.body, prepared.points);
+    const FittedFunction told = fit(prepared, stages.fit);
     return fill(track_surface(told.function, grid, start_points(drawn.contours, prepared, told.function, 0), 0));
 }
 

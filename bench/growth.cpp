@@ -5,10 +5,10 @@
 
 #include <random>
 
-#include "kontur/field/kernel_matrix.h"
-#include "kontur/field/orient.h"
-#include "kontur/field/prepare.h"
-#include "kontur/field/solve.h"
+#include "kontur/drawing/orient.h"
+#include "kontur/drawing/prepare.h"
+#include "kontur/solve/kernel_matrix.h"
+#include "kontur/solve/solve.h"
 #include "machine.h"
 #include "published.h"
 #include "runs.h"

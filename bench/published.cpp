@@ -37,7 +37,7 @@ Segmentation segment_as_published(const PhantomCase& phantom, Solver solver, dou
     Segmentation result;
     SegmentReport& report = result.report;
     const PreparedContours contours = timed(report, "prepare", [&] { return published_contours(phantom, quality); });
-    const Fit fitted = timed(report, "fit", [&] { return fit(contours, options); });
+    const FittedFunction fitted = timed(report, "fit", [&] { return fit(contours, options); });
     result.function = fitted.function;
     result.mask = timed(report, "voxelize", [&] {
         return fill(track_surface(fitted.function, phantom.grid, drawn_points(phantom.contours), 0));

@@ -18,8 +18,8 @@
 #include "kontur/base/smallest_ball.h"
 #include "kontur/extract/track.h"
 #include "kontur/extract/voxelize.h"
-#include "kontur/field/constraints.h"
-#include "kontur/field/fit.h"
+#include "kontur/fit/constraints.h"
+#include "kontur/fit/fit.h"
 #include "kontur/io/read_image_options.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/shape/contour.h"
@@ -138,16 +138,6 @@ struct Words<NiftiTransform> {
     static constexpr std::array values{NiftiTransform::qform, NiftiTransform::sform};
 };
 
-inline std::string_view name(ConstraintKind kind) {
-    constexpr std::array<std::string_view, 5> kNames{"boundary", "normal", "interior", "exterior", "bound"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-template <>
-struct Words<ConstraintKind> {
-    static constexpr std::array values{ConstraintKind::boundary, ConstraintKind::normal, ConstraintKind::interior,
-                                       ConstraintKind::exterior, ConstraintKind::bound};
-};
-
 template <class Enum>
 std::string word_of(Enum value) {
     return std::string(name(value));
@@ -202,8 +192,6 @@ template <>
 struct type_caster<kontur::Hand> : word_caster<kontur::Hand> {};
 template <>
 struct type_caster<kontur::HoleEncoding> : word_caster<kontur::HoleEncoding> {};
-template <>
-struct type_caster<kontur::ConstraintKind> : word_caster<kontur::ConstraintKind> {};
 
 template <class Value>
 struct pyobject_caster<kontur::python::ArrayOf<Value>> {

@@ -2,7 +2,7 @@
 #include <mutex>
 
 #include "bindings.h"
-#include "kontur/field/fast_function.h"
+#include "kontur/function/fast_function.h"
 #include "points.h"
 
 namespace kontur::python {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/field/bounds.h"
-#include "kontur/field/fit.h"
-#include "kontur/field/orient.h"
-#include "kontur/field/prepare.h"
-#include "kontur/field/reduce.h"
-#include "kontur/field/solve.h"
-#include "kontur/shape/section.h"
+#include "kontur/drawing/orient.h"
+#include "kontur/drawing/prepare.h"
+#include "kontur/drawing/reduce.h"
+#include "kontur/fit/fit.h"
+#include "kontur/fit/sides.h"
+#include "kontur/solve/solve.h"
 #include "segment_words.h"
 
 namespace kontur::python {
@@ -20,18 +19,27 @@ std::vector<Vec3> column(const std::vector<Element>& elements, Vec3 Element::*me
     return values;
 }
 
-Keywords<PrepareOptions> prepare_keywords() {
-    return Keywords<PrepareOptions>()
-        .field("quality", &PrepareOptions::quality, "Fraction of each contour's points to keep, in (0, 1].")
-        .field("least_segments", &PrepareOptions::least_segments,
+/// What the contours mean goes with how they are prepared.
+struct Preparing {
+    FillRule fill_rule = FillRule::even_odd;
+    PrepareOptions options;
+};
+
+Keywords<Preparing> prepare_keywords() {
+    const auto option = [](auto member) {
+        return [member](Preparing & p) -> auto& { return p.options.*member; };
+    };
+    return Keywords<Preparing>()
+        .field("quality", option(&PrepareOptions::quality), "Fraction of each contour's points to keep, in (0, 1].")
+        .field("least_segments", option(&PrepareOptions::least_segments),
                "Contours of fewer segments, times quality, are subdivided; 0: the paper's rule.")
-        .field("fill_rule", &PrepareOptions::fill_rule, "What contours inside others mean.")
-        .field("gaps", &PrepareOptions::gaps, "Keep normal constraints clear of the opposite wall.")
-        .field("click_margin_mm", &PrepareOptions::click_margin_mm,
+        .field("fill_rule", &Preparing::fill_rule, "What contours inside others mean.")
+        .field("gaps", option(&PrepareOptions::gaps), "Keep normal constraints clear of the opposite wall.")
+        .field("click_margin_mm", option(&PrepareOptions::click_margin_mm),
                "How far f must be from 0 at interior and exterior points.")
-        .field("bounds", &PrepareOptions::bounds,
+        .field("bounds", option(&PrepareOptions::bounds),
                "Keep f on the drawn planes' sides, and end the object beyond the last of them.")
-        .field("copy_shift_mm", &PrepareOptions::copy_shift_mm,
+        .field("copy_shift_mm", option(&PrepareOptions::copy_shift_mm),
                "> 0: coplanar contours get a copy of the first one, shifted by this.");
 }
 
@@ -124,10 +132,8 @@ void bind_types(py::module_& m) {
     prepared.def_readonly(
         "bounds", &PreparedContours::bounds,
         "list of Bound: in the drawn planes, beyond the last of them, and at interior and exterior points.");
-    prepared.def_readonly(
-        "ball", &PreparedContours::ball,
-        "(ndarray, float): centre and radius of the smallest ball around all that was drawn, mm; None without "
-        "contours.");
+    prepared.def_readonly("ball", &PreparedContours::ball,
+                          "(ndarray, float): centre and radius of the smallest ball around all that was drawn, mm.");
     prepared.def_readonly("notes", &PreparedContours::notes, "list of str: choices made for you and doubts.");
     prepared.def_readonly("coplanar", &PreparedContours::coplanar, "bool: all contours lie in one plane.");
 
@@ -136,11 +142,6 @@ void bind_types(py::module_& m) {
     bound.def_readonly("least_mm", &Bound::least_mm, "float: may be -inf.");
     bound.def_readonly("most_mm", &Bound::most_mm, "float: may be inf.");
     bound.def_readonly("noise_mm", &Bound::noise_mm, "float: standard deviation.");
-    bound.def_readonly("kind", &Bound::kind, "str: of the constraint that it becomes where f would leave the interval.");
-
-    py::class_<Bounds> bounds(m, "Bounds", "What bounds the object beside the lines.");
-    bounds.def_readonly("bounds", &Bounds::bounds, "list of Bound");
-    bounds.def_readonly("notes", &Bounds::notes, "list of str: a word on a thickness that is but a guess.");
 
     py::class_<SolveReport> report(m, "SolveReport", "What the solver did.");
     report.def_readonly("solver", &SolveReport::solver, "str: the one that ran.");
@@ -153,18 +154,20 @@ void bind_types(py::module_& m) {
     solution.def_readonly("function", &Solution::function, "ImplicitFunction");
     solution.def_readonly("report", &Solution::report, "SolveReport");
 
-    py::class_<Fit> fit_type(m, "Fit", "A function fitted to contours.");
-    fit_type.def_readonly("function", &Fit::function, "ImplicitFunction");
-    fit_type.def_readonly("report", &Fit::report, "SolveReport: of the last solve.");
-    fit_type.def_readonly("solves", &Fit::solves, "int");
-    fit_type.def_readonly("iterations", &Fit::iterations, "int: over all solves.");
-    fit_type.def_readonly("merged", &Fit::merged, "int: near-duplicate constraints left out.");
-    fit_type.def_readonly("bounded", &Fit::bounded, "int: bounds at which f is held.");
-    fit_type.def_readonly("constraints", &Fit::constraints, "int: kept.");
-    fit_type.def_readonly("tilt_change_degrees", &Fit::tilt_change_degrees, "float: mean, in the last round.");
+    py::class_<FittedFunction> fit_type(m, "FittedFunction", "A function fitted to contours.");
+    fit_type.def_readonly("function", &FittedFunction::function, "ImplicitFunction");
+    fit_type.def_readonly("report", &FittedFunction::report, "SolveReport: of the last solve.");
+    fit_type.def_readonly("solves", &FittedFunction::solves, "int");
+    fit_type.def_readonly("iterations", &FittedFunction::iterations, "int: over all solves.");
+    fit_type.def_readonly("merged", &FittedFunction::merged, "int: near-duplicate constraints left out.");
+    fit_type.def_readonly("bounded", &FittedFunction::bounded, "int: bounds at which f is held.");
+    fit_type.def_readonly("constraints", &FittedFunction::constraints, "int: kept.");
+    fit_type.def_readonly("tilt_change_degrees", &FittedFunction::tilt_change_degrees, "float: mean, in the last round.");
     fit_type.def_property_readonly(
         "slopes",
-        [](const Fit& f) { return py::array_t<double>(static_cast<py::ssize_t>(f.slopes.size()), f.slopes.data()); },
+        [](const FittedFunction& f) {
+            return py::array_t<double>(static_cast<py::ssize_t>(f.slopes.size()), f.slopes.data());
+        },
         "ndarray, shape (n,): cosine of the surface's tilt at each prepared point.");
 }
 
@@ -194,11 +197,6 @@ Contour
         py::arg("min_points") = ReduceOptions{}.min_points);
     define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.", &refine,
            py::arg("contour"), py::arg("least_segments") = 0);
-    define(
-        m, "find_bounds", "What the drawn planes and the ends of the object say of f beside the lines: Bounds.",
-        [](const ContourSet& set, int threads) { return unlocked([&] { return find_bounds(DrawnPlanes(set), threads); }); },
-        py::arg("contours"), py::arg("threads") = 0);
-
     const auto preparing = prepare_keywords();
     define(
         m, "prepare", R"(Reduces, refines and orients every contour.
@@ -213,8 +211,14 @@ Returns
 PreparedContours
 )",
         [preparing](const ContourSet& contours, const py::kwargs& given) {
-            const PrepareOptions options = preparing.parse("prepare", given);
-            return unlocked([&] { return prepare(contours, options); });
+            const Preparing asked = preparing.parse("prepare", given);
+            return unlocked([&] {
+                Drawing drawing(contours, asked.fill_rule);
+                std::vector<std::string> notes = find_sides(drawing.contours);
+                PreparedContours prepared = prepare(drawing, asked.options);
+                prepared.notes.insert(prepared.notes.begin(), notes.begin(), notes.end());
+                return prepared;
+            });
         },
         py::arg("contours"), py::kw_only(), KeywordText(preparing));
     const auto reconciling =
@@ -258,7 +262,7 @@ prepared : PreparedContours
 
 Returns
 -------
-Fit
+FittedFunction
 )",
         [fitting](const PreparedContours& prepared, const py::object& progress, const py::object& stop,
                   const py::kwargs& given) {

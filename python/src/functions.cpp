@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
 #include "fields.h"
-#include "kontur/field/implicit_function.h"
-#include "kontur/field/residual.h"
+#include "kontur/fit/residual.h"
+#include "kontur/function/implicit_function.h"
 #include "points.h"
 
 namespace kontur::python {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "casters.h"
-#include "kontur/field/corners.h"
-#include "kontur/field/reconcile.h"
+#include "kontur/drawing/corners.h"
+#include "kontur/drawing/reconcile.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur::python {

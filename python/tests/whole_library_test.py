@@ -160,17 +160,18 @@ def test_findings_name_places(case):
     assert kontur.check_contour_set(kontur.ContourSet([]))[0].severity == "error"
 
 
-def test_placed_constraints_solve_to_the_papers_surface(case):
+def test_constraints_solve_to_the_papers_surface(case):
+    """What `fit` solves with in-plane normals, put together by hand."""
     prepared = kontur.prepare(case.contours, quality=0.3, bounds=False)
     assert prepared.bounds == []
-    placed = kontur.place_constraints(prepared, normal_offset_mm=1).constraints
-    assert set(placed.kinds) == {"boundary", "normal"} and set(placed.values) == {0, -1} and (placed.trust == 1).all()
+    outside = prepared.positions + prepared.inplane_normals
+    values = numpy.repeat([0, -1], len(prepared.positions))
+    placed = kontur.ConstraintSet(numpy.concatenate([prepared.positions, outside]), values)
+    assert (placed.trust == 1).all()
     direct = kontur.solve(placed, solver="dense", ball=prepared.ball).function
     fitted = kontur.fit(prepared, normals="in-plane", normal_offset_mm=1, solver="dense").function
     at = case.contours.bounding_box.mean(axis=0)
     assert direct(at) == pytest.approx(float(fitted(at)), rel=1e-6)
-    with pytest.raises(kontur.InvalidInputError, match="slope"):
-        kontur.place_constraints(prepared, slopes=numpy.zeros(len(prepared.positions)))
 
 
 def test_a_constraint_with_noise_is_followed_less_closely():
@@ -194,26 +195,23 @@ def test_a_constraint_with_noise_is_followed_less_closely():
 
 
 def test_bounds_say_what_is_inside_and_what_is_outside(case):
-    found = kontur.find_bounds(case.contours)
     prepared = kontur.prepare(case.contours)
-    assert found.notes == [] and len(prepared.bounds) == len(found.bounds) > 100
-    positions = numpy.array([bound.position for bound in found.bounds])
+    assert prepared.notes == [] and len(prepared.bounds) > 100
+    positions = numpy.array([bound.position for bound in prepared.bounds])
     truth = case.body.values(positions)
-    least, most, noise = (numpy.array([getattr(bound, name) for bound in found.bounds]) for name in ("least_mm", "most_mm", "noise_mm"))
+    least, most, noise = (numpy.array([getattr(bound, name) for bound in prepared.bounds]) for name in ("least_mm", "most_mm", "noise_mm"))
     inside, outside = least > 0, most <= 0
-    assert {bound.kind for bound in found.bounds} == {"bound"}
     assert (inside != outside).all() and (least[outside] == -numpy.inf).all() and (most[inside] == numpy.inf).all() and (noise > 0).all()
     assert (truth[inside] > 0).all() and (truth[outside] < 0).mean() > 0.95
-    alone = kontur.find_bounds(kontur.ContourSet([case.contours[0]]))
-    assert "guess" in alone.notes[0]
+    two = kontur.prepare(kontur.ContourSet([case.contours[0], kontur.Contour(case.contours[0].points + case.contours[0].plane.normal)]))
+    assert any("guess" in note for note in two.notes)
 
 
 def test_clicks_are_bounds_without_noise(case):
     centre, radius = case.contours.smallest_ball
     far = centre + [0, 0, 1.8 * radius]
     clicked = kontur.prepare(kontur.ContourSet(list(case.contours), exterior=[far], interior=[centre]), click_margin_mm=0.5)
-    [interior] = [bound for bound in clicked.bounds if bound.kind == "interior"]
-    [exterior] = [bound for bound in clicked.bounds if bound.kind == "exterior"]
+    interior, exterior = clicked.bounds[-2:]
     assert numpy.array_equal(interior.position, centre) and numpy.array_equal(exterior.position, far)
     assert (interior.least_mm, interior.most_mm, interior.noise_mm) == (0.5, numpy.inf, 0)
     assert (exterior.least_mm, exterior.most_mm, exterior.noise_mm) == (-numpy.inf, -0.5, 0)

@@ -8,7 +8,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/extract/preview.h"
-#include "kontur/fitting.h"
+#include "kontur/stages.h"
 
 namespace kontur {
 namespace {
@@ -19,20 +19,12 @@ constexpr double kSpacingFraction = 0.015;  // of the contours' diameter
 // A cut is cheap: it may be finer than the mesh.
 constexpr double kCutFraction = 2.0 / 3;  // of the preview's spacing
 
-/// The contours as `segment` sees them.
-ContourSet cleaned(ContourSet contours, FillRule fill_rule) {
-    drop_duplicate_points(contours);
-    check_contours(contours);
-    apply_fill_rule(contours, fill_rule);
-    return contours;
-}
-
 bool same_drawing(const Contour& a, const Contour& b) {
     return a.points == b.points && a.plane.origin == b.plane.origin && a.plane.normal == b.plane.normal &&
            a.closed == b.closed;
 }
 
-EditedSurface surface_of(const Fit& fit, std::span<const Vec3> starts, const PreviewOptions& lattice,
+EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts, const PreviewOptions& lattice,
                          const Progress& progress) {
     EditedSurface surface;
     surface.function = fit.function;
@@ -51,8 +43,8 @@ Editor::Editor(EditorOptions options) : options_(options) {
         throw Error(ErrorKind::invalid_input, "the preview is fitted to 0 points; at least 1 is needed");
 }
 
-double Editor::preview_spacing(const ContourSet& contours) const {
-    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kSpacingFraction * diameter_mm(contours);
+double Editor::preview_spacing(double diameter_mm) const {
+    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kSpacingFraction * diameter_mm;
 }
 
 /// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.
@@ -92,25 +84,26 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
     if (drawn.contours.empty()) return {};
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
-    const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
-    Fitting fitting = fitting_for(contours, options_.segment);
-    const PreparedContours prepared = prepare(contours, fitting);
+    const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
+    StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
+    const PreparedContours prepared = prepare(drawing, stages);
     watch.lap("prepare");
-    fitting.fit.most_points = options_.preview_points;
-    fitting.fit.tilt_points = options_.preview_points;
-    fitting.fit.solve.tolerance_mm *= kPreviewTolerance;
-    fitting.fit.early_tolerance_factor = 2;
-    fitting.fit.start_slopes = known_slopes(contours, prepared);
-    if (!fitting.fit.start_slopes.empty()) fitting.fit.rounds = std::min(fitting.fit.rounds, 1);
-    const Fit fitted = fit(prepared, fitting.fit, progress);
+    stages.fit.most_points = options_.preview_points;
+    stages.fit.tilt_points = options_.preview_points;
+    stages.fit.solve.tolerance_mm *= kPreviewTolerance;
+    stages.fit.early_tolerance_factor = 2;
+    stages.fit.start_slopes = known_slopes(drawing.contours, prepared);
+    if (!stages.fit.start_slopes.empty()) stages.fit.rounds = std::min(stages.fit.rounds, 1);
+    const FittedFunction fitted = fit(prepared, stages.fit, progress);
     watch.lap("fit");
-    const std::vector<Vec3> starts = start_points(contours, prepared, fitted.function, fitting.prepare.click_margin_mm);
-    const PreviewOptions lattice{preview_spacing(contours), options_.segment.threads};
+    const std::vector<Vec3> starts =
+        start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
+    const PreviewOptions lattice{preview_spacing(drawing.diameter_mm()), options_.segment.threads};
     if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm, lattice.threads}, progress));
     EditedSurface surface = surface_of(fitted, starts, lattice, progress);
     watch.lap("mesh");
     surface.seconds = std::move(seconds);
-    remember(contours, prepared, fitted.slopes);
+    remember(drawing.contours, prepared, fitted.slopes);
     return surface;
 }
 
@@ -118,15 +111,16 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) 
     EditedSurface surface;
     surface.refined = true;
     if (drawn.contours.empty()) return surface;
-    const ContourSet contours = cleaned(drawn, options_.segment.fill_rule);
-    const Fitting fitting = fitting_for(contours, options_.segment);
-    const PreparedContours prepared = prepare(contours, fitting);
-    const double spacing_mm = options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(contours) / 3;
-    const Fit fitted = fit(prepared, fitting.fit, progress);
-    surface = surface_of(fitted, start_points(contours, prepared, fitted.function, fitting.prepare.click_margin_mm),
+    const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
+    const StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
+    const PreparedContours prepared = prepare(drawing, stages);
+    const double spacing_mm =
+        options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(drawing.diameter_mm()) / 3;
+    const FittedFunction fitted = fit(prepared, stages.fit, progress);
+    surface = surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
                          {spacing_mm, options_.segment.threads}, progress);
     surface.refined = true;
-    surface.residual = residual(surface.function, contours, options_.segment.threads);
+    surface.residual = residual(surface.function, drawing.contours, options_.segment.threads);
     return surface;
 }
 

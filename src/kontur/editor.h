@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/drawing/prepare.h"
 #include "kontur/extract/surface_band.h"
-#include "kontur/segment.h"
+#include "kontur/fit/residual.h"
+#include "kontur/segment_options.h"
 
 namespace kontur {
 
@@ -60,7 +62,7 @@ private:
 
     std::vector<double> known_slopes(const ContourSet& contours, const PreparedContours& prepared) const;
     void remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes);
-    double preview_spacing(const ContourSet& contours) const;
+    double preview_spacing(double diameter_mm) const;
 
     EditorOptions options_;
     std::vector<Known> known_;

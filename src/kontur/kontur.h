@@ -38,19 +38,23 @@
 #include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
 
+// What the contours say.
+#include "kontur/drawing/corners.h"
+#include "kontur/drawing/orient.h"
+#include "kontur/drawing/prepare.h"
+#include "kontur/drawing/reconcile.h"
+#include "kontur/drawing/reduce.h"
+
+// The function: sums of a kernel.
+#include "kontur/function/fast_function.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/function/kernel.h"
+
 // Contours become a function.
-#include "kontur/field/bounds.h"
-#include "kontur/field/constraints.h"
-#include "kontur/field/corners.h"
-#include "kontur/field/fast_function.h"
-#include "kontur/field/fit.h"
-#include "kontur/field/implicit_function.h"
-#include "kontur/field/kernel.h"
-#include "kontur/field/orient.h"
-#include "kontur/field/prepare.h"
-#include "kontur/field/reduce.h"
-#include "kontur/field/residual.h"
-#include "kontur/field/solve.h"
+#include "kontur/fit/fit.h"
+#include "kontur/fit/residual.h"
+#include "kontur/solve/constraint_set.h"
+#include "kontur/solve/solve.h"
 
 // The function becomes voxels or triangles; a mask becomes contours.
 #include "kontur/extract/adaptive.h"
@@ -68,6 +72,8 @@
 #include "kontur/live_editor.h"
 #include "kontur/report.h"
 #include "kontur/segment.h"
+#include "kontur/segment_options.h"
+#include "kontur/segment_report.h"
 
 // Judging and showing the result.
 #include "kontur/measure/compare.h"

@@ -35,17 +35,22 @@ std::vector<Vec3> all_points(const ContourSet& contours) {
     return points;
 }
 
+/// A value on the surface and one beside it for each point, and what ends the object; fewer where some nearly repeat others.
+double expected_centres(const PreparedContours& prepared) {
+    return static_cast<double>(2 * prepared.points.size() + prepared.bounds.size());
+}
+
 }  // namespace
 
-double estimated_memory_mb(const ContourSet& contours, std::size_t centres, const Grid& grid,
+double estimated_memory_mb(const Drawing& drawing, const PreparedContours& prepared, const Grid& grid,
                            const SegmentOptions& options) {
     const auto voxels = static_cast<double>(grid.voxel_count());
-    const std::vector<Vec3> points = all_points(contours);
+    const std::vector<Vec3> points = all_points(drawing.contours);
     const double surface = std::min(voxels, 1.5 * static_cast<double>(expected_surface_voxels(grid, points)));
-    double bytes = kAlways + matrix_bytes(static_cast<double>(centres), options.solver) + kPerVoxel * voxels;
+    double bytes = kAlways + matrix_bytes(expected_centres(prepared), options.solver) + kPerVoxel * voxels;
     bytes += options.voxelizer == Voxelizer::exhaustive ? kExhaustivePerVoxel * voxels : kPerSurfaceVoxel * surface;
     if (options.mesh) {
-        const Grid fine = with_split_voxels(grid, kMeshSpacingFraction * diameter_mm(contours));
+        const Grid fine = with_split_voxels(grid, kMeshSpacingFraction * drawing.diameter_mm());
         const double cells = 1.5 * static_cast<double>(expected_surface_voxels(fine, points));
         bytes += kMeshPerSurfaceVoxel * cells + (cells > surface ? kPerSurfaceVoxel * cells : 0);
     }

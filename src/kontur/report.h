@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "kontur/segment.h"
+#include "kontur/segment_report.h"
 
 namespace kontur {
 

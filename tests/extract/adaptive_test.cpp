@@ -8,7 +8,7 @@
 
 #include "kontur/extract/polygonize.h"
 #include "kontur/extract/voxelize.h"
-#include "kontur/field/fit.h"
+#include "kontur/fit/fit.h"
 #include "kontur/measure/components.h"
 #include "support/expect_error.h"
 #include "support/functions.h"

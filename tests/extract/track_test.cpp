@@ -8,7 +8,7 @@
 #include <set>
 
 #include "kontur/extract/voxelize.h"
-#include "kontur/field/fit.h"
+#include "kontur/fit/fit.h"
 #include "kontur/measure/components.h"
 #include "kontur/phantom/cases.h"
 #include "support/expect_error.h"

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "fuzz/drawings.h"
+#include "kontur/drawing/prepare.h"
+#include "kontur/drawing/reconcile.h"
 #include "kontur/editor.h"
-#include "kontur/field/prepare.h"
-#include "kontur/field/reconcile.h"
-#include "kontur/shape/crossings.h"
+#include "kontur/stages.h"
 
 namespace kontur::fuzz {
 namespace {
@@ -35,7 +35,6 @@ PrepareOptions prepare_options(Choices& choose, double diameter) {
     options.least_segments = choose.below(50) - 1;
     options.bounds = choose.below(4) != 1;
     options.copy_shift_mm = choose.below(4) == 1 ? odd(choose, 0.005 * diameter) : 0;
-    options.fill_rule = choose.flag() ? FillRule::declared : FillRule::even_odd;
     options.gaps = choose.below(4) != 1;
     options.click_margin_mm = odd(choose, 0.0045 * diameter);
     options.corners = choose.flag() ? Corners::faithful : Corners::rounded;
@@ -79,7 +78,7 @@ FitOptions fit_options(Choices& choose, double diameter, const PreparedContours&
     return options;
 }
 
-void check(const Fit& fitted, const PreparedContours& prepared, const Vec3& middle) {
+void check(const FittedFunction& fitted, const PreparedContours& prepared, const Vec3& middle) {
     require(fitted.slopes.size() == prepared.points.size(), "one slope for each point");
     require(std::isfinite(fitted.function.value(middle)), "a finite value amid the contours");
 }
@@ -106,13 +105,13 @@ void fitting(Bytes bytes) {
     ContourSet set = choose.below(4) == 1 ? wild_drawing(choose) : mixed_drawing(choose);
     check_contours(set);
     if (edits) return edit(choose, set);
-    const double diameter = diameter_mm(set);
-    drop_duplicate_points(set);
-    PreparedContours prepared = prepare(set, prepare_options(choose, diameter));
+    const Drawing drawing = read_drawing(set, choose.flag() ? FillRule::declared : FillRule::even_odd);
+    const double diameter = drawing.diameter_mm();
+    PreparedContours prepared = prepare(drawing, prepare_options(choose, diameter));
     const ReconcileOptions reconciling{.conflicts = static_cast<Conflicts>(choose.below(3)),
                                        .offset_mm = odd(choose, 0.0045 * diameter)};
-    reconcile(prepared.points, find_crossings(set), reconciling);
-    check(fit(prepared, fit_options(choose, diameter, prepared)), prepared, smallest_ball(set).center);
+    reconcile(prepared.points, drawing.crossings, reconciling);
+    check(fit(prepared, fit_options(choose, diameter, prepared)), prepared, drawing.ball.center);
 }
 
 }  // namespace kontur::fuzz

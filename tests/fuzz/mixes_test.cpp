@@ -7,7 +7,7 @@
 #include "fuzz/drawings.h"
 #include "fuzz/targets.h"
 #include "kontur/base/error.h"
-#include "kontur/fitting.h"
+#include "kontur/stages.h"
 #include "support/random.h"
 
 namespace kontur::fuzz {
@@ -53,7 +53,7 @@ TEST(RandomMixes, OfManyPointsCanBeThinnedToFew) {
         options.place = {0.0045 * diameter, 6e-4 * diameter};
         options.solve.smoothing = 1e-5;
         try {
-            const PreparedContours prepared = prepare(set, {.least_segments = 200});
+            const PreparedContours prepared = prepare(read_drawing(set, FillRule::even_odd), {.least_segments = 200});
             EXPECT_EQ(fit(prepared, options).slopes.size(), prepared.points.size());
             ++fitted;
         } catch (const Error&) {
@@ -81,8 +81,9 @@ TEST(RandomMixes, AreNowhereInsideBeyondTwiceTheBallOfWhatWasDrawn) {
         const ContourSet set = mixed_drawing(choose);
         ImplicitFunction f;
         try {
-            const Fitting fitting = fitting_for(set, {.quality = 0.3});
-            f = fit(prepare(set, fitting), fitting.fit).function;
+            const Drawing drawing = read_drawing(set, FillRule::even_odd);
+            const StageOptions stages = stage_options({.quality = 0.3}, drawing.diameter_mm());
+            f = fit(prepare(drawing, stages), stages.fit).function;
         } catch (const Error&) {
             continue;
         }

@@ -85,9 +85,11 @@ TEST(CroppedImage, BesideTheContoursIsRefused) {
 }
 
 TEST(CroppedImage, OfTinyVoxelsHasAnEstimateOfMemoryThatIsPositiveAndSmall) {
+    const Drawing drawing(tube());
+    const PreparedContours prepared = prepare(drawing);
     for (const double spacing : {1.0, 1e-3, 1e-7, 1e-8}) {
-        const double mb =
-            estimated_memory_mb(tube(), 500, image({10, 10, 10}, {18, 0, 0}, {spacing, spacing, spacing}), {.mesh = true});
+        const double mb = estimated_memory_mb(drawing, prepared,
+                                              image({10, 10, 10}, {18, 0, 0}, {spacing, spacing, spacing}), {.mesh = true});
         EXPECT_GT(mb, 0);
         EXPECT_LT(mb, 1000);
     }

@@ -7,6 +7,7 @@
 
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/drawing.h"
+#include "kontur/segment.h"
 #include "support/coarse_grid.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "kontur/drawing/reconcile.h"
+#include "kontur/drawing/tidy.h"
 #include "kontur/extract/isolines.h"
-#include "kontur/field/reconcile.h"
-#include "kontur/field/tidy.h"
 #include "kontur/kontur.h"
 #include "kontur/view/shade.h"
 #include "support/contour_sets.h"
@@ -159,9 +159,9 @@ TEST(Preconditions, OfPlacingConstraints) {
     const auto with_single = [&](const PointConstraint& single) {
         rows.push_back({"single", [=] { place_constraints({}, {}, std::vector{single}); }, "single point 1"});
     };
-    with_single({{kNan, 0, 0}, 1, ConstraintKind::bound});
-    with_single({{0, 0, 0}, kInfinite, ConstraintKind::bound});
-    with_single({{0, 0, 0}, 1, ConstraintKind::bound, -1});
+    with_single({{kNan, 0, 0}, 1});
+    with_single({{0, 0, 0}, kInfinite});
+    with_single({{0, 0, 0}, 1, -1});
     expect_refused(rows);
 }
 

@@ -25,6 +25,17 @@ inline ContourSet three_circles() {
     return set;
 }
 
+/// The circles of a ball of radius 10 about 0 in the three planes of the axes.
+inline ContourSet three_great_circles() {
+    ContourSet set;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 normal{};
+        normal[axis] = 1;
+        set.contours.push_back(circle(make_plane({}, normal), 10, 60));
+    }
+    return set;
+}
+
 /// Circles of a ball of radius 20 about (20, -30, 100) in two planes of each main direction.
 inline ContourSet ball_contours() {
     constexpr double kRadius = 20;

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "kontur/field/solve.h"
 #include "kontur/shape/grid.h"
+#include "kontur/solve/solve.h"
 #include "support/bodies.h"
 
 namespace kontur::test {

@@ -23,16 +23,17 @@ def test_exact_predicates_may_change_the_rounding():
     assert "-frounding-math" in options_of("shape/predicates.cpp")
 
 
-@pytest.mark.parametrize("stem", ["h2_basis", "h2_interpolation", "pair_sums", "preconditioner", "small_cholesky", "split_kernel", "stencil"])
-def test_fast_sums_may_fuse_multiplications_and_additions(stem):
-    options = options_of(f"field/{stem}.cpp")
+@pytest.mark.parametrize("source", ["solve/h2_basis", "solve/h2_interpolation", "solve/pair_sums", "solve/preconditioner",
+                                    "solve/small_cholesky", "function/split_kernel", "function/stencil"])
+def test_fast_sums_may_fuse_multiplications_and_additions(source):
+    options = options_of(f"{source}.cpp")
     # The last one counts.
     assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=fast"
 
 
-@pytest.mark.parametrize("stem", ["kernel", "nearest_points", "fit", "implicit_function"])
-def test_what_the_same_bytes_come_from_fuses_nothing(stem):
-    options = options_of(f"field/{stem}.cpp")
+@pytest.mark.parametrize("source", ["function/kernel", "solve/nearest_points", "fit/fit", "function/implicit_function"])
+def test_what_the_same_bytes_come_from_fuses_nothing(source):
+    options = options_of(f"{source}.cpp")
     assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=off"
 
 

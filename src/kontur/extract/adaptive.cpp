@@ -9,7 +9,7 @@
 #include "kontur/extract/coarse_band.h"
 #include "kontur/extract/cubic_cells.h"
 #include "kontur/extract/tracker.h"
-#include "kontur/field/fast_function.h"
+#include "kontur/function/fast_function.h"
 
 namespace kontur {
 namespace {

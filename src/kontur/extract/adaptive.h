@@ -5,7 +5,7 @@
 
 #include "kontur/base/progress.h"
 #include "kontur/extract/track.h"
-#include "kontur/field/fast_function.h"
+#include "kontur/function/fast_function.h"
 
 namespace kontur {
 

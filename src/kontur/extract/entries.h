@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kontur/base/progress.h"
-#include "kontur/field/implicit_function.h"
+#include "kontur/function/implicit_function.h"
 #include "kontur/shape/grid.h"
 
 namespace kontur {

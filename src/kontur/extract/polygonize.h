@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kontur/extract/track.h"
-#include "kontur/field/fast_function.h"
+#include "kontur/function/fast_function.h"
 #include "kontur/shape/mesh.h"
 
 namespace kontur {

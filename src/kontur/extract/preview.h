@@ -5,7 +5,7 @@
 #include <span>
 
 #include "kontur/base/progress.h"
-#include "kontur/field/implicit_function.h"
+#include "kontur/function/implicit_function.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 

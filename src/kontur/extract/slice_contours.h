@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kontur/base/progress.h"
-#include "kontur/field/implicit_function.h"
+#include "kontur/function/implicit_function.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/volume.h"
 

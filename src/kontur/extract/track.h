@@ -7,7 +7,7 @@
 
 #include "kontur/base/progress.h"
 #include "kontur/extract/lattice.h"
-#include "kontur/field/implicit_function.h"
+#include "kontur/function/implicit_function.h"
 
 namespace kontur {
 

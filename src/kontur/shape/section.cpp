@@ -160,20 +160,4 @@ bool are_parallel(const Plane& a, const Plane& b) {
     return std::abs(dot(a.normal, b.normal)) >= kCosine;
 }
 
-DrawnPlanes::DrawnPlanes(const ContourSet& drawn)
-    : set(drawn),
-      ball(smallest_ball(drawn)),
-      tolerance_mm(1.5e-3 * ball.diameter()),
-      sections(sections_of(drawn, kSamePlane * ball.diameter())) {}
-
-std::optional<DrawnPlanes::Next> DrawnPlanes::next(const Plane& plane, double sign) const {
-    std::optional<Next> nearest;
-    for (const Section& other : sections) {
-        const double ahead = sign * plane.distance_to(other.plane.origin);
-        if (are_parallel(plane, other.plane) && ahead > tolerance_mm && (!nearest || ahead < nearest->distance_mm))
-            nearest = Next{&other, ahead};
-    }
-    return nearest;
-}
-
 }  // namespace kontur

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "kontur/shape/box_tree.h"
@@ -77,22 +76,5 @@ std::vector<Section> sections_of(const ContourSet& set, double tolerance_mm);
 
 /// Whether two planes follow each other in a stack: tilted against each other by less than 6 degrees.
 bool are_parallel(const Plane& a, const Plane& b);
-
-/// A contour set and what several steps want to know of it. The set must outlive it.
-struct DrawnPlanes {
-    explicit DrawnPlanes(const ContourSet& drawn);
-
-    const ContourSet& set;
-    Ball3 ball;           ///< the smallest one around the set
-    double tolerance_mm;  ///< planes less than this apart do not follow one another: 0.15 % of the ball's diameter
-    std::vector<Section> sections;
-
-    struct Next {
-        const Section* section;
-        double distance_mm;
-    };
-    /// The next one parallel to a plane, ahead of its origin in the direction of its normal times `sign`.
-    std::optional<Next> next(const Plane& plane, double sign) const;
-};
 
 }  // namespace kontur

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kontur/fit/missed_clicks.h"
+#include "kontur/fit/residual.h"
+#include "kontur/measure/components.h"
+
+namespace kontur {
+namespace {
+
+/// A sentence on the worst crossing, if it is worse than both a voxel and 1 % of the contours' box.
+void describe_crossings(const Drawing& drawing, const Grid& grid, SegmentReport& report) {
+    report.crossings = drawing.crossings;
+    std::stable_sort(report.crossings.begin(), report.crossings.end(),
+                     [](const Crossing& a, const Crossing& b) { return a.disagreement_mm > b.disagreement_mm; });
+    if (report.crossings.empty()) return;
+    const Crossing& worst = report.crossings.front();
+    const double limit_mm = std::max(std::cbrt(grid.voxel_volume_mm3()), 0.015 * drawing.diameter_mm());
+    if (worst.disagreement_mm > limit_mm) report.warnings.push_back("contours contradict each other: " + sentence(worst));
+}
+
+/// Whether one of the voxels around a point is in the mask.
+bool touches(const Mask& mask, const Affine3& to_index, const Vec3& p) {
+    const Vec3 at = to_index.apply(p);
+    const Index3& n = mask.grid.size;
+    for (int corner = 0; corner < 8; ++corner) {
+        const std::int64_t i = static_cast<std::int64_t>(std::floor(at.x)) + (corner & 1),
+                           j = static_cast<std::int64_t>(std::floor(at.y)) + (corner >> 1 & 1),
+                           k = static_cast<std::int64_t>(std::floor(at.z)) + (corner >> 2);
+        if (i >= 0 && i < n.i && j >= 0 && j < n.j && k >= 0 && k < n.k && mask.values[mask.grid.offset(i, j, k)])
+            return true;
+    }
+    return false;
+}
+
+/// Interior points that f has inside and the mask does not: what they made lies apart from the contours, where no surface is
+/// looked for.
+void describe_lost_clicks(const ContourSet& contours, const ImplicitFunction& function, const Mask& mask,
+                          std::vector<std::string>& warnings) {
+    const Affine3 to_index = mask.grid.index_to_mm.inverse();
+    for (std::size_t c = 0; c < contours.interior.size(); ++c) {
+        const Vec3& click = contours.interior[c];
+        if (!mask.grid.bounds_mm().contains(click) || !(function.value(click) > 0) || touches(mask, to_index, click))
+            continue;
+        warnings.push_back(fmt::format(
+            "interior point {} is not in the mask: it lies apart from the object, and no contour says what is there",
+            c + 1));
+    }
+}
+
+bool reaches_border(const Mask& mask) {
+    const Index3& n = mask.grid.size;
+    for (std::int64_t k = 0; k < n.k; ++k)
+        for (std::int64_t j = 0; j < n.j; ++j) {
+            const bool border_row = k == 0 || k == n.k - 1 || j == 0 || j == n.j - 1;
+            for (std::int64_t i = 0; i < n.i; i += border_row || n.i == 1 ? 1 : n.i - 1)
+                if (mask.values[mask.grid.offset(i, j, k)]) return true;
+        }
+    return false;
+}
+
+void describe_fit(const PreparedContours& prepared, const FittedFunction& fit, const FitOptions& options,
+                  SegmentReport& report) {
+    report.constraints = fit.constraints;
+    report.centres = fit.report.centres;
+    report.kernel = options.solve.kernel;
+    report.normals = options.normals;
+    report.normal_offset_mm = options.place.normal_offset_mm;
+    report.smoothing = options.solve.smoothing;
+    report.tolerance_mm = options.solve.tolerance_mm;
+    report.solver = fit.report.solver;
+    report.solves = fit.solves;
+    report.iterations = fit.iterations;
+    report.merged = fit.merged;
+    report.bounded = fit.bounded;
+    if (prepared.coplanar)
+        report.warnings.push_back(
+            options.normals == Normals::surface
+                ? "all contours lie in one plane; the thickness of the object is a guess from their width"
+                : "all contours lie in one plane; a copy of the first one was added close to it");
+    if (fit.report.solver == Solver::iterative && fit.report.residual > options.solve.tolerance_mm)
+        report.warnings.push_back(fmt::format("the solver stopped at an error of {:.3g} mm; {:.3g} mm were asked for",
+                                              fit.report.residual, options.solve.tolerance_mm));
+    if (!prepared.crossings.empty())
+        report.warnings.push_back(fmt::format(
+            "contours cross themselves at {} points; lobes are filled by the even-odd rule", prepared.crossings.size()));
+}
+
+void describe_mask(const SurfaceLattice& surface, const Mask& mask, SegmentReport& report) {
+    report.evaluations = surface.evaluations;
+    report.surface_voxels = static_cast<std::int64_t>(surface.cells.size());
+    const std::vector<std::int64_t> components = component_sizes(mask);
+    report.mask_voxels = std::accumulate(components.begin(), components.end(), std::int64_t{0});
+    report.mask_components = static_cast<std::int64_t>(components.size());
+    report.mask_volume_ml = static_cast<double>(report.mask_voxels) * mask.grid.voxel_volume_mm3() / 1000;
+    if (report.mask_voxels == 0) report.warnings.push_back("the mask is empty: no voxel centre lies inside of the surface");
+    if (reaches_border(mask)) report.warnings.push_back("the object reaches the border of the image and is cut off there");
+}
+
+void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+SegmentReport describe(const StageResults& results, const SegmentOptions& options) {
+    const auto& [drawing, stages, prepared, fitted, surface, mask] = results;
+    const ContourSet& contours = drawing.contours;
+    SegmentReport report;
+    report.contours = contours.contours.size();
+    report.points = point_count(contours);
+    report.quality = options.quality;
+    report.voxelizer = options.voxelizer;
+    report.fill_rule = options.fill_rule;
+    report.conflicts = stages.reconcile.conflicts;
+    report.corners = stages.prepare.corners;
+    append(report.warnings, drawing.notes);
+    if (const auto warning = check_contours_inside(contours, mask.grid)) report.warnings.push_back(*warning);
+    append(report.warnings, prepared.notes);
+    append(report.warnings, missed_clicks(contours, fitted.function, 2 * stages.prepare.click_margin_mm));
+    describe_fit(prepared, fitted, stages.fit, report);
+    report.residual = residual(fitted.function, contours, options.threads);
+    describe_crossings(drawing, mask.grid, report);
+    describe_mask(surface, mask, report);
+    describe_lost_clicks(contours, fitted.function, mask, report.warnings);
+    return report;
+}
+
+Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report) {
+    return {
+        {"contours_sha256", contours_sha256(contours)},
+        {"grid_sha256", grid_sha256(grid)},
+        {"version", KONTUR_VERSION},
+        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} "
+                                "quality={} solver={} tolerance_mm={} voxelizer={}",
+                                name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
+                                name(report.corners), report.normal_offset_mm, report.smoothing, report.quality,
+                                name(report.solver), report.tolerance_mm, name(report.voxelizer))},
+    };
+}
+
+}  // namespace kontur

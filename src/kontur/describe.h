@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kontur/extract/track.h"
+#include "kontur/segment_report.h"
+#include "kontur/shape/volume.h"
+#include "kontur/stages.h"
+
+namespace kontur {
+
+/// What the stages of one run of `segment` have made.
+struct StageResults {
+    const Drawing& drawing;
+    const StageOptions& options;
+    const PreparedContours& prepared;
+    const FittedFunction& fitted;
+    const SurfaceLattice& surface;
+    const Mask& mask;
+};
+
+/// The report of a run, with a sentence on each choice and doubt; `seconds` and `estimated_memory_mb` are left to `segment`.
+SegmentReport describe(const StageResults& results, const SegmentOptions& options);
+
+}  // namespace kontur

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "kontur/base/geometry.h"
+
+namespace kontur {
+
+struct DrawnPlanes;
+
+/// An interval that f is to keep at a place. It takes part in a fit only where f would leave it, and then as a datum with
+/// noise.
+struct Bound {
+    Vec3 position;  ///< mm
+    double least_mm = -std::numeric_limits<double>::infinity();
+    double most_mm = std::numeric_limits<double>::infinity();
+    double noise_mm = 0;  ///< standard deviation
+};
+
+struct Bounds {
+    std::vector<Bound> bounds;
+    std::vector<std::string> notes;  ///< a word on a thickness that is but a guess, contours counted from 1
+};
+
+/// What bounds the object beside the lines. There are two sources: a drawn plane, which shows where the object is and is not
+/// (plane_bounds.h), and the end of the object beyond a plane after which nothing leads on (end_bounds.h). Both follow
+/// continuously when planes are moved and turned, and move, turn and scale with the contours. Nothing is said between two
+/// parallel planes that both show the object.
+Bounds find_bounds(const DrawnPlanes& planes, int threads = 0);
+
+}  // namespace kontur

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kontur/base/smallest_ball.h"
+#include "kontur/shape/contour.h"
+#include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/crossings.h"
+
+namespace kontur {
+
+/// What was drawn, without repeated points and with its holes known, and what all stages ask of it, found once.
+struct Drawing {
+    /// Leaves out repeated points, checks (check_contours, which throws) and finds the holes (apply_fill_rule; the contours'
+    /// indices are those after it).
+    Drawing(ContourSet drawn, FillRule rule = FillRule::even_odd);
+
+    ContourSet contours;
+    Ball3 ball;                       ///< the smallest one around all that was drawn, mm
+    std::vector<Crossing> crossings;  ///< of contours of different planes
+    std::vector<std::string> notes;   ///< what was changed or is contradictory, one sentence each
+
+    /// What the method's lengths are fractions of, so that results turn and scale with the contours.
+    double diameter_mm() const { return ball.diameter(); }
+};
+
+}  // namespace kontur

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kontur/drawing/boundary_point.h"
+#include "kontur/drawing/bounds.h"
+
+namespace kontur {
+
+struct DrawnPlanes;
+
+/// What the contours that end the object (ContourEnd) add to the fit.
+struct Ends {
+    std::vector<BoundaryPoint> lids;  ///< points of the surface
+    std::vector<Bound> guards;        ///< beyond them
+    std::vector<std::string> notes;   ///< ends that could not be followed, a sentence each, contours counted from 1
+};
+
+/// A flat end closes the object in the plane of its contour by a lattice of points whose normal is the plane's, and takes
+/// the wall to stand upright for the last tenth of the contour's inscribed radius; a round one by a dome, as high as half
+/// the distance to the parallel plane before it and no higher than half the width of the contour (half its inscribed radius
+/// where there is no such plane). It ends on the side where neither the next parallel plane nor contours of other directions
+/// carry the contour's region on. Holes inside of the contour stay open.
+Ends find_ends(const DrawnPlanes& planes);
+
+}  // namespace kontur

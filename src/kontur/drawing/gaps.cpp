@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/drawing/gaps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/base/parallel.h"
+#include "kontur/shape/box_tree.h"
+#include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/predicates.h"
+
+namespace kontur {
+namespace {
+
+Point2 minus(const Point2& a, const Point2& b) { return {a[0] - b[0], a[1] - b[1]}; }
+double cross2(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// All lines of a plane in its coordinates.
+struct Drawing {
+    static constexpr std::size_t kStretchEdges = 16;
+
+    Plane plane;
+    std::vector<std::pair<Point2, Point2>> edges;
+    BoxTree stretches;  ///< boxes of every kStretchEdges edges
+
+    void finish() {
+        std::vector<Box2> boxes((edges.size() + kStretchEdges - 1) / kStretchEdges);
+        for (std::size_t e = 0; e < edges.size(); ++e)
+            for (const Point2& end : {edges[e].first, edges[e].second}) boxes[e / kStretchEdges].extend(end);
+        stretches = BoxTree(std::move(boxes));
+    }
+};
+
+struct Drawings {
+    std::vector<Drawing> all;
+    std::vector<std::size_t> of;  ///< for each contour which one it belongs to
+
+    const Drawing& with(std::int32_t contour) const { return all[of[static_cast<std::size_t>(contour)]]; }
+};
+
+Drawings drawings_of(const ContourSet& set, double tolerance_mm) {
+    const std::vector<std::size_t> plane = shared_planes(set.contours, tolerance_mm);
+    Drawings drawings{{}, std::vector<std::size_t>(set.contours.size())};
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (plane[c] == c) {
+            drawings.of[c] = drawings.all.size();
+            drawings.all.push_back({set.contours[c].plane, {}, BoxTree{}});
+        }
+    for (std::size_t c = 0; c < set.contours.size(); ++c) {
+        const Contour& contour = set.contours[c];
+        drawings.of[c] = drawings.of[plane[c]];
+        Drawing& drawing = drawings.all[drawings.of[c]];
+        for (std::size_t i = contour.closed ? 0 : 1; i < contour.points.size(); ++i) {
+            const Vec3 &from = contour.points[i > 0 ? i - 1 : contour.points.size() - 1], &to = contour.points[i];
+            drawing.edges.emplace_back(drawing.plane.to_uv(from), drawing.plane.to_uv(to));
+        }
+    }
+    for (Drawing& drawing : drawings.all) drawing.finish();
+    return drawings;
+}
+
+/// Where the ray from `start` in the unit direction `along` meets the edge; infinity where it does not.
+double hit(const Point2& start, const Point2& along, const Point2& a, const Point2& b) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const Point2 edge = minus(b, a), to_a = minus(a, start);
+    const double turn = cross2(along, edge);
+    if (turn == 0) return kNone;
+    const double distance = cross2(to_a, edge) / turn, at = cross2(to_a, along) / turn;
+    return distance >= 0 && at >= 0 && at <= 1 ? distance : kNone;
+}
+
+double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, double own_edge) {
+    const Point2 start = drawing.plane.to_uv(point.position);
+    const Point2 along{dot(point.inplane_normal, drawing.plane.u), dot(point.inplane_normal, drawing.plane.v)};
+    Box2 ray;
+    ray.extend(start);
+    ray.extend(Point2{start[0] + reach * along[0], start[1] + reach * along[1]});
+    const double rounding = 1e-6 * reach;
+    for (const std::size_t axis : {0u, 1u}) {
+        ray.low[axis] -= rounding;
+        ray.high[axis] += rounding;
+    }
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto squared_limit = [&] {
+        const double limit = std::min(nearest, reach) + rounding;
+        return limit * limit;
+    };
+    const auto key = [&](const Box2& box) {
+        return box.meets(ray) ? box.distance2(start) : std::numeric_limits<double>::infinity();
+    };
+    drawing.stretches.visit(key, squared_limit, [&](std::size_t s) {
+        const std::size_t begin = s * Drawing::kStretchEdges;
+        const std::size_t end = std::min(begin + Drawing::kStretchEdges, drawing.edges.size());
+        for (std::size_t e = begin; e < end; ++e) {
+            const auto& [a, b] = drawing.edges[e];
+            if (const double distance = hit(start, along, a, b); distance > own_edge) nearest = std::min(nearest, distance);
+        }
+    });
+    return nearest <= reach ? nearest : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
+               int threads) {
+    const Drawings drawings = drawings_of(set, tolerance_mm);
+    // Points of refined contours lie on their edge only up to rounding.
+    const double own_edge = 1e-5 * tolerance_mm;
+    parallel_for(static_cast<std::int64_t>(points.size()), 128, threads, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin) {
+            BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
+            if (point.contour != kNoContour && !(point.inplane_normal == Vec3{}))
+                point.gap_mm = gap(drawings.with(point.contour), point, reach_mm, own_edge);
+        }
+    });
+}
+
+}  // namespace kontur

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/drawing/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
+#include "kontur/drawing/clicks.h"
+#include "kontur/drawing/drawn_planes.h"
+#include "kontur/drawing/ends.h"
+#include "kontur/drawing/gaps.h"
+#include "kontur/drawing/orient.h"
+#include "kontur/drawing/reduce.h"
+#include "kontur/drawing/tidy.h"
+
+namespace kontur {
+namespace {
+
+bool is_coplanar(const DrawnPlanes& planes) {
+    const Plane& plane = planes.set.contours.front().plane;
+    const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > planes.tolerance_mm; };
+    for (const Contour& contour : planes.set.contours)
+        if (std::any_of(contour.points.begin(), contour.points.end(), off_plane)) return false;
+    return std::none_of(planes.set.surface.begin(), planes.set.surface.end(),
+                        [&](const SurfacePoint& p) { return off_plane(p.position); });
+}
+
+Contour shifted(Contour contour, const Vec3& by) {
+    contour.plane.origin += by;
+    for (Vec3& p : contour.points) p += by;
+    return contour;
+}
+
+void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
+    if (tidied.spike_points > 0)
+        notes.push_back(fmt::format("{} points of spikes, which enclose nothing, were left out", tidied.spike_points));
+    if (tidied.thinned_contours > 0)
+        notes.push_back(
+            fmt::format("{} contours with very many points were thinned: {} points left out, none farther than "
+                        "{:.2g} mm from the contour that was kept",
+                        tidied.thinned_contours, tidied.thinned_points, tidied.thinned_mm));
+}
+
+/// The corners of all contours as they were drawn; reducing them makes others.
+class DrawnCorners {
+public:
+    DrawnCorners(const ContourSet& set, Corners corners) {
+        if (corners == Corners::rounded) return;
+        for (const Contour& contour : set.contours) {
+            const std::vector<bool> is_corner = find_corners(contour);
+            for (std::size_t i = 0; i < is_corner.size(); ++i)
+                if (is_corner[i]) points_.push_back(contour.points[i]);
+        }
+        std::sort(points_.begin(), points_.end(), comes_before);
+    }
+
+    /// For each point of a contour whether it is one of them.
+    std::vector<bool> among(const Contour& contour) const {
+        std::vector<bool> is_corner(contour.points.size(), false);
+        if (contour.closed)
+            std::transform(contour.points.begin(), contour.points.end(), is_corner.begin(), [&](const Vec3& p) {
+                return std::binary_search(points_.begin(), points_.end(), p, comes_before);
+            });
+        return is_corner;
+    }
+
+private:
+    static bool comes_before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
+    std::vector<Vec3> points_;
+};
+
+void append_closed(const Contour& contour, std::int32_t index, const DrawnCorners& corners, PreparedContours& prepared) {
+    const ContourOrientation orientation = orient(contour);
+    // At a corner the surface has no one direction: its edges' points beside it have theirs.
+    const std::vector<bool> is_corner = corners.among(contour);
+    for (std::size_t i = 0; i < contour.points.size(); ++i)
+        prepared.points.push_back({contour.points[i], is_corner[i] ? Vec3{} : orientation.normals[i], contour.plane.normal,
+                                   index, contour.weight});
+    const auto append_to = [](std::vector<Vec3>& to, const std::vector<Vec3>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    append_to(prepared.crossings, orientation.crossings);
+    append_to(prepared.between_crossings, orientation.between_crossings);
+}
+
+void append_open(const Contour& contour, std::int32_t index, PreparedContours& prepared) {
+    if (!contour.inside)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("contour {} is open and does not tell on which hand the object lies", index + 1));
+    const std::vector<Vec3> left = left_normals(contour);
+    const double outward = contour.inside == Hand::left ? -1 : 1;
+    for (std::size_t i = 0; i < contour.points.size(); ++i)
+        prepared.points.push_back({contour.points[i], outward * left[i], contour.plane.normal, index, contour.weight});
+}
+
+void append_surface_points(const ContourSet& set, PreparedContours& prepared) {
+    for (const SurfacePoint& p : set.surface)
+        prepared.points.push_back(
+            {.position = p.position, .inplane_normal = p.outward.value_or(Vec3{}), .contour = kNoContour});
+}
+
+/// Contours beyond the drawn ones are copies of the first.
+void append_boundary(const ContourSet& set, std::size_t drawn, const DrawnCorners& corners, PreparedContours& prepared) {
+    const auto index = [&](std::size_t c) { return static_cast<std::int32_t>(c < drawn ? c : 0); };
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (set.contours[c].closed) append_closed(set.contours[c], index(c), corners, prepared);
+    append_surface_points(set, prepared);
+    for (std::size_t c = 0; c < set.contours.size(); ++c)
+        if (!set.contours[c].closed) append_open(set.contours[c], index(c), prepared);
+}
+
+void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, PreparedContours& prepared) {
+    if (options.bounds) {
+        Bounds limits = find_bounds(planes, options.threads);
+        prepared.bounds = std::move(limits.bounds);
+        if (!prepared.coplanar) prepared.notes.insert(prepared.notes.end(), limits.notes.begin(), limits.notes.end());
+        const Ends ends = find_ends(planes);
+        prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
+        prepared.bounds.insert(prepared.bounds.end(), ends.guards.begin(), ends.guards.end());
+        prepared.notes.insert(prepared.notes.end(), ends.notes.begin(), ends.notes.end());
+    }
+    const std::vector<Bound> clicks = click_bounds(planes.set, options.click_margin_mm);
+    prepared.bounds.insert(prepared.bounds.end(), clicks.begin(), clicks.end());
+    const std::vector<std::string> doubts = contradictory_clicks(planes, options.click_margin_mm);
+    prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
+}
+
+/// Of one contour among so many: each of them gets fewer where they are very many, so that they share what can be solved.
+int least_segments(const PrepareOptions& options, std::size_t contours) {
+    constexpr std::size_t kAllContours = 4800;
+    constexpr int kLeast = 12;
+    const auto share = std::max(kLeast, static_cast<int>(kAllContours / std::max<std::size_t>(contours, 1)));
+    return static_cast<int>(std::ceil(options.quality * std::min(options.least_segments, share)));
+}
+
+Contour refined(const Contour& contour, int least_segments, const DrawnCorners& corners, const PrepareOptions& options) {
+    if (options.corners == Corners::rounded || !contour.closed) return refine(contour, least_segments);
+    double perimeter = 0;
+    for_each_edge(contour.points, [&](const Vec3& a, const Vec3& b) { perimeter += distance(a, b); });
+    return refine_to_corners(contour, corners.among(contour), options.corner_spacing_mm,
+                             perimeter / std::max(least_segments, 1));
+}
+
+void check_prepare_options(const PrepareOptions& options) {
+    check_quality(options.quality);
+    check_at_least("the least number of segments", options.least_segments, 0);
+    check_not_below_0("the shift of the copy", options.copy_shift_mm, " mm");
+    check_above_0("the margin of interior and exterior points", options.click_margin_mm, " mm");
+    check_above_0("the spacing at corners", options.corner_spacing_mm, " mm");
+    check_threads(options.threads);
+}
+
+}  // namespace
+
+PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options) {
+    check_prepare_options(options);
+    PreparedContours prepared;
+    const double diameter = drawing.diameter_mm();
+    ContourSet set = drawing.contours;
+    note_tidied(tidy(set, {1.5e-5 * diameter, 1.5e-4 * diameter}), prepared.notes);
+    const DrawnPlanes planes(set, drawing.ball);
+    prepared.ball = drawing.ball;
+    prepared.coplanar = is_coplanar(planes);
+
+    ContourSet fitted = set;
+    const DrawnCorners corners(set, options.corners);
+    for (Contour& contour : fitted.contours) contour = reduce(contour, {options.quality});
+    const int least = least_segments(options, set.contours.size());
+    for (Contour& contour : fitted.contours) contour = refined(contour, least, corners, options);
+    if (prepared.coplanar && options.copy_shift_mm > 0) {
+        const Contour& first = fitted.contours.front();
+        fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
+    }
+    append_boundary(fitted, set.contours.size(), corners, prepared);
+    if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, options.threads);
+    append_limits(planes, options, prepared);
+    return prepared;
+}
+
+}  // namespace kontur

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "kontur/drawing/boundary_point.h"
+#include "kontur/shape/crossings.h"
+
+namespace kontur {
+
+/// What happens where contours of different planes contradict each other.
+enum class Conflicts {
+    reconcile,    ///< both yield
+    newest_wins,  ///< the one that comes first in the set yields
+    exact,        ///< neither yields; where they contradict each other the surface may bulge
+};
+std::string_view name(Conflicts conflicts) noexcept;
+
+struct ReconcileOptions {
+    Conflicts conflicts = Conflicts::reconcile;
+    double offset_mm = 1;   ///< length of the normal constraints, > 0: disagreements far below it do not matter
+    double strength = 100;  ///< a point in the middle of a disagreement as large as the offset gets 1 / (1 + strength) trust
+    double reach = 3;       ///< how far around a crossing, in multiples of the disagreement, contours yield
+};
+
+/// Lowers the trust in the points about every crossing at which contours disagree, in proportion to the square of the
+/// disagreement, as measurement errors would have it, and fading with the distance from the crossing: smoothing follows the
+/// measured disagreement, and only there. Elsewhere contours keep their trust. Of two that both yield, the one that is
+/// trusted more (Contour::weight) yields less: with trusts v and w the first gets 2 w / (v + w) times what equal ones yield.
+/// `crossings` are those of find_crossings on the set that the points were made from. O(points * crossings of their
+/// contour). Throws Error(invalid_input) for an offset or reach that is not above 0, a strength below 0, and any that is not
+/// finite.
+void reconcile(std::vector<BoundaryPoint>& points, std::span<const Crossing> crossings, const ReconcileOptions& options);
+
+}  // namespace kontur

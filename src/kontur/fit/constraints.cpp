@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/fit/constraints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <unordered_map>
+
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
+
+namespace kontur {
+namespace {
+
+/// Accepts points that keep a distance from all those accepted before. Cells of several times that distance, so that most
+/// points need a look into their own only.
+class SpacingFilter {
+public:
+    explicit SpacingFilter(double distance) : distance_(distance), cell_(distance > 0 ? 8 * distance : 1.0) {}
+
+    bool accept(const Vec3& p) {
+        const Vec3 reach{distance_, distance_, distance_};
+        const Index3 low = cell_at(p - reach), high = cell_at(p + reach);
+        for (std::int64_t k = low.k; k <= high.k; ++k)
+            for (std::int64_t j = low.j; j <= high.j; ++j)
+                for (std::int64_t i = low.i; i <= high.i; ++i)
+                    if (repeats_one_of(cells_.find({i, j, k}), p)) return false;
+        cells_[cell_at(p)].push_back(p);
+        return true;
+    }
+
+private:
+    struct Hash {
+        std::size_t operator()(const Index3& c) const {
+            const auto mix = [](std::uint64_t h, std::int64_t v) {
+                return (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u;
+            };
+            return mix(mix(mix(0x2545F4914F6CDD1Du, c.i) >> 7, c.j) >> 7, c.k);
+        }
+    };
+    using Cells = std::unordered_map<Index3, std::vector<Vec3>, Hash>;
+
+    Index3 cell_at(const Vec3& p) const {
+        constexpr double kLast = 9e18;  // all that is farther away shares a cell
+        const auto along = [&](double v) {
+            return static_cast<std::int64_t>(std::floor(std::clamp(v / cell_, -kLast, kLast)));
+        };
+        return {along(p.x), along(p.y), along(p.z)};
+    }
+
+    bool repeats_one_of(Cells::const_iterator found, const Vec3& p) const {
+        if (found == cells_.end()) return false;
+        for (const Vec3& q : found->second)
+            if (p == q || distance(p, q) < distance_) return true;
+        return false;
+    }
+
+    double distance_, cell_;
+    Cells cells_;
+};
+
+/// `kind` is "point" or "single point", `index` counts from 0. They are put into words only where one is refused: there are
+/// very many, and each solve asks.
+void check_finite(bool finite, std::string_view kind, std::size_t index) {
+    if (!finite) throw Error(ErrorKind::invalid_input, fmt::format("{} {} is not finite", kind, index + 1));
+}
+
+void check_trust(double trust, std::string_view kind, std::size_t index) {
+    if (!(trust > 0 && std::isfinite(trust)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the trust in {} {} is {:g}; it must be finite and above 0", kind, index + 1, trust));
+}
+
+void check_points(std::span<const BoundaryPoint> points, std::span<const PointConstraint> single_points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const BoundaryPoint& p = points[i];
+        check_finite(is_finite(p.position) && is_finite(p.inplane_normal), "point", i);
+        if (!(p.gap_mm > 0))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the gap of point {} is {:g} mm; it must be above 0", i + 1, p.gap_mm));
+        check_trust(p.trust, "point", i);
+    }
+    for (std::size_t i = 0; i < single_points.size(); ++i) {
+        const PointConstraint& p = single_points[i];
+        check_finite(is_finite(p.position) && std::isfinite(p.value), "single point", i);
+        check_trust(p.trust, "single point", i);
+    }
+}
+
+}  // namespace
+
+void check_place_options(const PlaceOptions& options) {
+    check_above_0("the normal offset", options.normal_offset_mm, " mm");
+    check_not_below_0("the merge distance", options.merge_distance_mm, " mm");
+}
+
+void check_slopes(std::span<const double> slopes, std::size_t points) {
+    check_same_count("slopes", slopes.size(), "points", points);
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+        if (!(slopes[i] > 0 && slopes[i] <= 1 + 1e-9))  // a cosine may be rounded up
+            throw Error(ErrorKind::invalid_input, fmt::format("slope {} is {:g}; it must be in (0, 1]", i + 1, slopes[i]));
+}
+
+PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
+                                    std::span<const PointConstraint> single_points, const PlaceOptions& options) {
+    check_place_options(options);
+    check_slopes(slopes, points.size());
+    check_points(points, single_points);
+    PlacedConstraints result;
+    SpacingFilter filter(options.merge_distance_mm);
+    const auto place = [&](const Vec3& at, double value, double trust = 1, double noise_mm = 0) {
+        if (!filter.accept(at)) {
+            ++result.merged;
+            return false;
+        }
+        result.constraints.centers.push_back(at);
+        result.constraints.values.push_back(value);
+        result.constraints.trust.push_back(trust);
+        result.constraints.noise_mm.push_back(noise_mm);
+        return true;
+    };
+
+    std::vector<bool> kept(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) kept[i] = place(points[i].position, 0, points[i].trust);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
+        const double offset = std::min(options.normal_offset_mm, points[i].gap_mm / 2);
+        place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], points[i].trust);
+    }
+    for (const PointConstraint& p : single_points) place(p.position, p.value, p.trust, p.noise_mm);
+    return result;
+}
+
+}  // namespace kontur

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "kontur/drawing/boundary_point.h"
+#include "kontur/solve/constraint_set.h"
+
+namespace kontur {
+
+/// A constraint at a single point.
+struct PointConstraint {
+    Vec3 position;
+    double value;
+    double trust = 1;     ///< > 0: how closely f is to follow, against smoothness
+    double noise_mm = 0;  ///< >= 0: standard deviation of the value
+};
+
+struct PlaceOptions {
+    double normal_offset_mm = 1.0;  ///< length d > 0 of the normal constraints
+    double merge_distance_mm = 0;   ///< a constraint closer than this to an earlier one is left out (0: only exact copies)
+};
+
+struct PlacedConstraints {
+    ConstraintSet constraints;
+    std::size_t merged = 0;  ///< constraints left out because they (nearly) repeat others
+};
+
+/// Throws Error(invalid_input) for an offset that is not above 0, a merge distance below 0, and either that is not finite.
+void check_place_options(const PlaceOptions& options);
+/// Throws Error(invalid_input) unless there is one slope in (0, 1] for each of the points.
+void check_slopes(std::span<const double> slopes, std::size_t points);
+
+/// Boundary constraints f = 0 at all points, and for each one normal constraint f = -d s at the distance d outside along
+/// its in-plane normal; then the single points. The distance is the offset, but no more than half of the point's gap, so
+/// that in a narrow cleft each wall keeps its side. `slopes` holds s in (0, 1], one per point: how fast f falls along the
+/// in-plane normal, which for a distance-like f is the cosine of the surface's tilt against the contour's plane. All ones
+/// is the paper's choice.
+///
+/// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
+/// distance of an earlier one is dropped; boundary constraints come first and win. Throws Error(invalid_input) as the two
+/// checks do, for coordinates and values that are not finite, a gap that is not above 0, and a trust that is not finite and
+/// above 0.
+PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,
+                                    std::span<const PointConstraint> single_points, const PlaceOptions& options = {});
+
+}  // namespace kontur

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/fit/fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
+#include "kontur/fit/active_bounds.h"
+#include "kontur/fit/thin.h"
+
+namespace kontur {
+namespace {
+
+/// Cosine of the angle between the surface's normal and the contour's plane.
+double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slope) {
+    const Vec3 outward = -gradient;
+    const double inplane = std::max(dot(outward, point.inplane_normal), least_slope * norm(outward));
+    const double tilt = dot(outward, point.plane_normal);
+    return inplane > 0 ? inplane / std::hypot(inplane, tilt) : 1.0;
+}
+
+template <class T>
+std::vector<T> pick(const std::vector<T>& from, const std::vector<std::size_t>& indices) {
+    std::vector<T> picked;
+    picked.reserve(indices.size());
+    for (const std::size_t i : indices) picked.push_back(from[i]);
+    return picked;
+}
+
+/// The slopes that the function's gradient shows at the points.
+std::vector<double> read_slopes(const ImplicitFunction& function, const std::vector<BoundaryPoint>& points,
+                                const FitOptions& options) {
+    std::vector<Vec3> positions(points.size()), gradients(points.size());
+    std::transform(points.begin(), points.end(), positions.begin(), [](const BoundaryPoint& p) { return p.position; });
+    function.gradients(positions, gradients, options.solve.threads);
+    std::vector<double> slopes(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) slopes[i] = slope(points[i], gradients[i], options.least_slope);
+    return slopes;
+}
+
+double mean_change_degrees(const std::vector<double>& before, const std::vector<double>& after) {
+    double change = 0;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        change += std::abs(std::acos(std::min(after[i], 1.0)) - std::acos(std::min(before[i], 1.0)));
+    return change / static_cast<double>(after.size()) * 180 / M_PI;
+}
+
+/// The solves of one fit, with what they share and what they leave behind.
+class Solves {
+public:
+    Solves(const PreparedContours& contours, const FitOptions& options, const Progress& progress)
+        : all_(contours.points), ball_(contours.ball), options_(options), progress_(progress), bounds_(contours.bounds) {}
+
+    /// Solves for points with these slopes; true if other bounds should have been held.
+    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes,
+                   const SolveOptions& solving) {
+        std::vector<PointConstraint> single_points;
+        bounds_.append_to(single_points);
+        result_.bounded = single_points.size();
+        const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
+        SolveOptions in_ball = solving;
+        if (solving.kernel == Kernel::screened && !solving.ball) in_ball.ball = ball_;
+        const Solution solution = solve(placed.constraints, in_ball, progress_of_next_solve(), &previous_);
+        result_.function = solution.function;
+        result_.report = solution.report;
+        result_.iterations += solution.report.iterations;
+        result_.merged = placed.merged;
+        result_.constraints = placed.constraints.size();
+        ++result_.solves;
+        return bounds_.update(result_.function, 2 * solving.tolerance_mm, options_.solve.threads);
+    }
+
+    /// Finds the tilts of the surface from a part of the points.
+    void find_slopes() {
+        const std::vector<std::size_t> part = thin(all_, options_.tilt_points);
+        const std::vector<BoundaryPoint> points = pick(all_, part);
+        std::vector<double> slopes = pick(result_.slopes, part);
+        SolveOptions solving = options_.solve;
+        solving.tolerance_mm *= options_.early_tolerance_factor;
+        double smoothing = options_.start_smoothing;
+        for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
+            solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
+            solve_for(points, slopes, solving);
+            std::vector<double> next = read_slopes(result_.function, points, options_);
+            result_.tilt_change_degrees = mean_change_degrees(slopes, next);
+            slopes = std::move(next);
+        }
+        result_.slopes = read_slopes(result_.function, all_, options_);
+    }
+
+    FittedFunction run() {
+        result_.slopes = options_.start_slopes;
+        result_.slopes.resize(all_.size(), 1.0);
+        if (finds_slopes()) find_slopes();
+        const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
+        const std::vector<BoundaryPoint> points = pick(all_, kept);
+        const std::vector<double> slopes = pick(result_.slopes, kept);
+        SolveOptions solving = options_.solve;
+        solving.smoothing *= share(points);
+        for (int more = 0; solve_for(points, slopes, solving) && more + 1 < options_.most_solves;) ++more;
+        return std::move(result_);
+    }
+
+private:
+    /// By which smoothing is reduced so that fewer points weigh as much against smoothness as all would.
+    double share(const std::vector<BoundaryPoint>& part) const {
+        return static_cast<double>(part.size()) / static_cast<double>(all_.size());
+    }
+
+    bool finds_slopes() const { return options_.normals == Normals::surface && options_.rounds > 0; }
+
+    /// Of the whole progress, half belongs to the tilts: there are more solves, but smaller ones.
+    Progress progress_of_next_solve() const {
+        if (!progress_.callback) return progress_;
+        const int early = finds_slopes() ? options_.rounds : 0;
+        const bool is_early = result_.solves < early;
+        const double share = is_early ? 0.5 / early : early > 0 ? 0.5 : 1.0;
+        const double before = is_early ? share * result_.solves : 1.0 - share;
+        return {
+            [this, before, share](std::string_view stage, double done) { progress_.callback(stage, before + share * done); },
+            progress_.stop};
+    }
+
+    const std::vector<BoundaryPoint>& all_;
+    const Ball3& ball_;
+    const FitOptions& options_;
+    const Progress& progress_;
+    ActiveBounds bounds_;
+    PreviousSolve previous_;
+    FittedFunction result_;
+};
+
+}  // namespace
+
+std::string_view name(Normals normals) noexcept { return normals == Normals::surface ? "surface" : "in-plane"; }
+
+void check_fit_options(const FitOptions& options, std::size_t points) {
+    check_at_least("the number of rounds", options.rounds, 0);
+    check_at_least("the number of solves with all points", options.most_solves, 1);
+    check_not_below_0("the start's smoothing", options.start_smoothing);
+    check_not_below_0("the smoothing's factor", options.smoothing_factor);
+    if (!(options.least_slope > 0 && options.least_slope <= 1))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the least slope is {:g}; it must be in (0, 1]", options.least_slope));
+    check_above_0("the early tolerance's factor", options.early_tolerance_factor);
+    if (options.tilt_points < 1)
+        throw Error(ErrorKind::invalid_input, "the tilts are to be found from 0 points; at least 1 is needed");
+    if (!options.start_slopes.empty()) check_slopes(options.start_slopes, points);
+    check_place_options(options.place);
+    check_solve_options(options.solve);  // before the early solves, which change them
+}
+
+FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+    check_fit_options(options, contours.points.size());
+    return Solves(contours, options, progress).run();
+}
+
+}  // namespace kontur

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "kontur/drawing/prepare.h"
+#include "kontur/fit/constraints.h"
+#include "kontur/solve/solve.h"
+
+namespace kontur {
+
+/// What the normal constraints know of the surface's direction.
+enum class Normals {
+    surface,   ///< its tilt against each contour's plane, found from all contours together
+    in_plane,  ///< only what each contour shows (Eq. 7): the paper's; leaks where contours of different planes cross
+};
+std::string_view name(Normals normals) noexcept;
+
+struct FitOptions {
+    Normals normals = Normals::surface;
+    int rounds = 3;                      ///< surface normals: how often the tilts are read from the fit and given back to it
+    double start_smoothing = 1e-3;       ///< surface normals: smoothing of the first fit, on unit coordinates
+    double smoothing_factor = 0.3;       ///< ... and its factor from round to round; the last fit has `solve.smoothing`
+    double least_slope = 0.2;            ///< surface normals: lower bound of the cosine of the tilt
+    double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt
+    std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
+    std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
+    std::size_t most_points = 0;         ///< the last fit uses about as many points; 0: all
+    int most_solves = 3;                 ///< with all points, while other bounds should be held than were
+    PlaceOptions place;
+    SolveOptions solve;
+};
+
+/// An implicit function through contours, and how it was found.
+struct FittedFunction {
+    ImplicitFunction function;
+    SolveReport report;  ///< of the last solve
+    int solves = 0;
+    int iterations = 0;              ///< over all solves
+    std::size_t merged = 0;          ///< near-duplicate constraints left out
+    std::size_t bounded = 0;         ///< bounds at which f is held
+    std::size_t constraints = 0;     ///< kept
+    double tilt_change_degrees = 0;  ///< mean change of the tilts in the last round
+    std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
+};
+
+/// Throws Error(invalid_input) for counts below 0, factors and lengths that are not finite or make no sense, slopes outside
+/// of (0, 1] or not one for each of the points, and what check_place_options and check_solve_options refuse.
+void check_fit_options(const FitOptions& options, std::size_t points);
+
+/// Fits the implicit function to prepared contours. A contour fixes only the in-plane part of the surface's direction;
+/// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
+/// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
+/// gradient at the contour's points and the prescribed values are corrected, f(c + d n_inplane) = -d cos(tilt); the fit
+/// is repeated, three rounds by default. The tilt varies slowly along a contour, so these rounds need only a part of the
+/// points and cost less than the one fit of all points that follows. To first order that is the normal constraint of the
+/// true 3D normal, but only the contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot
+/// amplify it from round to round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start
+/// contradicts itself.
+///
+/// Where f leaves the interval of a bound after a round, the bound becomes a datum with noise of the next one, as long as f
+/// leans on it. Interior and exterior points are bounds of the same kind. Throws Error as
+/// check_fit_options, place_constraints and solve do.
+FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress = {});
+
+}  // namespace kontur

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kontur/function/implicit_function.h"
+#include "kontur/shape/contour.h"
+
+namespace kontur {
+
+/// How far the fitted surface passes from the drawn points, in mm.
+struct Residual {
+    double max_mm = 0;
+    double rms_mm = 0;
+    std::size_t worst_contour = 0;  ///< index of the contour with the largest residual
+};
+
+/// First-order distance |f| / |grad f| at every drawn point, whether or not it took part in the fit (Taubin 1991). |grad f|,
+/// about 1 near the surface, is taken as at least 0.1, so that a flat spot of f does not count as infinitely far.
+Residual residual(const ImplicitFunction& function, const ContourSet& set, int threads = 0);
+
+}  // namespace kontur

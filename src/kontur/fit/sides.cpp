@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/fit/sides.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "kontur/base/error.h"
+#include "kontur/drawing/orient.h"
+#include "kontur/drawing/reduce.h"
+#include "kontur/fit/constraints.h"
+#include "kontur/solve/solve.h"
+
+namespace kontur {
+namespace {
+
+/// Points of the closed contours and single points of the surface.
+std::vector<BoundaryPoint> known_points(const ContourSet& set) {
+    constexpr int kLeastSegments = 48;
+    std::vector<BoundaryPoint> points;
+    for (const Contour& drawn : set.contours) {
+        if (!drawn.closed) continue;
+        const Contour contour = refine(drawn, kLeastSegments);
+        const std::vector<Vec3> normals = orient(contour).normals;
+        for (std::size_t i = 0; i < normals.size(); ++i)
+            points.push_back({contour.points[i], normals[i], contour.plane.normal, kNoContour, contour.weight});
+    }
+    for (const SurfacePoint& p : set.surface)
+        points.push_back({.position = p.position, .inplane_normal = p.outward.value_or(Vec3{}), .contour = kNoContour});
+    return points;
+}
+
+/// A coarse interpolant of what is known and of the positions of the open contours; nothing when that does not suffice.
+std::optional<ImplicitFunction> coarse_fit(const ContourSet& set) {
+    std::vector<BoundaryPoint> points = known_points(set);
+    if (points.empty() && set.interior.empty() && set.exterior.empty()) return std::nullopt;
+    for (const Contour& contour : set.contours)
+        if (!contour.closed && !contour.inside)
+            for (const Vec3& p : contour.points) points.push_back({.position = p, .contour = kNoContour});
+
+    const double diameter = diameter_mm(set);
+    std::vector<PointConstraint> clicks;
+    for (const Vec3& p : set.interior) clicks.push_back({p, 0.075 * diameter});
+    for (const Vec3& p : set.exterior) clicks.push_back({p, -0.075 * diameter});
+    const PlaceOptions place{.normal_offset_mm = 4.5e-3 * diameter, .merge_distance_mm = 1.5e-3 * diameter};
+    try {
+        const std::vector<double> slopes(points.size(), 1.0);
+        return solve(place_constraints(points, slopes, clicks, place).constraints,
+                     {.smoothing = 1e-3, .tolerance_mm = 1.5e-3 * diameter})
+            .function;
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::singular_system && error.kind() != ErrorKind::invalid_input) throw;
+        return std::nullopt;
+    }
+}
+
+Vec3 middle_of(const ContourSet& set) {
+    Vec3 sum;
+    for (const Contour& contour : set.contours)
+        for (const Vec3& p : contour.points) sum += p;
+    return sum / static_cast<double>(point_count(set));
+}
+
+/// How surely the object lies to the left of the contour: from 1 to -1, surely to the right.
+double leftness(const Contour& contour, const std::optional<ImplicitFunction>& coarse, const Vec3& middle) {
+    const std::vector<Vec3> left = left_normals(contour);
+    double sum = 0, total = 0;
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+        const Vec3 inward = coarse ? coarse->gradient(contour.points[i]) : middle - contour.points[i];
+        sum += dot(inward, left[i]);
+        total += norm(inward);
+    }
+    return total > 0 ? sum / total : 0;
+}
+
+}  // namespace
+
+std::vector<std::string> find_sides(ContourSet& set) {
+    std::vector<std::string> notes;
+    std::optional<ImplicitFunction> coarse;
+    for (std::size_t c = 0; c < set.contours.size(); ++c) {
+        Contour& contour = set.contours[c];
+        if (contour.closed || contour.inside) continue;
+        if (notes.empty()) coarse = coarse_fit(set);
+        constexpr double kSure = 0.3;
+        const double left = leftness(contour, coarse, middle_of(set));
+        const Hand hand = left > 0 ? Hand::left : Hand::right;
+        notes.push_back(fmt::format("contour {} is open; the object was taken to lie on its {}{}", c + 1, name(hand),
+                                    std::abs(left) < kSure ? ", which is doubtful" : ""));
+        contour.inside = hand;
+    }
+    return notes;
+}
+
+}  // namespace kontur

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kontur/fit/residual.h"
+#include "kontur/segment_options.h"
+#include "kontur/shape/contour.h"
+#include "kontur/shape/crossings.h"
+#include "kontur/shape/grid.h"
+#include "kontur/shape/provenance.h"
+
+namespace kontur {
+
+/// What became of the options and what was found on the way from contours to mask.
+struct SegmentReport {
+    std::size_t contours = 0;
+    std::size_t points = 0;       ///< drawn points
+    std::size_t constraints = 0;  ///< placed and kept
+    std::size_t merged = 0;       ///< constraints left out because others lie within 0.06 % of the diameter
+    std::size_t bounded = 0;      ///< bounds at which f is held: outside in a drawn plane, or beyond an end
+    std::size_t centres = 0;      ///< weights of the implicit function
+    Kernel kernel = Kernel::screened;
+    Normals normals = Normals::surface;
+    double normal_offset_mm = 0;
+    double smoothing = 0;
+    double tolerance_mm = 0;  ///< of the iterative solver
+    FillRule fill_rule = FillRule::even_odd;
+    Conflicts conflicts = Conflicts::reconcile;
+    Corners corners = Corners::rounded;
+    double quality = 1;
+    Solver solver = Solver::automatic;
+    Voxelizer voxelizer = Voxelizer::adaptive;
+    int solves = 0;
+    int iterations = 0;               ///< over all solves; 0 for direct solvers
+    Residual residual;                ///< at all drawn points
+    std::vector<Crossing> crossings;  ///< of contours of different planes, those that disagree most first
+    std::int64_t evaluations = 0;     ///< function values computed to voxelize
+    std::int64_t surface_voxels = 0;  ///< lattice cells that the surface passes through
+    std::int64_t mask_voxels = 0;
+    double mask_volume_ml = 0;
+    std::int64_t mask_components = 0;                     ///< face-connected
+    double estimated_memory_mb = 0;                       ///< before the fit, of the whole process
+    std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
+    std::vector<std::string> warnings;                    ///< choices made for the user and doubts, one sentence each
+};
+
+/// What determines the result, for write_mask and write_mesh: version, digests of contours and grid, options as used. The
+/// number of threads is left out, which changes nothing.
+Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report);
+
+}  // namespace kontur

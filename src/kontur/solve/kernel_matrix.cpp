@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/solve/kernel_matrix.h"
+
+#include <algorithm>
+
+#include "kontur/base/parallel.h"
+#include "kontur/solve/h2_kernel_matrix.h"
+#include "kontur/solve/pair_sums.h"
+
+namespace kontur {
+namespace {
+
+constexpr std::size_t kTile = 32;  // rows of the matrix that are held in vector registers
+// Rows are dealt out to this many groups, each with an output of its own, whatever the number of threads.
+constexpr std::size_t kMostGroups = 16;
+
+// On one core a pair takes 0.25 ns; an H2 matrix 6 us per point once and 0.6 us per product. With a dozen products both
+// cost the same at about this many points.
+constexpr std::size_t kMostDirect = 9000;
+
+}  // namespace
+
+DirectKernelMatrix::DirectKernelMatrix(Kernel kernel, const PointArrays& points, int threads, const Progress& progress)
+    : kernel_(kernel), size_(points.size()), points_(points), threads_(threads), progress_(progress) {
+    for (auto* axis : {&points_.x, &points_.y, &points_.z}) axis->resize(size_ + kNodePadding);
+}
+
+double DirectKernelMatrix::megabytes() const {
+    return static_cast<double>(size_ * (3 + kMostGroups) * sizeof(double)) / (1 << 20);
+}
+
+void DirectKernelMatrix::multiply(std::span<const double> weights, std::span<double> out) const {
+    const std::size_t tiles = (size_ + kTile - 1) / kTile, groups = std::min(kMostGroups, tiles);
+    std::vector<double> padded(weights.begin(), weights.end()), sums(groups * size_);
+    padded.resize(size_ + kNodePadding);
+    const NodeView nodes{points_.x.data(), points_.y.data(), points_.z.data(), padded.data()};
+
+    const auto multiply_tile = [&](std::size_t tile, double* sum) {
+        const auto begin = static_cast<std::int32_t>(tile * kTile), all = static_cast<std::int32_t>(size_);
+        const NodeRun rows{begin, std::min(begin + static_cast<std::int32_t>(kTile), all)}, beyond{rows.end, all};
+        add_own_sums(kernel_, nodes, rows, sum);
+        add_mutual_sums(kernel_, nodes, rows, {&beyond, 1}, sum);
+    };
+    // Early tiles have more columns than late ones: tile g goes to the same group as its mirror image.
+    parallel_for(static_cast<std::int64_t>(groups), 1, threads_, [&](std::int64_t first, std::int64_t last) {
+        for (auto g = static_cast<std::size_t>(first); g < static_cast<std::size_t>(last); ++g)
+            for (std::size_t tile = 0; tile < tiles; ++tile) {
+                const std::size_t turn = tile % (2 * groups);
+                if (std::min(turn, 2 * groups - 1 - turn) != g) continue;
+                progress_.check();
+                multiply_tile(tile, sums.data() + g * size_);
+            }
+    });
+    parallel_for(static_cast<std::int64_t>(size_), 4096, threads_, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            double total = 0;
+            for (std::size_t g = 0; g < groups; ++g) total += sums[g * size_ + i];
+            out[i] = total;
+        }
+    });
+}
+
+std::unique_ptr<KernelMatrix> make_kernel_matrix(Kernel kernel, const PointArrays& points, Products products,
+                                                 double tolerance, int threads, const Progress& progress) {
+    if (products == Products::direct || (products == Products::automatic && points.size() <= kMostDirect))
+        return std::make_unique<DirectKernelMatrix>(kernel, points, threads, progress);
+    return std::make_unique<H2KernelMatrix>(kernel, points, H2Options{.tolerance = tolerance}, threads, progress);
+}
+
+}  // namespace kontur

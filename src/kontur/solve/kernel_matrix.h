@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "kontur/base/progress.h"
+#include "kontur/function/kernel.h"
+
+namespace kontur {
+
+/// The matrix phi(|x_i - x_j|) of fixed points, known by its products only. Products are the same bytes for any number of
+/// threads.
+class KernelMatrix {
+public:
+    virtual ~KernelMatrix() = default;
+
+    virtual std::size_t size() const = 0;
+    /// out[i] = sum_j weights[j] phi(|x_i - x_j|).
+    virtual void multiply(std::span<const double> weights, std::span<double> out) const = 0;
+    virtual double megabytes() const = 0;
+    /// Values of phi computed per product.
+    virtual double evaluations() const = 0;
+    /// Whether products are exact to rounding.
+    virtual bool is_exact() const = 0;
+};
+
+/// Sums all pairs, each once: n^2 / 2 kernel values per product. Exact to rounding.
+class DirectKernelMatrix final : public KernelMatrix {
+public:
+    /// Products throw Error(cancelled) if `progress` is asked to stop.
+    DirectKernelMatrix(Kernel kernel, const PointArrays& points, int threads = 0, const Progress& progress = {});
+
+    std::size_t size() const override { return size_; }
+    void multiply(std::span<const double> weights, std::span<double> out) const override;
+    double megabytes() const override;
+    double evaluations() const override { return 0.5 * static_cast<double>(size_) * static_cast<double>(size_); }
+    bool is_exact() const override { return true; }
+
+private:
+    Kernel kernel_;
+    std::size_t size_;
+    PointArrays points_;  ///< with kNodePadding more
+    int threads_;
+    Progress progress_;
+};
+
+/// The matrix whose dozen products, with what they need first, are cheapest for that many points, unless `products` says
+/// which: direct, or an H2KernelMatrix of the given tolerance, see H2Options.
+std::unique_ptr<KernelMatrix> make_kernel_matrix(Kernel kernel, const PointArrays& points, Products products,
+                                                 double tolerance, int threads = 0, const Progress& progress = {});
+
+}  // namespace kontur

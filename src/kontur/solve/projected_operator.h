@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kontur/solve/kernel_matrix.h"
+#include "kontur/solve/linear_system.h"
+
+namespace kontur {
+
+using Vector = std::vector<double>;
+
+double inner(const Vector& a, const Vector& b);
+void add_scaled(Vector& a, double s, const Vector& b);
+/// Largest absolute value.
+double largest(const Vector& a);
+
+/// An orthonormal basis of the linear polynomials' values at the centres, or of nothing for the screened kernel, which is
+/// definite without side conditions.
+class LinearPolynomials {
+public:
+    /// Throws Error(singular_system) when all centres lie in one plane and the kernel needs side conditions.
+    LinearPolynomials(Kernel kernel, const PointArrays& centers);
+
+    /// Removes the best linear fit.
+    void project_out(Vector& v) const;
+
+private:
+    std::vector<Vector> basis_;
+};
+
+/// sign (Phi + diagonal) w, and what is known of its error.
+struct CheckedImage {
+    Vector values;
+    double deviation = 0;     ///< largest difference between the operator's values and sums over all pairs
+    double uncertainty = 0;   ///< largest error that `values` may have
+    std::size_t checked = 0;  ///< points at which sums over all pairs were made
+};
+
+/// sign (Phi + diagonal) on the weights that satisfy the side conditions; definite there.
+class ProjectedOperator {
+public:
+    /// `tolerance` as in H2Options. Keeps references to its arguments.
+    ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, double tolerance,
+                      const SolveOptions& options, const Progress& progress);
+
+    Vector operator()(const Vector& w) const;
+    /// Not projected, and summed over all pairs as far as that does not take longer than a solve: everywhere up to 63,000
+    /// centres, then at evenly chosen ones, from which the others' error is estimated.
+    CheckedImage checked_image(const Vector& w) const;
+
+    /// Multiplies the tolerance.
+    void tighten(double factor);
+    double tolerance() const { return tolerance_; }
+    const KernelMatrix& matrix() const { return *matrix_; }
+
+private:
+    Vector image(const KernelMatrix& matrix, const Vector& w) const;
+    double sampled_deviation(const Vector& w, const Vector& image, std::size_t samples) const;
+
+    const LinearSystem& system_;
+    const LinearPolynomials& polynomials_;
+    double tolerance_;
+    const SolveOptions& options_;
+    const Progress& progress_;
+    std::unique_ptr<KernelMatrix> matrix_;
+};
+
+}  // namespace kontur

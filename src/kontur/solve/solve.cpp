@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/solve/solve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <string>
+
+#include "kontur/base/checks.h"
+#include "kontur/base/error.h"
+#include "kontur/solve/linear_system.h"
+
+namespace kontur {
+namespace {
+
+/// The factorisations do not notice repeated rows reliably: rounding makes them garbage instead of zero pivots.
+void check_distinct(const std::vector<Vec3>& centers) {
+    std::vector<std::size_t> order(centers.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::array{centers[i].x, centers[i].y, centers[i].z}; };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (centers[order[i]] == centers[order[i - 1]]) {
+            const auto [first, second] = std::minmax(order[i], order[i - 1]);
+            throw Error(ErrorKind::singular_system, "constraints " + std::to_string(first + 1) + " and " +
+                                                        std::to_string(second + 1) + " are at the same point");
+        }
+}
+
+void check(const ConstraintSet& constraints, const SolveOptions& options) {
+    const std::size_t least = options.kernel == Kernel::screened ? 1 : 4;
+    if (constraints.size() < least)
+        throw Error(ErrorKind::invalid_input,
+                    "there are " + std::to_string(constraints.size()) + " constraints; at least " + std::to_string(least) +
+                        (least == 4 ? " are needed, for a linear polynomial in space" : " is needed"));
+    check_same_count("values", constraints.values.size(), "constraints", constraints.size());
+    if (!constraints.trust.empty())
+        check_same_count("degrees of trust", constraints.trust.size(), "constraints", constraints.size());
+    if (!constraints.noise_mm.empty())
+        check_same_count("noises", constraints.noise_mm.size(), "constraints", constraints.size());
+    for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
+        if (!(constraints.noise_mm[i] >= 0 && std::isfinite(constraints.noise_mm[i])))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the noise of constraint {} is {:g} mm; it must be finite and at "
+                                    "least 0",
+                                    i + 1, constraints.noise_mm[i]));
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (!is_finite(constraints.centers[i]) || !std::isfinite(constraints.values[i]))
+            throw Error(ErrorKind::invalid_input, "constraint " + std::to_string(i + 1) + " is not finite");
+    for (std::size_t i = 0; i < constraints.trust.size(); ++i)
+        if (!(constraints.trust[i] > 0 && std::isfinite(constraints.trust[i])))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the trust in constraint {} is {:g}; it must be finite and above 0", i + 1,
+                                    constraints.trust[i]));
+    check_distinct(constraints.centers);
+    check_solve_options(options);
+}
+
+void check_memory(std::size_t centers, double bytes_per_entry, const SolveOptions& options) {
+    const double n = static_cast<double>(centers);
+    const double mb = n * n * bytes_per_entry / (1 << 20);
+    if (mb > options.max_memory_mb)
+        throw Error(ErrorKind::too_large, "the " + std::string(name(options.solver)) + " solver needs " +
+                                              std::to_string(static_cast<long long>(mb)) + " MB for " +
+                                              std::to_string(centers) + " centres; the limit is " +
+                                              std::to_string(static_cast<long long>(options.max_memory_mb)) + " MB");
+}
+
+Coefficients run(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
+    if (options.solver == Solver::iterative) return solve_iterative(system, options, progress);
+    check_memory(system.size(), options.solver == Solver::dense ? 8 : 4, options);
+    Coefficients c =
+        options.solver == Solver::dense ? solve_dense(system) : solve_cholesky(system, options.threads, progress);
+    c.residual = largest_residual(system, c, options.threads);
+    c.residual_points = system.size();
+    return c;
+}
+
+/// The smoothing that a noise of 1 radius is worth, if functions are taken to have gradients of length 1 in the mean: the
+/// screened kernel's have one of length sqrt(9 l).
+constexpr double kSmoothingOfNoise = 9 * kScreeningLength;
+
+std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double radius_mm) {
+    std::vector<double> smoothing(constraints.size(), options.smoothing);
+    for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
+        smoothing[i] += kSmoothingOfNoise * std::pow(constraints.noise_mm[i] / radius_mm, 2);
+    for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
+        smoothing[i] /= constraints.trust[i];
+        if (!std::isfinite(smoothing[i]))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the smoothing is {:g}; divided by {:g}, the trust in constraint {}, it is not finite",
+                                    options.smoothing, constraints.trust[i], i + 1));
+    }
+    return smoothing;
+}
+
+/// phi of distances in mm is this much times phi of distances in the frame.
+double kernel_scale(Kernel kernel, const UnitFrame& frame) {
+    return kernel == Kernel::biharmonic ? frame.scale : frame.scale * frame.scale * frame.scale;
+}
+
+UnitFrame frame_of(const ConstraintSet& constraints, const SolveOptions& options) {
+    if (!options.ball) return unit_frame(constraints.centers);
+    return {options.ball->center, options.ball->radius > 0 ? options.ball->radius : 1.0};
+}
+
+/// The weights of those centres that the previous solve had too; the others' are 0.
+std::vector<double> start_weights(const std::vector<Vec3>& centers, const PreviousSolve& previous, double scale) {
+    const auto key = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
+    std::map<std::array<double, 3>, double> known;
+    for (std::size_t i = 0; i < previous.centers.size(); ++i) known[key(previous.centers[i])] = previous.weights[i];
+    std::vector<double> start(centers.size(), 0.0);
+    for (std::size_t i = 0; i < centers.size(); ++i)
+        if (const auto found = known.find(key(centers[i])); found != known.end()) start[i] = scale * found->second;
+    return start;
+}
+
+PreviousSolve remember(const ConstraintSet& constraints, const Coefficients& c, double scale) {
+    PreviousSolve solve{constraints.centers, c.weights, c.pattern};
+    for (double& w : solve.weights) w /= scale;
+    return solve;
+}
+
+}  // namespace
+
+std::string_view name(Solver solver) noexcept {
+    switch (solver) {
+        case Solver::automatic:
+            return "automatic";
+        case Solver::iterative:
+            return "iterative";
+        case Solver::cholesky:
+            return "cholesky";
+        case Solver::dense:
+            return "dense";
+    }
+    return "?";
+}
+
+std::string_view name(Kernel kernel) noexcept {
+    switch (kernel) {
+        case Kernel::screened:
+            return "screened";
+        case Kernel::triharmonic:
+            return "triharmonic";
+        case Kernel::biharmonic:
+            return "biharmonic";
+    }
+    return "?";
+}
+
+void check_solve_options(const SolveOptions& options) {
+    if (options.ball &&
+        !(is_finite(options.ball->center) && options.ball->radius >= 0 && std::isfinite(options.ball->radius)))
+        throw Error(
+            ErrorKind::invalid_input,
+            fmt::format("the ball that sets the unit has a radius of {:g} mm; it and the centre must be finite and the "
+                        "radius at least 0",
+                        options.ball->radius));
+    if (!(options.tolerance_mm > 0 && std::isfinite(options.tolerance_mm)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the solver's tolerance is {:g} mm; it must be finite and above 0", options.tolerance_mm));
+    if (!(options.smoothing >= 0 && std::isfinite(options.smoothing)))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the smoothing is {:g}; it must be finite and at least 0", options.smoothing));
+    check_at_least("the most iterations of the solver", options.max_iterations, 1);
+    if (!(options.max_memory_mb > 0))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the solver's memory limit is {:g} MB; it must be above 0", options.max_memory_mb));
+    check_threads(options.threads);
+}
+
+Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress,
+               PreviousSolve* previous) {
+    SolveOptions options = requested;
+    if (options.solver == Solver::automatic) options.solver = Solver::iterative;
+    check(constraints, options);
+    if (previous)
+        check_same_count("weights of the previous solve", previous->weights.size(), "centres", previous->centers.size());
+    progress.check();
+
+    const bool screened = options.kernel == Kernel::screened;
+    const UnitFrame frame = frame_of(constraints, options);
+    const double mean = screened ? kMeanRadii * frame.scale : 0;
+    LinearSystem system{options.kernel, smoothing_of(constraints, options, frame.scale),
+                        PointArrays(frame.to_unit(constraints.centers)), constraints.values};
+    for (double& value : system.values) value -= mean;
+    if (!screened) static_cast<void>(spread_centers(system.centers));  // refuses centres in one plane: dsysv may not notice
+    const double scale = kernel_scale(options.kernel, frame);
+    if (previous && !previous->centers.empty()) {
+        system.start = start_weights(constraints.centers, *previous, scale);
+        if (previous->centers == constraints.centers) system.pattern = previous->pattern;
+    }
+    Coefficients c = run(system, options, progress);
+    const auto finite = [](double w) { return std::isfinite(w); };
+    if (!finite(c.residual) || !std::ranges::all_of(c.weights, finite))
+        throw Error(ErrorKind::singular_system, "the linear system has no finite solution");
+
+    if (previous) *previous = remember(constraints, c, scale);
+    Solution solution;
+    solution.report = {options.solver,    system.size(), c.iterations,  c.residual,
+                       c.residual_points, c.matrix_mb,   c.evaluations, c.seconds};
+    if (screened) c.polynomial = {mean, 0, 0, 0};
+    solution.function = ImplicitFunction(options.kernel, frame, system.centers, std::move(c.weights), c.polynomial);
+    return solution;
+}
+
+}  // namespace kontur

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kontur/base/progress.h"
+#include "kontur/base/smallest_ball.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/solve/constraint_set.h"
+
+namespace kontur {
+
+enum class Solver {
+    automatic,  ///< iterative
+    iterative,  ///< projected conjugate gradients, sparse inverse Cholesky preconditioner: O(n) memory
+    cholesky,   ///< polynomials projected out, dense Cholesky: n^3/3 flops, 4 n^2 bytes
+    dense,      ///< the symmetric indefinite system of Eq. 6 by LAPACK dsysv, as printed in the paper: 8 n^2 bytes
+};
+std::string_view name(Solver solver) noexcept;
+std::string_view name(Kernel kernel) noexcept;
+
+struct SolveOptions {
+    Kernel kernel = Kernel::screened;
+    std::optional<Ball3> ball{};  ///< mm, of what was drawn, sets the unit; unset: the smallest one of all constraints
+    Solver solver = Solver::automatic;
+    double smoothing = 0;        ///< >= 0, on unit coordinates, divided by each constraint's trust; 0: exact
+    double tolerance_mm = 1e-3;  ///< iterative only: largest |f(c_i) - h_i| over all constraints at which it stops
+    int max_iterations = 500;    ///< iterative only
+    Products products = Products::automatic;  ///< iterative only
+    double max_memory_mb = 16384;             ///< a dense matrix larger than this is refused
+    int threads = 0;                          ///< 0: the machine's
+};
+
+/// Throws Error(invalid_input) for a tolerance or memory limit that is not above 0, a smoothing below 0, a tolerance or
+/// smoothing that is not finite, fewer than one iteration, and threads below 0.
+void check_solve_options(const SolveOptions& options);
+
+struct SolveReport {
+    Solver solver = Solver::automatic;  ///< the one that ran
+    std::size_t centres = 0;            ///< number of weights
+    int iterations = 0;                 ///< 0 for direct solvers
+    double residual = 0;                ///< largest |f(c_i) + smoothing w_i - h_i| over the constraints, in mm
+    /// Constraints at which the residual was summed over all pairs. If they are not all, which takes more than 63,000
+    /// centres, it is that of the H2 matrix at all constraints plus the matrix's largest error at these.
+    std::size_t residual_points = 0;
+    double matrix_mb = 0;    ///< size of the factorised matrix or of the preconditioner
+    double evaluations = 0;  ///< iterative only: values of phi computed per product with the matrix
+    std::vector<std::pair<std::string, double>> seconds = {};  ///< iterative only: wall time by stage
+};
+
+struct Solution {
+    ImplicitFunction function;
+    SolveReport report;
+};
+
+class PreconditionerPattern;
+
+/// What a solve leaves to the next one of a similar problem.
+struct PreviousSolve {
+    std::vector<Vec3> centers;    ///< mm
+    std::vector<double> weights;  ///< of phi of distances in mm
+    std::shared_ptr<const PreconditionerPattern> pattern = {};
+};
+
+/// The mean of the screened kernel's functions in radii of the ball, outside.
+inline constexpr double kMeanRadii = -1;
+
+/// The variational interpolant through the constraints: with the screened kernel the function that departs least from its
+/// mean, with the others Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.
+/// Throws Error(singular_system) when the centres coincide or, but for the screened kernel, all lie in one plane,
+/// Error(too_large) when the dense matrix would exceed the memory limit, Error(invalid_input) for no constraint (fewer than
+/// 4 with other kernels than the screened), values that are not finite or not one for each centre, or what
+/// `check_solve_options` refuses.
+/// Results are the same bytes for any number of threads. The iterative solver starts from the weights that centres had in
+/// the `previous` solve, which is replaced by this one; so it takes fewer iterations to the same tolerance.
+Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {},
+               PreviousSolve* previous = nullptr);
+
+}  // namespace kontur

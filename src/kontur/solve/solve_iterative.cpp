@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "kontur/base/error.h"
+#include "kontur/solve/preconditioner.h"
+#include "kontur/solve/projected_operator.h"
+
+#include <fmt/format.h>
+
+namespace kontur {
+namespace {
+
+// Tolerances of the H2 matrix: rounding hides what is finer, and coarser ones, hardly cheaper, could make it indefinite.
+constexpr double kFinest = 1e-14, kCoarsest = 1e-9;
+// The largest error of a product over the tolerance times the norm of the weights; measured: 1 to 7.
+constexpr double kErrorFactor = 5;
+// While the matrix is as exact as the limit demands, the residual may grow for some iterations, but not for so many.
+constexpr int kMostIdle = 40;
+
+/// A tolerance at which products with weights like these are wrong by half the limit at most.
+double matrix_tolerance(const Vector& weights, double limit_mm) {
+    const double norm = std::sqrt(inner(weights, weights));
+    return std::clamp(0.5 * limit_mm / (kErrorFactor * norm), kFinest, kCoarsest);
+}
+
+/// The linear polynomial that fits `values` at the centres; they are one up to the residual.
+std::array<double, 4> fit_linear(const LinearSystem& system, const Vector& values) {
+    const std::size_t n = values.size();
+    Vec3 mean;
+    double mean_value = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        mean += system.centers[i];
+        mean_value += values[i];
+    }
+    mean *= 1.0 / static_cast<double>(n);
+    mean_value /= static_cast<double>(n);
+    Affine3 normal_matrix;
+    normal_matrix.linear = {};
+    Vec3 right;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 d = system.centers[i] - mean;
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c) normal_matrix.linear[r][c] += d[r] * d[c];
+        right += (values[i] - mean_value) * d;
+    }
+    const Vec3 gradient = normal_matrix.inverse().apply_linear(right);
+    return {mean_value - dot(gradient, mean), gradient.x, gradient.y, gradient.z};
+}
+
+/// Wall time by stage, in the order in which stages first ran.
+class StageTimes {
+public:
+    /// The work's result; its time is added to the stage's.
+    template <class Work>
+    auto operator()(const char* stage, const Work& work) {
+        using Clock = std::chrono::steady_clock;
+        struct Timer {
+            double& sum;
+            Clock::time_point start = Clock::now();
+            ~Timer() { sum += std::chrono::duration<double>(Clock::now() - start).count(); }
+        } timer{of(stage)};
+        return work();
+    }
+    const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
+
+private:
+    double& of(const char* stage) {
+        for (auto& [name, sum] : seconds_)
+            if (name == stage) return sum;
+        return seconds_.emplace_back(stage, 0.0).second;
+    }
+    std::vector<std::pair<std::string, double>> seconds_;
+};
+
+/// Solves by conjugate gradients and checks what they have reached.
+class IterativeSolver {
+public:
+    IterativeSolver(const LinearSystem& system, const SolveOptions& options, const Progress& progress)
+        : options_(options),
+          progress_(progress),
+          limit_(options.tolerance_mm),
+          polynomials_(system.kernel, system.centers),
+          pattern_(system.pattern ? system.pattern
+                                  : times_("neighbours",
+                                           [&] {
+                                               return std::make_shared<const PreconditionerPattern>(
+                                                   system.centers, PreconditionerOptions{}, options.threads, progress);
+                                           })),
+          preconditioner_(
+              times_("factors",
+                     [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, options.threads, progress); })),
+          weights_(system.start.empty() ? Vector(system.size(), 0.0) : system.start),
+          target_(system.values),
+          image_{.values = Vector(system.size()), .checked = system.size()} {
+        for (double& v : target_) v *= kernel_sign(system.kernel);
+        polynomials_.project_out(target_);
+        start_ = std::max(largest(target_), limit_);
+        // The preconditioner's first guess at the weights tells how large they are.
+        const double tolerance = matrix_tolerance(precondition(target_), limit_);
+        times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, progress); });
+        polynomials_.project_out(weights_);
+        update_residual();
+        if (!system.start.empty()) start_from_weights();
+    }
+
+    /// The recurrence's residual drifts from the true one, and H2 products are not exact: at the end the residual is
+    /// computed afresh, and the iteration restarted from there, with better products if they are to blame, as long as that
+    /// helps.
+    void run() {
+        double last_residual = std::numeric_limits<double>::infinity(), last_deviation = last_residual;
+        while (true) {
+            const bool stuck = !descend();
+            polynomials_.project_out(weights_);
+            check_image();
+            if (residual_ <= limit_) return;
+            const bool to_blame = stuck || image_.deviation > 0.3 * limit_;
+            if (!operator_->matrix().is_exact() && to_blame && operator_->tolerance() > kFinest &&
+                (stuck || image_.deviation < 0.5 * last_deviation))
+                tighten();
+            else if (!(residual_ < 0.5 * last_residual)) return;
+            last_residual = residual_;
+            last_deviation = image_.deviation;
+        }
+    }
+
+    Coefficients result(const LinearSystem& system) {
+        Coefficients c;
+        Vector left = system.values;
+        add_scaled(left, -kernel_sign(system.kernel), image_.values);
+        if (system.kernel != Kernel::screened) c.polynomial = fit_linear(system, left);
+        c.weights = std::move(weights_);
+        c.iterations = iterations_;
+        c.residual = residual_;
+        c.residual_points = image_.checked;
+        c.matrix_mb = preconditioner_.megabytes() + operator_->matrix().megabytes();
+        c.evaluations = operator_->matrix().evaluations();
+        c.seconds = times_.seconds();
+        c.pattern = pattern_;
+        return c;
+    }
+
+private:
+    /// Unless they are worse than none: weights that lost what balanced them leave residuals of kilometres.
+    void start_from_weights() {
+        const double without = residual_;
+        image_.values = times_("products", [&] { return (*operator_)(weights_); });
+        update_residual();
+        if (residual_ < without) return;
+        weights_.assign(weights_.size(), 0.0);
+        image_.values.assign(weights_.size(), 0.0);
+        update_residual();
+    }
+
+    Vector precondition(const Vector& r) {
+        Vector z(r.size());
+        times_("preconditioning", [&] { preconditioner_.apply(r, z); });
+        polynomials_.project_out(z);
+        return z;
+    }
+
+    /// False if it ended early: rounding, or the matrix's error, has taken over.
+    bool descend() {
+        Vector z = precondition(r_), direction = z;
+        double rz = inner(r_, z), least = largest(r_);
+        for (int idle = 0; largest(r_) > 0.5 * limit_ && iterations_ < options_.max_iterations && rz > 0; ++iterations_) {
+            const Vector step = times_("products", [&] { return (*operator_)(direction); });
+            const double curvature = inner(direction, step);
+            if (!(curvature > 0) || idle == kMostIdle) return false;
+            add_scaled(weights_, rz / curvature, direction);
+            add_scaled(r_, -rz / curvature, step);
+            z = precondition(r_);
+            const double next = inner(r_, z);
+            for (std::size_t i = 0; i < z.size(); ++i) direction[i] = z[i] + next / rz * direction[i];
+            rz = next;
+            idle = largest(r_) < least ? 0 : idle + 1;
+            least = std::min(least, largest(r_));
+            const double done = std::log(start_ / std::max(least, limit_)) / std::log(start_ / limit_ + 1e-9);
+            progress_.report("solve", std::clamp(done, 0.0, 1.0));
+        }
+        return true;
+    }
+
+    void tighten() {
+        const double factor = std::min(0.1, 0.2 * limit_ / std::max(image_.deviation, 0.02 * limit_));
+        times_("matrix", [&] { operator_->tighten(std::max(factor, kFinest / operator_->tolerance())); });
+        if (image_.uncertainty > 0) check_image();
+    }
+
+    void check_image() {
+        image_ = times_("check", [&] { return operator_->checked_image(weights_); });
+        update_residual();
+    }
+
+    void update_residual() {
+        r_ = target_;
+        add_scaled(r_, -1.0, image_.values);
+        polynomials_.project_out(r_);
+        residual_ = largest(r_) + image_.uncertainty;
+    }
+
+    const SolveOptions& options_;
+    const Progress& progress_;
+    StageTimes times_;
+    double limit_, start_ = 0;
+    LinearPolynomials polynomials_;
+    std::shared_ptr<const PreconditionerPattern> pattern_;
+    Preconditioner preconditioner_;
+    std::optional<ProjectedOperator> operator_;
+    Vector weights_, target_, r_;
+    CheckedImage image_;  ///< of the weights
+    double residual_ = 0;
+    int iterations_ = 0;
+};
+
+}  // namespace
+
+Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
+    progress.report("solve", 0);
+    IterativeSolver solver(system, options, progress);
+    solver.run();
+    Coefficients c = solver.result(system);
+    if (!(c.residual <= 1e3 * options.tolerance_mm))
+        throw Error(
+            ErrorKind::singular_system,
+            fmt::format("the iterative solver stopped at a residual of {:.3g} mm after {} iterations; {:.3g} mm were "
+                        "asked for. Constraints coincide or contradict each other; the cholesky solver may help",
+                        c.residual, c.iterations, options.tolerance_mm));
+    return c;
+}
+
+}  // namespace kontur

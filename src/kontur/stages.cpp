@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/stages.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "kontur/base/error.h"
+#include "kontur/fit/sides.h"
+
+namespace kontur {
+namespace {
+
+// Fractions of the contours' diameter (diameter_mm). The offset is short enough to stay clear of the opposite wall of thin
+// structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
+constexpr double kOffsetFraction = 4.5e-3;
+constexpr double kMergeFraction = 6e-4;
+constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
+constexpr double kSurfaceSmoothing = 1e-5;
+
+FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
+    FitOptions fit;
+    fit.normals = options.normals;
+    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diameter_mm);
+    fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
+    if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
+        throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
+                                                          fit.place.normal_offset_mm));
+    fit.solve.kernel = options.kernel;
+    fit.solve.solver = options.solver;
+    fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
+    fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
+    fit.solve.threads = options.threads;
+    return fit;
+}
+
+/// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
+PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
+    PrepareOptions prepare{
+        .quality = options.quality, .click_margin_mm = fitting.place.normal_offset_mm, .threads = options.threads};
+    prepare.corners = options.corners;
+    prepare.corner_spacing_mm = 2 * fitting.place.merge_distance_mm;
+    if (options.normals == Normals::in_plane) {
+        prepare.corners = Corners::rounded;
+        prepare.least_segments = 0;
+        prepare.bounds = false;
+        prepare.gaps = false;
+        prepare.copy_shift_mm = fitting.place.normal_offset_mm;
+    }
+    return prepare;
+}
+
+/// Where the surface passes near a point at which |f| is about `margin_mm`; nothing where |f| is larger or it is farther
+/// away.
+std::optional<Vec3> surface_near(const Vec3& point, const ImplicitFunction& function, double margin_mm) {
+    constexpr int kSteps = 24, kHalvings = 12;
+    const double value = function.value(point);
+    if (std::abs(value) > 2 * margin_mm) return std::nullopt;
+    const auto has_other_sign = [&](const Vec3& p) { return (function.value(p) > 0) != (value > 0); };
+    for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+        for (const double step : {margin_mm, -margin_mm})
+            for (int n = 1; n <= kSteps; ++n) {
+                if (!has_other_sign(point + n * step * direction)) continue;
+                double near = (n - 1) * step, far = n * step;
+                for (int halving = 0; halving < kHalvings; ++halving) {
+                    const double middle = (near + far) / 2;
+                    (has_other_sign(point + middle * direction) ? far : near) = middle;
+                }
+                return point + far * direction;
+            }
+    return std::nullopt;
+}
+
+}  // namespace
+
+StageOptions stage_options(const SegmentOptions& options, double diameter_mm) {
+    const FitOptions fit = fit_options(options, diameter_mm);
+    const ReconcileOptions reconcile{
+        .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
+        .offset_mm = kOffsetFraction * diameter_mm};
+    return {prepare_options(options, fit), reconcile, fit};
+}
+
+Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
+    Drawing drawing(drawn, rule);
+    const std::vector<std::string> sides = find_sides(drawing.contours);
+    drawing.notes.insert(drawing.notes.end(), sides.begin(), sides.end());
+    return drawing;
+}
+
+PreparedContours prepare(const Drawing& drawing, const StageOptions& options) {
+    PreparedContours prepared = prepare(drawing, options.prepare);
+    reconcile(prepared.points, drawing.crossings, options.reconcile);
+    return prepared;
+}
+
+std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,
+                               const ImplicitFunction& function, double click_margin_mm) {
+    std::vector<Vec3> starts = prepared.crossings;
+    starts.insert(starts.end(), prepared.between_crossings.begin(), prepared.between_crossings.end());
+    for (const BoundaryPoint& point : prepared.points) starts.push_back(point.position);
+    for (const Contour& contour : contours.contours)
+        starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+    for (const Vec3& click : contours.exterior)
+        if (const auto start = surface_near(click, function, click_margin_mm)) starts.push_back(*start);
+    return starts;
+}
+
+}  // namespace kontur

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kontur/drawing/drawing.h"
+#include "kontur/drawing/prepare.h"
+#include "kontur/drawing/reconcile.h"
+#include "kontur/fit/fit.h"
+#include "kontur/segment_options.h"
+
+namespace kontur {
+
+/// The options of `segment` spelled out for its first stages.
+struct StageOptions {
+    PrepareOptions prepare;
+    ReconcileOptions reconcile;
+    FitOptions fit;
+};
+
+/// Lengths that are not given are fractions of the drawing's diameter. Throws Error(invalid_input) when the normal offset is
+/// not above 0.
+StageOptions stage_options(const SegmentOptions& options, double diameter_mm);
+
+/// What was drawn, with the sides of open contours found. Throws as check_contours.
+Drawing read_drawing(const ContourSet& drawn, FillRule rule);
+
+/// The contours as the fit sees them, reconciled where they contradict each other.
+PreparedContours prepare(const Drawing& drawing, const StageOptions& options);
+
+/// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
+/// themselves, and a place near each exterior point that only just got its side: it may have made a cavity. Not near
+/// interior points: beside the contours nothing bounds what they make.
+std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,
+                               const ImplicitFunction& function, double click_margin_mm);
+
+}  // namespace kontur

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/drawing/gaps.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "kontur/drawing/prepare.h"
+#include "kontur/fit/constraints.h"
+#include "kontur/shape/predicates.h"
+#include "support/contour_sets.h"
+#include "support/polygons.h"
+#include "support/random.h"
+
+namespace kontur {
+namespace {
+
+const Plane kPlane = make_plane({3, -40, 200}, {0.3, -0.5, 0.8});
+
+TEST(FindGaps, OnlyWhatLiesOutsideCounts) {
+    // A plate 1 mm thick: its other wall lies inside.
+    ContourSet set;
+    set.contours = {test::contour_in(kPlane, std::vector<test::Point2>{{0, 0}, {40, 0}, {40, 1}, {0, 1}})};
+    for (const BoundaryPoint& point : prepare(set).points) EXPECT_TRUE(std::isinf(point.gap_mm));
+}
+
+TEST(FindGaps, AcrossACleftAndBetweenNeighbours) {
+    // Two bars, 0.4 mm apart, one of them with a notch 2 mm wide.
+    ContourSet set;
+    set.contours = {
+        test::contour_in(kPlane, std::vector<test::Point2>{{0, 0}, {40, 0}, {40, 10}, {0, 10}}),
+        test::contour_in(kPlane, std::vector<test::Point2>{
+                                     {0, 10.4}, {40, 10.4}, {40, 20}, {22, 20}, {22, 14}, {20, 14}, {20, 20}, {0, 20}})};
+    int between = 0, notch = 0;
+    for (const BoundaryPoint& point : prepare(set).points) {
+        const auto [u, v] = kPlane.to_uv(point.position);
+        const bool inner = u > 0.5 && u < 39.5;
+        if (inner && (std::abs(v - 10) < 1e-6 || std::abs(v - 10.4) < 1e-6)) {
+            EXPECT_NEAR(point.gap_mm, 0.4, 1e-9);
+            ++between;
+        } else if (v > 14.5 && v < 19.5 && std::abs(u - 21) < 1.5) {
+            EXPECT_NEAR(point.gap_mm, 2, 1e-9);
+            ++notch;
+        } else if (v < 0.1) {
+            EXPECT_TRUE(std::isinf(point.gap_mm));
+        }
+    }
+    EXPECT_GT(between, 30);
+    EXPECT_GE(notch, 4);
+}
+
+/// As far as the reach, along the normal, by looking at every edge of every contour.
+double gap_by_all_edges(const std::vector<Contour>& contours, const BoundaryPoint& point, double reach) {
+    const auto cross2 = [](const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; };
+    const Point2 start = kPlane.to_uv(point.position);
+    const Point2 along{dot(point.inplane_normal, kPlane.u), dot(point.inplane_normal, kPlane.v)};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Contour& contour : contours)
+        for_each_edge(contour.points, [&](const Vec3& from, const Vec3& to) {
+            const Point2 a = kPlane.to_uv(from), b = kPlane.to_uv(to);
+            const Point2 edge{b[0] - a[0], b[1] - a[1]}, to_a{a[0] - start[0], a[1] - start[1]};
+            const double turn = cross2(along, edge), ahead = cross2(to_a, edge) / turn, at = cross2(to_a, along) / turn;
+            if (ahead > 1e-6 && ahead <= reach && at >= 0 && at <= 1) nearest = std::min(nearest, ahead);
+        });
+    return nearest;
+}
+
+TEST(FindGaps, AmongManyContoursAreThoseThatLookingAtAllOfThemFinds) {
+    std::mt19937 random = test::random_of_this_test();
+    std::uniform_real_distribution<double> shift(-1, 1), radius(1, 3);
+    ContourSet set;
+    std::vector<BoundaryPoint> points;
+    for (int row = 0; row < 12; ++row)
+        for (int column = 0; column < 12; ++column) {
+            Plane plane = kPlane;
+            plane.origin = kPlane.from_uv(9 * column + shift(random), 9 * row + shift(random));
+            Contour& ring = set.contours.emplace_back(test::circle(plane, radius(random), 37));
+            for (const Vec3& p : ring.points)
+                points.push_back(
+                    {p, normalized(p - plane.origin), kPlane.normal, static_cast<std::int32_t>(set.contours.size()) - 1});
+            ring.plane = kPlane;
+        }
+    constexpr double kReach = 20;
+    find_gaps(set, kReach, 0.01, points);
+    int found = 0;
+    for (const BoundaryPoint& point : points) {
+        const double expected = gap_by_all_edges(set.contours, point, kReach);
+        if (std::isinf(expected)) {
+            EXPECT_TRUE(std::isinf(point.gap_mm));
+            continue;
+        }
+        EXPECT_NEAR(point.gap_mm, expected, 1e-9);
+        ++found;
+    }
+    EXPECT_GT(found, 1000);
+}
+
+TEST(FindGaps, HolesFaceTheirOwnOppositeWall) {
+    ContourSet set;
+    set.contours = {test::circle(kPlane, 30, 90), test::circle(kPlane, 2, 60)};
+    set.contours[1].hole = true;
+    for (const BoundaryPoint& point : prepare(set).points) {
+        if (point.contour == 1) EXPECT_NEAR(point.gap_mm, 4, 0.02);
+        else EXPECT_TRUE(std::isinf(point.gap_mm));
+    }
+}
+
+TEST(FindGaps, NormalConstraintsStayOnTheirSideOfTheMiddle) {
+    std::vector<BoundaryPoint> points{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0, 1, 0.5}, {{0, 9, 0}, {0, 1, 0}, {0, 0, 1}, 0}};
+    const std::vector<double> slopes{1, 0.5};
+    const PlacedConstraints placed = place_constraints(points, slopes, {}, {.normal_offset_mm = 2});
+    EXPECT_EQ(placed.constraints.centers[2], (Vec3{0.25, 0, 0}));
+    EXPECT_EQ(placed.constraints.centers[3], (Vec3{0, 11, 0}));
+    EXPECT_EQ(placed.constraints.values, (std::vector<double>{0, 0, -0.25, -1}));
+}
+
+TEST(PlaceConstraints, PointsOfUnknownDirectionGetNoNormalConstraint) {
+    const std::vector<BoundaryPoint> points{{.position = {1, 2, 3}, .contour = kNoContour}};
+    const PlacedConstraints placed = place_constraints(points, std::vector<double>{1}, {});
+    EXPECT_EQ(placed.constraints.size(), 1u);
+    EXPECT_EQ(placed.merged, 0u);
+}
+
+}  // namespace
+}  // namespace kontur

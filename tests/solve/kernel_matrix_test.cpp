@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/solve/kernel_matrix.h"
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace kontur {
+namespace {
+
+struct Problem {
+    PointArrays points;
+    std::vector<double> weights;
+};
+
+Problem random_problem(std::size_t count, std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    std::normal_distribution<double> weight;
+    Problem problem;
+    for (std::size_t i = 0; i < count; ++i) {
+        problem.points.x.push_back(coordinate(random));
+        problem.points.y.push_back(coordinate(random));
+        problem.points.z.push_back(coordinate(random));
+        problem.weights.push_back(weight(random));
+    }
+    return problem;
+}
+
+TEST(DirectKernelMatrix, MultipliesAsTheFullSumDoes) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic})
+        for (const std::size_t count : {1, 2, 31, 32, 33, 64, 65, 1000, 1500}) {
+            const Problem p = random_problem(count, random);
+            std::vector<double> expected(count), product(count, -1.0);
+            sum_kernel(kernel, p.points, p.weights, p.points, expected, 1);
+            DirectKernelMatrix(kernel, p.points, 2).multiply(p.weights, product);
+            for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << count << " points, " << i;
+        }
+}
+
+TEST(DirectKernelMatrix, IsTheSameForAnyNumberOfThreads) {
+    std::mt19937 random = test::random_of_this_test();
+    const Problem p = random_problem(1234, random);
+    std::vector<double> one(1234), other(1234);
+    DirectKernelMatrix(Kernel::triharmonic, p.points, 1).multiply(p.weights, one);
+    for (const int threads : {2, 3, 8}) {
+        DirectKernelMatrix(Kernel::triharmonic, p.points, threads).multiply(p.weights, other);
+        EXPECT_EQ(one, other) << threads;
+    }
+}
+
+}  // namespace
+}  // namespace kontur

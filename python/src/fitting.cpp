@@ -214,7 +214,7 @@ PreparedContours
             const Preparing asked = preparing.parse("prepare", given);
             return unlocked([&] {
                 Drawing drawing(contours, asked.fill_rule);
-                std::vector<std::string> notes = find_sides(drawing.contours);
+                std::vector<std::string> notes = find_sides(drawing.tidied);
                 PreparedContours prepared = prepare(drawing, asked.options);
                 prepared.notes.insert(prepared.notes.begin(), notes.begin(), notes.end());
                 return prepared;

@@ -84,7 +84,7 @@ StageOptions stage_options(const SegmentOptions& options, double diameter_mm) {
 
 Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
     Drawing drawing(drawn, rule);
-    const std::vector<std::string> sides = find_sides(drawing.contours);
+    const std::vector<std::string> sides = find_sides(drawing.tidied);
     drawing.notes.insert(drawing.notes.end(), sides.begin(), sides.end());
     return drawing;
 }

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "kontur/drawing/tidy.h"
+
 namespace kontur {
 namespace {
 
@@ -21,6 +23,16 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
         notes.push_back(fmt::format("contours {} and {} overlap in part", a + 1, b + 1));
 }
 
+void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
+    if (tidied.spike_points > 0)
+        notes.push_back(fmt::format("{} points of spikes, which enclose nothing, were left out", tidied.spike_points));
+    if (tidied.thinned_contours > 0)
+        notes.push_back(
+            fmt::format("{} contours with very many points were thinned: {} points left out, none farther than "
+                        "{:.2g} mm from the contour that was kept",
+                        tidied.thinned_contours, tidied.thinned_points, tidied.thinned_mm));
+}
+
 }  // namespace
 
 Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
@@ -28,8 +40,11 @@ Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
         notes.push_back(fmt::format("{} repeated points were left out", dropped));
     check_contours(contours);
     note_filling(apply_fill_rule(contours, rule), notes);
-    ball = smallest_ball(contours);
     crossings = find_crossings(contours);
+    tidied = contours;
+    const double drawn_mm = smallest_ball(contours).diameter();
+    note_tidied(tidy(tidied, {1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm}), notes);
+    ball = smallest_ball(tidied);
 }
 
 }  // namespace kontur

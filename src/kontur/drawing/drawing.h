@@ -18,7 +18,8 @@ struct Drawing {
     Drawing(ContourSet drawn, FillRule rule = FillRule::even_odd);
 
     ContourSet contours;
-    Ball3 ball;                       ///< the smallest one around all that was drawn, mm
+    ContourSet tidied;                ///< the same without spikes, and with no more points than the fit needs
+    Ball3 ball;                       ///< the smallest one around the tidied contours and single points, mm
     std::vector<Crossing> crossings;  ///< of contours of different planes
     std::vector<std::string> notes;   ///< what was changed or is contradictory, one sentence each
 

@@ -16,7 +16,6 @@
 #include "kontur/drawing/gaps.h"
 #include "kontur/drawing/orient.h"
 #include "kontur/drawing/reduce.h"
-#include "kontur/drawing/tidy.h"
 
 namespace kontur {
 namespace {
@@ -34,16 +33,6 @@ Contour shifted(Contour contour, const Vec3& by) {
     contour.plane.origin += by;
     for (Vec3& p : contour.points) p += by;
     return contour;
-}
-
-void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
-    if (tidied.spike_points > 0)
-        notes.push_back(fmt::format("{} points of spikes, which enclose nothing, were left out", tidied.spike_points));
-    if (tidied.thinned_contours > 0)
-        notes.push_back(
-            fmt::format("{} contours with very many points were thinned: {} points left out, none farther than "
-                        "{:.2g} mm from the contour that was kept",
-                        tidied.thinned_contours, tidied.thinned_points, tidied.thinned_mm));
 }
 
 /// The corners of all contours as they were drawn; reducing them makes others.
@@ -162,8 +151,7 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options) 
     check_prepare_options(options);
     PreparedContours prepared;
     const double diameter = drawing.diameter_mm();
-    ContourSet set = drawing.contours;
-    note_tidied(tidy(set, {1.5e-5 * diameter, 1.5e-4 * diameter}), prepared.notes);
+    const ContourSet& set = drawing.tidied;
     const DrawnPlanes planes(set, drawing.ball);
     prepared.ball = drawing.ball;
     prepared.coplanar = is_coplanar(planes);

@@ -37,7 +37,7 @@ struct PreparedContours {
     bool coplanar = false;                ///< all that was drawn lies in one plane, so it alone does not determine a surface
 };
 
-/// Cleans (tidy), reduces, refines and orients every contour and finds what bounds the object. Contours in one plane leave f
+/// Reduces, refines and orients every contour and finds what bounds the object. Contours in one plane leave f
 /// free across it and the paper's system singular: either the bounds or the shifted copy must close the surface. Throws
 /// Error(invalid_input) for a contour that encloses nothing, an open one that does not tell on which hand the object lies
 /// (find_sides in fit/sides.h), and options outside of their range.

@@ -36,11 +36,11 @@ const REFUSALS = new Set(["invalid_input", "not_found"]); // by which no work is
 
 /** Puts the parts of the page together, and hands the server's events to them. */
 export class App {
-  readonly navigation = new Navigation();
-  readonly project = new Project();
-  readonly views = new Map<ViewName, SliceView>();
-  readonly editor: Editor;
-  active: ViewName = "axial";
+  private readonly navigation = new Navigation();
+  private readonly project = new Project();
+  private readonly views = new Map<ViewName, SliceView>();
+  private readonly editor: Editor;
+  private active: ViewName = "axial";
   private readonly http: Http;
   private readonly socket: Socket;
   private readonly status = new StatusBar();
@@ -101,7 +101,9 @@ export class App {
       copySelected: (steps) => void this.editor.edits.copySelected(this.active, steps),
     });
     this.keyboard = new Keyboard({
-      app: this,
+      ...shared,
+      focused: () => this.active,
+      toggleSingle: (pane) => this.toggleSingle(pane),
       undo: () => this.undo(),
       redo: () => this.redo(),
       help: () => openHelp(this.session?.version ?? ""),
@@ -274,14 +276,14 @@ export class App {
     this.closeCrossingNotice = this.notices.show("warning", text, { label: "Take it back", act: () => this.undo() });
   }
 
-  undo(): void {
+  private undo(): void {
     const { drawing, edits } = this.editor;
     drawing.outbox.afterSending(() => {
       if (!drawing.undo()) edits.make("undo", {});
     });
   }
 
-  redo(): void {
+  private redo(): void {
     const { drawing, edits } = this.editor;
     drawing.outbox.afterSending(() => {
       if (!drawing.redo()) edits.make("redo", {});
@@ -312,7 +314,7 @@ export class App {
     }
   }
 
-  toggleSingle(pane: PaneName): void {
+  private toggleSingle(pane: PaneName): void {
     const { navigation } = this;
     if (navigation.layout === "single" && navigation.big === pane) navigation.setLayout("overview");
     else navigation.setLayout("single", pane);
@@ -333,7 +335,7 @@ export class App {
     return screens;
   }
 
-  goTo(p: Vec3): void {
+  private goTo(p: Vec3): void {
     this.navigation.goTo(p, this.screens());
   }
 

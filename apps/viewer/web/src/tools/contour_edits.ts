@@ -7,9 +7,9 @@ import type { Project } from "../model/project";
 import { Latest } from "../net/latest";
 import type { Contour, ViewName } from "../net/protocol";
 import type { Drawing } from "./drawing";
-import type { EditorServices } from "./editor";
 import { DRAG_PIXELS, type Gesture, type Modifiers } from "./gesture";
 import { inView, type ContourHit } from "./hit";
+import type { EditorServices } from "./services";
 import { isContourHidden } from "./sight";
 
 interface Edit {

@@ -5,10 +5,10 @@ import type { Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Project } from "../model/project";
 import { Latest } from "../net/latest";
-import type { Contour, PathResult, StretchKind } from "../net/protocol";
-import type { EditorServices } from "./editor";
+import type { Contour, PathResult, SketchPoint, StretchKind } from "../net/protocol";
 import { CLICK_PIXELS, type Gesture } from "./gesture";
-import { Outbox } from "./outbox";
+import { Outbox, type Desk } from "./outbox";
+import type { EditorServices } from "./services";
 import { isHidden } from "./sight";
 import { Sketch } from "./sketch";
 
@@ -17,7 +17,7 @@ const HAND_STEP_PIXELS = 1.5;
 const LEAST_WIDTH_PIXELS = 5; // of a contour drawn in one go: what is narrower is a slip of the hand
 
 /** The contour that is being drawn, or a piece of one that is not saved: its points and lines, its own undo and redo, and its closing. */
-export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
+export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements Desk {
   sketch: Sketch | null = null;
   /** The sketch's line as the server made it, and the line on to the pointer. */
   placedLine: Vec3[] = [];
@@ -166,7 +166,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> {
     return { ...sketch.plane, mm_per_pixel: this.mm_per_pixel };
   }
 
-  path(sketch: Sketch, control: unknown[], closed = false): Promise<PathResult> {
+  path(sketch: Sketch, control: readonly SketchPoint[], closed = false): Promise<PathResult> {
     return this.services.call<PathResult>("path", { plane: this.pixelPlane(sketch), control, closed });
   }
 

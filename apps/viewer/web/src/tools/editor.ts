@@ -3,35 +3,18 @@ import type { Point2, Screen } from "../geometry/screen";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import type { Contour, StretchKind, ViewName } from "../net/protocol";
+import type { StretchKind, ViewName } from "../net/protocol";
 import { ContourEdits } from "./contour_edits";
 import { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import { hitContour, type ContourHit, type LineHit } from "./hit";
 import { PlaneLines } from "./plane_lines";
-import type { Sketch } from "./sketch";
+import type { EditorServices } from "./services";
 
 export type ToolName = "edit" | "freehand" | "spline" | "wire" | "redraw" | "move";
 
 const KIND_OF_TOOL: Partial<Record<ToolName, StretchKind>> = { freehand: "line", spline: "spline", wire: "wire" };
 const TOOL_OF_KIND: Record<StretchKind, ToolName> = { free: "freehand", line: "freehand", spline: "spline", wire: "wire" };
-
-/** What the user may do about what he is told. */
-export interface Remedy {
-  label: string;
-  act: () => void;
-}
-
-export interface EditorServices {
-  call<Result>(name: string, args?: Record<string, unknown>): Promise<Result>;
-  screenOf(view: ViewName): Screen | null;
-  failed(error: unknown): void;
-  tell(text: string, remedy?: Remedy): void;
-  /** A contour as an edit of this page has left it. */
-  made(contour: Contour): void;
-  /** What the user has finished, and the server did not take: it stays. */
-  notSaved(sketch: Sketch, why: string): void;
-}
 
 export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
 

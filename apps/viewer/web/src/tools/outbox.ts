@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { PixelPlane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { Project } from "../model/project";
 import { ServerError } from "../net/http";
-import type { Contour } from "../net/protocol";
-import type { Drawing } from "./drawing";
-import type { EditorServices } from "./editor";
+import type { Contour, PathResult, SketchPoint } from "../net/protocol";
+import type { EditorServices } from "./services";
 import { Sketch, type SavedSketch } from "./sketch";
+
+/** Where a sketch is drawn, and what was not taken comes back to. */
+export interface Desk {
+  readonly sketch: Sketch | null;
+  changed(): void;
+  clear(): void;
+  /** Shows the sketch again, as it was. */
+  take(sketch: Sketch): void;
+  /** The same, and its tool. */
+  resume(sketch: Sketch): void;
+  putAside(sketch: Sketch): void;
+  pixelPlane(sketch: Sketch): PixelPlane;
+  path(sketch: Sketch, control: readonly SketchPoint[]): Promise<PathResult>;
+}
 
 /** Sketches that are finished (closed contours, redrawn pieces) until the server has them. What it does not take goes back to the drawing, one after the other. */
 export class Outbox {
@@ -14,7 +28,7 @@ export class Outbox {
   private sent: Promise<void> = Promise.resolve();
 
   constructor(
-    private readonly drawing: Drawing,
+    private readonly drawing: Desk,
     private readonly project: Project,
     private readonly services: EditorServices,
   ) {

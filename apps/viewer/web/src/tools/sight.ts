@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Project } from "../model/project";
 import type { Contour } from "../net/protocol";
-import type { EditorServices } from "./editor";
+import type { EditorServices } from "./services";
 
 /** Whether what is drawn into the structure would not be seen. Says so, and offers to show it. */
 export function isHidden(structure: number | undefined, project: Project, services: EditorServices): boolean {

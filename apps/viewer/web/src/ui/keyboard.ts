@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { App } from "../app";
-import type { PaneName } from "../model/navigation";
-import type { ToolName } from "../tools/editor";
+import type { Navigation, PaneName } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { ViewName } from "../net/protocol";
+import type { Editor, ToolName } from "../tools/editor";
 
 export interface KeyboardServices {
-  app: App;
+  navigation: Navigation;
+  project: Project;
+  editor: Editor;
+  /** The view that keys are for. */
+  focused(): ViewName;
+  toggleSingle(pane: PaneName): void;
   undo(): void;
   redo(): void;
   help(): void;
@@ -34,7 +40,7 @@ export class Keyboard {
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
     const presses = event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ");
-    if (presses && !this.services.app.editor.drawing.sketch) return;
+    if (presses && !this.services.editor.drawing.sketch) return;
     const handled = event.ctrlKey || event.metaKey ? this.withControl(event) : this.plain(event);
     if (handled) event.preventDefault();
   }
@@ -49,21 +55,20 @@ export class Keyboard {
   }
 
   private plain(event: KeyboardEvent): boolean {
-    const { app } = this.services;
+    const { editor, navigation, focused, toggleSingle } = this.services;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const tool = TOOL_KEYS[key];
     const pane = PANE_KEYS[key];
     const steps = SCROLL_KEYS[key];
-    if (tool) app.editor.choose(tool);
-    else if (pane) app.toggleSingle(pane);
-    else if (steps !== undefined) app.navigation.scroll(app.active, steps);
+    if (tool) editor.choose(tool);
+    else if (pane) toggleSingle(pane);
+    else if (steps !== undefined) navigation.scroll(focused(), steps);
     else return this.action(key, event);
     return true;
   }
 
   private action(key: string, event: KeyboardEvent): boolean {
-    const { app } = this.services;
-    const { editor, navigation } = app;
+    const { editor, navigation, focused } = this.services;
     const { drawing, edits } = editor;
     switch (key) {
       case " ":
@@ -83,7 +88,7 @@ export class Keyboard {
         edits.deleteSelected();
         return true;
       case "c":
-        void edits.copySelected(app.active, event.shiftKey ? -1 : 1);
+        void edits.copySelected(focused(), event.shiftKey ? -1 : 1);
         return true;
       case "h":
         this.toggleHole();
@@ -96,10 +101,10 @@ export class Keyboard {
         return true;
       case "+":
       case "=":
-        navigation.zoomAt(app.active, navigation.crosshair, KEY_ZOOM);
+        navigation.zoomAt(focused(), navigation.crosshair, KEY_ZOOM);
         return true;
       case "-":
-        navigation.zoomAt(app.active, navigation.crosshair, 1 / KEY_ZOOM);
+        navigation.zoomAt(focused(), navigation.crosshair, 1 / KEY_ZOOM);
         return true;
       case "0":
         navigation.setLayout("overview");
@@ -119,7 +124,7 @@ export class Keyboard {
   }
 
   private toggleHole(): void {
-    const { editor, project } = this.services.app;
+    const { editor, project } = this.services;
     const contour = project.selectedContour;
     if (contour) editor.edits.make("contour.set", { id: contour.id, hole: !contour.hole });
   }

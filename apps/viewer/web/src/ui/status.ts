@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { ConnectionState } from "../net/socket";
 import type { Notice } from "../net/protocol";
-import type { Remedy } from "../tools/editor";
+import type { Remedy } from "../tools/services";
 import { button, el } from "./dom";
 
 /** The line at the bottom: cursor, what to do next, what is computed, whether all is saved. */

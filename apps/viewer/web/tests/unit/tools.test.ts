@@ -6,9 +6,10 @@ import type { Vec3 } from "../../src/geometry/vec";
 import { Project } from "../../src/model/project";
 import { ServerError } from "../../src/net/http";
 import type { Contour, SketchPoint } from "../../src/net/protocol";
-import { Editor, type Remedy, type ToolName } from "../../src/tools/editor";
+import { Editor, type ToolName } from "../../src/tools/editor";
 import type { Gesture } from "../../src/tools/gesture";
 import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
+import type { Remedy } from "../../src/tools/services";
 import { Sketch } from "../../src/tools/sketch";
 import { AXIAL, CORONAL, near, SAGITTAL, session, SKEW, square, started } from "./support";
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Screen } from "../geometry/screen";
+import type { Contour, ViewName } from "../net/protocol";
+import type { Sketch } from "./sketch";
+
+/** What the user may do about what he is told. */
+export interface Remedy {
+  label: string;
+  act: () => void;
+}
+
+/** What the tools need of the page around them. */
+export interface EditorServices {
+  call<Result>(name: string, args?: Record<string, unknown>): Promise<Result>;
+  screenOf(view: ViewName): Screen | null;
+  failed(error: unknown): void;
+  tell(text: string, remedy?: Remedy): void;
+  /** A contour as an edit of this page has left it. */
+  made(contour: Contour): void;
+  /** What the user has finished, and the server did not take: it stays. */
+  notSaved(sketch: Sketch, why: string): void;
+}

@@ -15,7 +15,8 @@ import { ViewInput } from "./tools/view_input";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
 import { el } from "./ui/dom";
-import { firstHint, openExport, openHelp } from "./ui/dialogs";
+import { firstHint, openExport } from "./ui/dialogs";
+import { openHelp } from "./ui/help";
 import { importFile, openImport } from "./ui/imports";
 import { crosshairOnto, Panel, viewAlong } from "./ui/panel";
 import { Notices, StatusBar } from "./ui/status";
@@ -370,12 +371,12 @@ export class App {
   private leave(): void {
     if (this.inputs.some((input) => input.cancel())) return;
     if (this.editor.drawing.sketch) return this.editor.drawing.leave();
-    if (this.editor.tool !== "edit") return this.editor.choose("edit");
+    if (this.editor.tool.id !== "edit") return this.editor.choose("edit");
     this.project.select(null);
   }
 
   private tellHint(): void {
-    this.status.setHint(hintFor(this.editor, this.project));
+    this.status.setHint(hintFor(this.editor));
   }
 
   private showFirstHint(): void {

@@ -116,65 +116,6 @@ function download(blob: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-type KeyRow = [string, string];
-const HELP: [string, KeyRow[]][] = [
-  [
-    "Look around",
-    [
-      ["Wheel, ↑ ↓", "scroll through slices (Page keys: ten at a time)"],
-      ["Ctrl + wheel, + −", "zoom"],
-      ["Middle drag, Space + drag", "pan"],
-      ["Right drag", "window: width to the right, centre up and down"],
-      ["Shift + move", "all views jump to the point under the pointer"],
-      ["Click, drag", "move the crosshair (Edit)"],
-      ["Drag a plane line", "move that plane; drag its dot to turn it"],
-      ["1 2 3 4 5", "axial, sagittal, coronal, oblique, 3D alone; 0 all"],
-      ["X, K", "plane lines on or off; all slices zoom and shift together"],
-      ["Home", "all views back to where they began"],
-    ],
-  ],
-  [
-    "Draw",
-    [
-      ["L  F  S", "live-wire, freehand, spline; change in mid-contour as you like"],
-      ["Left clicks", "place points"],
-      ["Left drag", "draw by hand"],
-      ["Click the first point, double click, Enter", "close the contour"],
-      ["Backspace", "remove the last point"],
-      ["Esc", "leave the contour or the tool"],
-    ],
-  ],
-  [
-    "Edit",
-    [
-      ["V", "edit tool"],
-      ["F2, double click on a name", "rename the structure"],
-      ["Drag a point or a line", "bend the contour"],
-      ["Ctrl + click on a line", "insert a point"],
-      ["Del", "delete the selected point, or the contour"],
-      ["R", "redraw a piece: draw from the line back to the line"],
-      ["M, Shift + drag", "move a contour"],
-      ["C, Shift + C", "copy to the next, previous slice"],
-      ["H", "hole on or off"],
-      ["Ctrl + Z, Ctrl + Shift + Z", "undo, redo: every action, also after a restart"],
-    ],
-  ],
-  [
-    "3D",
-    [
-      ["Left, middle, right drag", "turn, zoom, shift"],
-      ["Double click on the surface", "show that place in the slices"],
-    ],
-  ],
-];
-
-export function openHelp(version: string): void {
-  const columns = HELP.map(([title, rows]) =>
-    el("section", {}, el("h3", {}, title), el("dl", {}, ...rows.flatMap(([keys, what]) => [el("dt", {}, keys), el("dd", {}, what)]))),
-  );
-  openDialog("Mouse and keyboard", "help-dialog", el("div", { class: "help-columns" }, ...columns), el("p", { class: "fine" }, `kontur ${version}. Research software, not a medical device.`));
-}
-
 /** Shown once per project. */
 export function firstHint(close: () => void): HTMLElement {
   return el(

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** Lines on 20 x 20, drawn for this page. */
+/** Lines on 20 x 20, drawn for this page. Tools have theirs with them. */
 export const ICONS = {
-  edit: "M4 3l5.500 13 2-5.500L17 8.500z",
-  freehand: "M3 14c2-6 4-9 6-9s0 5 1.500 6.500S15 8 17 6",
-  spline: "M3 15C5 5 10 5 10 10s5 5 7-4M3 15h.01M10 10h.01M17 6h.01",
-  wire: "M4 16l2-5 4-1 2-4 4-2M3 17.500a1.500 1.500 0 1 0 2-2 1.500 1.500 0 0 0-2 2zM15 5a1.500 1.500 0 1 0 2-2 1.500 1.500 0 0 0-2 2z",
-  redraw: "M4 10a6 6 0 0 1 10.500-4M14.500 2.500V6H11M16 10a6 6 0 0 1-10.500 4M5.500 17.500V14H9",
-  move: "M10 3v14M3 10h14M10 3l-2 2M10 3l2 2M10 17l-2-2M10 17l2-2M3 10l2-2M3 10l2 2M17 10l-2-2M17 10l-2 2",
   undo: "M7 5L3.500 8.500 7 12M4 8.500h8a4.500 4.500 0 0 1 0 9H9",
   redo: "M13 5l3.500 3.500L13 12M16 8.500H8a4.500 4.500 0 0 0 0 9h3",
   copyUp: "M4 13l6 3 6-3M10 11V3M7 6l3-3 3 3",

@@ -2,7 +2,8 @@
 import type { LayoutName, Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Preset } from "../net/protocol";
-import type { Editor, ToolName } from "../tools/editor";
+import type { Editor } from "../tools/editor";
+import { TOOLS, type ToolName } from "../tools/registry";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 
@@ -16,18 +17,6 @@ export interface ToolbarServices {
   openImport(): void;
   openHelp(): void;
 }
-
-const TOOLS: [ToolName, string, string, string][] = [
-  ["edit", "Edit", "V", "Move the crosshair and plane lines; drag points and lines of contours"],
-  ["wire", "Live-wire", "L", "Click points: the line between them follows the edge in the image. Drag to draw by hand in between"],
-  ["freehand", "Freehand", "F", "Drag around the structure; releasing closes the contour"],
-  ["spline", "Spline", "S", "Click points: a smooth curve goes through them. Drag to draw by hand in between"],
-  ["redraw", "Redraw", "R", "Draw a new piece over a contour, beginning and ending on its line"],
-  ["move", "Move", "M", "Drag a contour as a whole within its plane"],
-];
-
-/** Shown without their names where the page is narrow. */
-const MINOR = new Set<ToolName>(["redraw", "move"]);
 
 const LAYOUTS: [LayoutName, string, string][] = [
   ["overview", ICONS.overview, "Four slices beside the 3D view"],
@@ -51,8 +40,8 @@ export class Toolbar {
 
   constructor(private readonly services: ToolbarServices) {
     const { navigation, editor } = services;
-    for (const [tool, label, key, title] of TOOLS)
-      this.tools.set(tool, button({ icon: ICONS[tool], label, title: `${title} (${key})`, class: MINOR.has(tool) ? "tool minor" : "tool", test: `tool-${tool}`, click: () => editor.choose(tool) }));
+    for (const { id, label, key, title, icon, isMinor } of TOOLS)
+      this.tools.set(id, button({ icon, label, title: `${title} (${key.toUpperCase()})`, class: isMinor ? "tool minor" : "tool", test: `tool-${id}`, click: () => editor.choose(id) }));
     for (const [layout, path, title] of LAYOUTS)
       this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, click: () => navigation.setLayout(layout) }));
     this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", click: services.undo });
@@ -95,7 +84,7 @@ export class Toolbar {
 
   private update(): void {
     const { editor, navigation, project } = this.services;
-    for (const [tool, element] of this.tools) press(element, tool === editor.tool);
+    for (const [tool, element] of this.tools) press(element, tool === editor.tool.id);
     for (const [layout, element] of this.layouts) press(element, layout === navigation.layout);
     const { undo, redo } = project.history;
     const { drawing } = editor;

@@ -1,33 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { PixelPlane } from "../geometry/plane";
 import { areParallel, isSamePlane } from "../geometry/plane";
-import { depthBelow, sliceOnScreen, slicePlane, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { sliceOnScreen, slicePlane, toWorld, type Point2, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
-import type { SliceHeader, ViewName } from "../net/protocol";
+import type { ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { inView } from "../tools/hit";
 import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
 import { OverlayPainter } from "./overlay";
-import { newestOutlines, toldOutline, type Outlines } from "./outlines";
+import { newestOutlines, toldOutline } from "./outlines";
 import { PLANE_COLORS, VIEW_TITLES } from "./palette";
+import { SliceVectors, type ShownSlice } from "./slice_vectors";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
 const CROSSINGS_WAIT_MS = 250;
 const ASK_AGAIN_MS = 50; // so that two who overtake each other leave the server time to answer one
 const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
-
-interface ShownSlice {
-  plane: PixelPlane;
-  header: SliceHeader;
-  outlines: Outlines;
-  crossingPoints: Float32Array;
-}
 
 export interface SliceViewServices {
   navigation: Navigation;
@@ -51,6 +45,7 @@ export class SliceView {
   private images = 0; // how many have come
   private pixels: ImageData | null = null;
   private slice: ShownSlice | null = null;
+  private readonly vectors: SliceVectors;
   private readonly requests: Latest<{ pixels: boolean }>;
   private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
   private paintQueued = false;
@@ -65,6 +60,7 @@ export class SliceView {
     private readonly services: SliceViewServices,
   ) {
     const { navigation } = services;
+    this.vectors = new SliceVectors(name, services);
     this.requests = new Latest(
       (request) => this.ask(request.pixels),
       (old, next) => ({ pixels: old.pixels || next.pixels }),
@@ -307,75 +303,12 @@ export class SliceView {
   }
 
   private paintOverlay(screen: Screen): void {
-    const { project, editor, navigation } = this.services;
     const context = this.overlay.getContext("2d")!;
     const ratio = this.ratio();
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
-    const painter = new OverlayPainter(context, screen, this.fontPixels);
-    if (this.slice && areParallel(this.slice.plane, screen.axes)) {
-      const { header, outlines, crossingPoints, plane } = this.slice;
-      const shown = [...outlines.values()].filter(({ structure }) => project.structures.get(structure)?.visible);
-      painter.outlines(shown, plane, (id) => project.structures.get(id)?.color ?? "#888888");
-      painter.crossings(header, crossingPoints, plane, (id) => this.crossingColor(id, screen));
-    }
-    this.paintLines(painter, screen);
-    this.paintContours(painter, screen);
-    const crossings = project.shownContours().flatMap((contour) => contour.self_crossings);
-    for (const at of [...crossings, ...[...project.surfaces.values()].flatMap((surface) => surface.conflicts ?? []).map((conflict) => conflict.at)])
-      if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
-    this.paintSketch(painter, screen);
-    if (this.slice) painter.letters(this.slice.header.letters);
-    painter.scaleBar();
-    this.overlay.style.cursor = editor.cursor();
-  }
-
-  private crossingColor(contour: number, screen: Screen): string | null {
-    const { project, navigation } = this.services;
-    const found = project.contour(contour);
-    if (!found || !project.isShown(found) || inView(found, screen, navigation.step(this.name))) return null;
-    return project.structures.get(found.structure)?.color ?? null;
-  }
-
-  private paintLines(painter: OverlayPainter, screen: Screen): void {
-    const { editor, navigation } = this.services;
-    const crosshair = toScreen(screen, navigation.crosshair);
-    const hover = editor.hover && "line" in editor.hover && editor.hover.view === this.name ? editor.hover.line : null;
-    for (const line of editor.planeLines.seenIn(this.name, screen)) {
-      const strong = hover !== null && (hover.on === "crosshair" || hover.view === line.view);
-      painter.planeLine(line, crosshair, { strong, handles: editor.tool === "edit" && Math.min(screen.width, screen.height) > 230, faint: editor.tool !== "edit" });
-    }
-  }
-
-  private paintContours(painter: OverlayPainter, screen: Screen): void {
-    const { project, editor, navigation } = this.services;
-    const hover = editor.hover && "contour" in editor.hover ? editor.hover.contour : null;
-    for (const contour of project.shownContours()) {
-      if (!inView(contour, screen, navigation.step(this.name))) continue;
-      const selected = project.selection?.contour === contour.id;
-      const hovered = hover?.contour === contour.id;
-      painter.contour(contour, project.structures.get(contour.structure)!.color, {
-        selected,
-        hovered,
-        point: selected ? (project.selection?.point ?? null) : null,
-        hoveredPoint: hovered && hover.on === "point" ? hover.index : null,
-      });
-    }
-  }
-
-  private paintSketch(painter: OverlayPainter, screen: Screen): void {
-    const { project, navigation } = this.services;
-    const { drawing } = this.services.editor;
-    const color = project.activeStructure?.color ?? "#e8b04a";
-    const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
-    const { sketch } = drawing;
-    if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
-      const placed = drawing.placedLine.length > 1 ? drawing.placedLine : sketch.line();
-      painter.sketch(placed, drawing.rubberLine, sketch.points.map((point) => point.at), color, drawing.pointerCloses);
-    }
-    for (const { sketch: closed, line } of drawing.outbox.lines())
-      if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
-    if (near(drawing.handLine[0]) && near(drawing.handLine.at(-1))) painter.hand(drawing.handLine, color);
+    this.vectors.paint(new OverlayPainter(context, screen, this.fontPixels), screen, this.slice);
+    this.overlay.style.cursor = this.services.editor.cursor();
   }
 
   /** The point of the plane under the pointer. */
@@ -383,5 +316,4 @@ export class SliceView {
     const screen = this.screen();
     return screen && toWorld(screen, this.pointOf(event));
   }
-
 }

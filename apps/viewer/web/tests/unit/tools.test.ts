@@ -6,10 +6,11 @@ import type { Vec3 } from "../../src/geometry/vec";
 import { Project } from "../../src/model/project";
 import { ServerError } from "../../src/net/http";
 import type { Contour, SketchPoint } from "../../src/net/protocol";
-import { Editor, type ToolName } from "../../src/tools/editor";
+import { Editor } from "../../src/tools/editor";
 import type { Gesture } from "../../src/tools/gesture";
 import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
 import type { Remedy } from "../../src/tools/services";
+import type { ToolName } from "../../src/tools/registry";
 import { Sketch } from "../../src/tools/sketch";
 import { AXIAL, CORONAL, near, SAGITTAL, session, SKEW, square, started } from "./support";
 
@@ -380,7 +381,7 @@ test("a sketch that was left comes back by undo, with its tool, until something 
   assert.equal(drawing.sketch, null);
   assert.equal(drawing.undoLabel, "Leave the contour");
   assert.ok(drawing.undo());
-  assert.equal(editor.tool, "spline");
+  assert.equal(editor.tool.id, "spline");
   assert.equal(drawing.sketch!.points.length, 2);
   drawing.leave();
   editor.edits.make("structure.add", {});
@@ -516,7 +517,7 @@ test("a redrawn piece that is given up comes back by undo, one that is undone by
   assert.equal(drawing.redoLabel, "Redraw a part");
   editor.choose("edit");
   drawing.redo();
-  assert.equal(editor.tool, "redraw");
+  assert.equal(editor.tool.id, "redraw");
   assert.equal(drawing.sketch, stroke);
   drawing.leave();
   assert.equal(drawing.undoLabel, "Leave the piece");

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+import { drawingTool } from "./drawing_tool";
+
+export const freehandTool = drawingTool({
+  id: "freehand",
+  key: "f",
+  label: "Freehand",
+  title: "Drag around the structure; releasing closes the contour",
+  icon: "M3 14c2-6 4-9 6-9s0 5 1.500 6.500S15 8 17 6",
+  help: { Draw: [["F", "freehand: drag around the structure"]] },
+  stretch: "line",
+  hint: "Drag around the structure; releasing closes the contour",
+});

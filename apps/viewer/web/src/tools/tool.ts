@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Point2, Screen } from "../geometry/screen";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { StretchKind, ViewName } from "../net/protocol";
+import type { OverlayPainter } from "../view/overlay";
+import type { ContourEdits } from "./contour_edits";
+import type { Drawing } from "./drawing";
+import type { Gesture, Modifiers } from "./gesture";
+import type { ContourHit, LineHit } from "./hit";
+import type { PlaneLines } from "./plane_lines";
+import type { Sketch } from "./sketch";
+
+/** What a tool works with. */
+export interface ToolContext {
+  navigation: Navigation;
+  project: Project;
+  drawing: Drawing;
+  edits: ContourEdits;
+  planeLines: PlaneLines;
+}
+
+/** Where the pointer is, and the contour that it is on. */
+export interface Place {
+  view: ViewName;
+  screen: Screen;
+  step_mm: number; // from slice to slice
+  pointer: Point2;
+  hit: ContourHit | null;
+}
+
+/** What the pointer would take. */
+export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
+
+export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D"] as const;
+export type HelpSection = (typeof HELP_SECTIONS)[number];
+export type HelpRow = readonly [keys: string, what: string];
+export type Help = Partial<Record<HelpSection, readonly HelpRow[]>>;
+
+/** What the left button does on a slice. Each tool is one file, and a line in `registry.ts`. */
+export interface Tool<Id extends string = string> {
+  readonly id: Id;
+  /** A small letter. */
+  readonly key: string;
+  readonly label: string;
+  /** What its button says when the pointer rests on it. */
+  readonly title: string;
+  /** Lines on 20 x 20. */
+  readonly icon: string;
+  /** Shown without its label where the page is narrow. */
+  readonly isMinor?: boolean;
+  /** Its rows of the `?` sheet. */
+  readonly help: Help;
+  /** Of the line from a point that is clicked, where it draws new contours: then a sketch goes on when the tool is taken. */
+  readonly stretch?: StretchKind;
+  /** It takes the lines of other planes: they are bright, and have handles. */
+  readonly movesPlanes?: boolean;
+  /** Whether it is the tool to go on with this sketch. */
+  resumes?(sketch: Sketch): boolean;
+  /** What can be done next, for the status line. */
+  hint(context: ToolContext): string;
+  press(context: ToolContext, place: Place, modifiers: Modifiers): Gesture | null;
+  /** The pointer is here, and no button is held. */
+  hover(context: ToolContext, place: Place): Hover;
+  cursor(hover: Hover): string;
+  /** What it shows on a view beside contours and sketch. */
+  paint?(painter: OverlayPainter, context: ToolContext, view: ViewName, hover: Hover): void;
+}
+
+export function usualCursor(hover: Hover): string {
+  if (!hover) return "crosshair";
+  if ("contour" in hover) return hover.contour.on === "point" ? "grab" : "pointer";
+  return hover.line.on === "turn" ? "alias" : "move";
+}

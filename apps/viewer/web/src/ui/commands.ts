@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Navigation, PaneName } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { ViewName } from "../net/protocol";
+import type { Editor } from "../tools/editor";
+import { TOOLS } from "../tools/registry";
+import type { HelpRow, HelpSection } from "../tools/tool";
+
+/** What keys do things to. */
+export interface CommandServices {
+  navigation: Navigation;
+  project: Project;
+  editor: Editor;
+  /** The view that keys are for. */
+  focused(): ViewName;
+  toggleSingle(pane: PaneName): void;
+  undo(): void;
+  redo(): void;
+  help(): void;
+  leave(): void;
+  rename(): void;
+}
+
+/** What a key does; keys as events name them, letters small, with "Control+" before them where that is held. */
+export interface Command {
+  readonly keys: readonly string[];
+  readonly help?: readonly [HelpSection, ...HelpRow];
+  run(page: CommandServices, isShifted: boolean): void;
+}
+
+const KEY_ZOOM = 1.2;
+const PANES: readonly PaneName[] = ["axial", "sagittal", "coronal", "oblique", "surface"];
+
+const scroll = (steps: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.scroll(focused(), steps) });
+const zoom = (factor: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.zoomAt(focused(), navigation.crosshair, factor) });
+
+/** All that keys do but those that are held. The `?` sheet shows the rows of `help` in this order. */
+export const COMMANDS: readonly Command[] = [
+  ...TOOLS.map(({ id, key }): Command => ({ keys: [key], run: ({ editor }) => editor.choose(id) })),
+  scroll(-1, "ArrowUp", "ArrowLeft"),
+  scroll(1, "ArrowDown", "ArrowRight"),
+  scroll(-10, "PageUp"),
+  scroll(10, "PageDown"),
+  zoom(KEY_ZOOM, "+", "="),
+  zoom(1 / KEY_ZOOM, "-"),
+  ...PANES.map((pane, i): Command => ({ keys: [String(i + 1)], run: ({ toggleSingle }) => toggleSingle(pane) })),
+  {
+    keys: ["0"],
+    help: ["Look around", "1 2 3 4 5", "axial, sagittal, coronal, oblique, 3D alone; 0 all"],
+    run: ({ navigation }) => navigation.setLayout("overview"),
+  },
+  { keys: ["x"], help: ["Look around", "X, K", "plane lines on or off; all slices zoom and shift together"], run: ({ editor }) => editor.toggleLines() },
+  { keys: ["k"], run: ({ navigation }) => navigation.toggleLinked() },
+  { keys: ["Home"], help: ["Look around", "Home", "all views back to where they began"], run: ({ navigation }) => navigation.resetAll() },
+  { keys: ["Enter"], help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor }) => editor.drawing.close() },
+  {
+    keys: ["Backspace"],
+    help: ["Draw", "Backspace", "remove the last point"],
+    run: ({ editor: { drawing, edits } }) => (drawing.sketch ? drawing.removeLastPoint() : edits.deleteSelected()),
+  },
+  { keys: ["Escape"], help: ["Draw", "Esc", "leave the contour or the tool"], run: ({ leave }) => leave() },
+  { keys: ["F2"], help: ["Edit", "F2, double click on a name", "rename the structure"], run: ({ rename }) => rename() },
+  { keys: ["Delete"], help: ["Edit", "Del", "delete the selected point, or the contour"], run: ({ editor }) => editor.edits.deleteSelected() },
+  {
+    keys: ["c"],
+    help: ["Edit", "C, Shift + C", "copy to the next, previous slice"],
+    run: ({ editor, focused }, isShifted) => void editor.edits.copySelected(focused(), isShifted ? -1 : 1),
+  },
+  { keys: ["h"], help: ["Edit", "H", "hole on or off"], run: toggleHole },
+  {
+    keys: ["Control+z"],
+    help: ["Edit", "Ctrl + Z, Ctrl + Shift + Z", "undo, redo: every action, also after a restart"],
+    run: ({ undo, redo }, isShifted) => (isShifted ? redo() : undo()),
+  },
+  { keys: ["Control+y"], run: ({ redo }) => redo() },
+  { keys: ["?"], run: ({ help }) => help() },
+];
+
+function toggleHole({ editor, project }: CommandServices): void {
+  const contour = project.selectedContour;
+  if (contour) editor.edits.make("contour.set", { id: contour.id, hole: !contour.hole });
+}

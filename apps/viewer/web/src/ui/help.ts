@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+import { TOOLS } from "../tools/registry";
+import { HELP_SECTIONS, type Help, type HelpRow, type HelpSection } from "../tools/tool";
+import { COMMANDS } from "./commands";
+import { openDialog } from "./dialogs";
+import { el } from "./dom";
+
+/** What the mouse does with every tool. */
+const GESTURES: Help = {
+  "Look around": [
+    ["Wheel, ↑ ↓", "scroll through slices (Page keys: ten at a time)"],
+    ["Ctrl + wheel, + −", "zoom"],
+    ["Middle drag, Space + drag", "pan"],
+    ["Right drag", "window: width to the right, centre up and down"],
+    ["Shift + move", "all views jump to the point under the pointer"],
+  ],
+  Draw: [["Left clicks, left drag", "place points, draw by hand; change the tool in mid-contour"]],
+  "3D": [
+    ["Left, middle, right drag", "turn, zoom, shift"],
+    ["Double click on the surface", "show that place in the slices"],
+  ],
+};
+
+/** The rows of a section of the sheet: of the mouse, of tools, of keys. */
+export function helpRows(section: HelpSection): HelpRow[] {
+  const commands = COMMANDS.flatMap(({ help }): HelpRow[] => (help?.[0] === section ? [[help[1], help[2]]] : []));
+  return [...[GESTURES, ...TOOLS.map((tool) => tool.help)].flatMap((help) => help[section] ?? []), ...commands];
+}
+
+export function openHelp(version: string): void {
+  const columns = HELP_SECTIONS.map((section) =>
+    el("section", {}, el("h3", {}, section), el("dl", {}, ...helpRows(section).flatMap(([keys, what]) => [el("dt", {}, keys), el("dd", {}, what)]))),
+  );
+  openDialog("Mouse and keyboard", "help-dialog", el("div", { class: "help-columns" }, ...columns), el("p", { class: "fine" }, `kontur ${version}. Research software, not a medical device.`));
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+import { areParallel, type PixelPlane } from "../geometry/plane";
+import { depthBelow, toScreen, type Screen } from "../geometry/screen";
+import type { Vec3 } from "../geometry/vec";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { SliceHeader, ViewName } from "../net/protocol";
+import type { Editor } from "../tools/editor";
+import { inView } from "../tools/hit";
+import type { Outlines } from "./outlines";
+import type { OverlayPainter } from "./overlay";
+
+/** What came with a slice's pixels, or after them, and lies on its plane. */
+export interface ShownSlice {
+  plane: PixelPlane;
+  header: SliceHeader;
+  outlines: Outlines;
+  crossingPoints: Float32Array;
+}
+
+export interface SliceVectorsServices {
+  navigation: Navigation;
+  project: Project;
+  editor: Editor;
+}
+
+/** Which lines and marks are seen over a view's slice. */
+export class SliceVectors {
+  constructor(
+    private readonly name: ViewName,
+    private readonly services: SliceVectorsServices,
+  ) {}
+
+  paint(painter: OverlayPainter, screen: Screen, slice: ShownSlice | null): void {
+    if (slice && areParallel(slice.plane, screen.axes)) this.paintSurfaces(painter, screen, slice);
+    this.paintLines(painter, screen);
+    this.paintContours(painter, screen);
+    this.paintRings(painter, screen);
+    this.paintSketch(painter, screen);
+    this.services.editor.paint(painter, this.name);
+    if (slice) painter.letters(slice.header.letters);
+    painter.scaleBar();
+  }
+
+  private paintSurfaces(painter: OverlayPainter, screen: Screen, { header, outlines, crossingPoints, plane }: ShownSlice): void {
+    const { project } = this.services;
+    const shown = [...outlines.values()].filter(({ structure }) => project.structures.get(structure)?.visible);
+    painter.outlines(shown, plane, (id) => project.structures.get(id)?.color ?? "#888888");
+    painter.crossings(header, crossingPoints, plane, (id) => this.crossingColor(id, screen));
+  }
+
+  private paintRings(painter: OverlayPainter, screen: Screen): void {
+    const { project, navigation } = this.services;
+    const crossings = project.shownContours().flatMap((contour) => contour.self_crossings);
+    const conflicts = [...project.surfaces.values()].flatMap((surface) => surface.conflicts ?? []).map(({ at }) => at);
+    for (const at of [...crossings, ...conflicts]) if (Math.abs(depthBelow(screen, at)) < navigation.step(this.name)) painter.conflict(at);
+  }
+
+  private crossingColor(contour: number, screen: Screen): string | null {
+    const { project, navigation } = this.services;
+    const found = project.contour(contour);
+    if (!found || !project.isShown(found) || inView(found, screen, navigation.step(this.name))) return null;
+    return project.structures.get(found.structure)?.color ?? null;
+  }
+
+  private paintLines(painter: OverlayPainter, screen: Screen): void {
+    const { editor, navigation } = this.services;
+    const { movesPlanes = false } = editor.tool;
+    const crosshair = toScreen(screen, navigation.crosshair);
+    const hover = editor.hover && "line" in editor.hover && editor.hover.view === this.name ? editor.hover.line : null;
+    for (const line of editor.planeLines.seenIn(this.name, screen)) {
+      const strong = hover !== null && (hover.on === "crosshair" || hover.view === line.view);
+      painter.planeLine(line, crosshair, { strong, handles: movesPlanes && Math.min(screen.width, screen.height) > 230, faint: !movesPlanes });
+    }
+  }
+
+  private paintContours(painter: OverlayPainter, screen: Screen): void {
+    const { project, editor, navigation } = this.services;
+    const hover = editor.hover && "contour" in editor.hover ? editor.hover.contour : null;
+    for (const contour of project.shownContours()) {
+      if (!inView(contour, screen, navigation.step(this.name))) continue;
+      const selected = project.selection?.contour === contour.id;
+      const hovered = hover?.contour === contour.id;
+      painter.contour(contour, project.structures.get(contour.structure)!.color, {
+        selected,
+        hovered,
+        point: selected ? (project.selection?.point ?? null) : null,
+        hoveredPoint: hovered && hover.on === "point" ? hover.index : null,
+      });
+    }
+  }
+
+  private paintSketch(painter: OverlayPainter, screen: Screen): void {
+    const { project, navigation } = this.services;
+    const { drawing } = this.services.editor;
+    const color = project.activeStructure?.color ?? "#e8b04a";
+    const near = (p: Vec3 | undefined) => p !== undefined && Math.abs(depthBelow(screen, p)) < navigation.step(this.name) / 2;
+    const { sketch } = drawing;
+    if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
+      const placed = drawing.placedLine.length > 1 ? drawing.placedLine : sketch.line();
+      painter.sketch(placed, drawing.rubberLine, sketch.points.map((point) => point.at), color, drawing.pointerCloses);
+    }
+    for (const { sketch: closed, line } of drawing.outbox.lines())
+      if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);
+    if (near(drawing.handLine[0]) && near(drawing.handLine.at(-1))) painter.hand(drawing.handLine, color);
+  }
+}

@@ -76,6 +76,7 @@ export class App {
     this.editor = new Editor(this.navigation, this.project, {
       call: (name, args) => this.socket.call(name, args),
       screenOf: (view) => this.views.get(view)?.screen() ?? null,
+      outlinesOf: (view) => this.views.get(view)?.shownOutlines() ?? null,
       failed,
       tell: (text, remedy) => void this.notices.show("info", text, remedy),
       made: (contour) => this.tellCrossing(contour),
@@ -138,7 +139,7 @@ export class App {
     project.on(["surfaces"], () => this.surface.surfacesChanged());
     project.on(["structures"], () => this.savePageSoon());
     editor.on(["tool", "hover"], each((view) => view.paint()));
-    editor.on(["tool"], () => this.tellHint());
+    editor.on(["tool", "hover"], () => this.tellHint());
     editor.drawing.on(["sketch"], each((view) => view.paint()));
     editor.drawing.on(["sketch"], () => this.tellHint());
     editor.drawing.on(["points"], () => this.savePageSoon());

@@ -17,6 +17,9 @@ export interface PixelPlane extends Plane {
   readonly mm_per_pixel: number;
 }
 
+export const pixelToWorld = ({ origin, u, v, mm_per_pixel }: PixelPlane, column: number, row: number): Vec3 =>
+  add(origin, add(scale(u, column * mm_per_pixel), scale(v, row * mm_per_pixel)));
+
 /** Whether both name the same pixels, to the last bit. */
 export const isSamePlane = (a: PixelPlane, b: PixelPlane): boolean =>
   a.mm_per_pixel === b.mm_per_pixel && (["origin", "u", "v"] as const).every((key) => a[key].every((value, axis) => value === b[key][axis]));

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 import { heightOver } from "../geometry/plane";
-import { gap, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { toWorld, type Point2, type Screen } from "../geometry/screen";
 import { dot, scale, sub, type Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import { Latest } from "../net/latest";
 import type { Contour, ViewName } from "../net/protocol";
+import type { Drafts, Edit } from "./drafts";
 import type { Drawing } from "./drawing";
-import { DRAG_PIXELS, type Gesture, type Modifiers } from "./gesture";
+import type { Gesture, Modifiers } from "./gesture";
 import { inView, type ContourHit } from "./hit";
 import type { EditorServices } from "./services";
 import { isContourHidden } from "./sight";
 
-interface Edit {
-  name: string;
-  args: Record<string, unknown>;
-}
-
 /** Changes contours that are there, by gestures and by commands. */
 export class ContourEdits {
-  private readonly drafts = new Latest<Edit>((edit) => this.askDraft(edit));
-
   constructor(
     private readonly navigation: Navigation,
     private readonly project: Project,
     private readonly drawing: Drawing,
+    private readonly drafts: Drafts,
     private readonly services: EditorServices,
   ) {}
 
@@ -98,37 +92,7 @@ export class ContourEdits {
 
   /** The surface follows the pointer by drafts; the release makes the edit. */
   private draftGesture(start: Point2, editAt: (pointer: Point2) => Edit): Gesture {
-    let isDrag = false;
-    return {
-      move: (at) => {
-        isDrag ||= gap(at, start) > DRAG_PIXELS;
-        if (isDrag) this.drafts.send(editAt(at));
-      },
-      end: (at) => {
-        this.drafts.drop();
-        if (!isDrag) return;
-        const { name, args } = editAt(at);
-        this.make(name, args);
-      },
-      cancel: () => this.dropDraft(),
-    };
-  }
-
-  private async askDraft({ name, args }: Edit): Promise<void> {
-    try {
-      const { contour } = await this.services.call<{ contour: Contour }>(name, { ...args, draft: true });
-      this.project.draft = contour;
-    } catch (error) {
-      this.services.failed(error);
-    }
-  }
-
-  private dropDraft(): void {
-    this.drafts.drop();
-    void this.drafts.idle().then(() => {
-      this.project.draft = null;
-      this.services.call("draft.drop").catch(this.services.failed);
-    });
+    return this.drafts.drag(start, editAt, ({ name, args }) => this.make(name, args));
   }
 
   /** The selected point, or else the selected contour. */

@@ -218,7 +218,8 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
     this.send(sketch, line);
   }
 
-  private send(sketch: Sketch, line = sketch.finishedLine()): void {
+  /** Gives what is finished to the server; it is seen as `line` meanwhile. */
+  send(sketch: Sketch, line = sketch.finishedLine()): void {
     this.leftSketch = null;
     this.outbox.add(sketch, line);
     this.changed();

@@ -2,13 +2,14 @@
 import { usualCursor, type Tool } from "./tool";
 
 const SELECTED = "Drag points or the line · Ctrl + click inserts · Del deletes · C copies to the next slice";
+const OUTLINE = "Drag the outline where it is wrong, and it becomes a contour · A makes it one as it is";
 const LOOKING = "Wheel scrolls · right drag windows · Shift + move jumps · ? shows all";
 
 export const editTool: Tool<"edit"> = {
   id: "edit",
   key: "v",
   label: "Edit",
-  title: "Move the crosshair and plane lines; drag points and lines of contours",
+  title: "Move the crosshair and plane lines; drag points and lines of contours, and computed outlines",
   icon: "M4 3l5.500 13 2-5.500L17 8.500z",
   help: {
     "Look around": [
@@ -18,17 +19,27 @@ export const editTool: Tool<"edit"> = {
     Edit: [
       ["V", "edit tool"],
       ["Drag a point or a line", "bend the contour"],
+      ["Drag a computed outline", "make it a contour, bent by the drag"],
       ["Ctrl + click on a line", "insert a point"],
     ],
   },
   movesPlanes: true,
-  hint: ({ project }) => (project.selection ? SELECTED : LOOKING),
-  press: ({ edits, planeLines }, { view, screen, pointer, hit }, modifiers) =>
-    hit ? edits.press(screen, pointer, hit, modifiers) : planeLines.press(view, screen, pointer),
-  hover: ({ planeLines }, { view, screen, pointer, hit }) => {
+  hint: ({ project }, hover) => (hover && "outline" in hover ? OUTLINE : project.selection ? SELECTED : LOOKING),
+  press: ({ edits, outlines, planeLines }, { view, screen, pointer, hit }, modifiers) => {
+    if (hit) return edits.press(screen, pointer, hit, modifiers);
+    const isHandle = planeLines.at(view, screen, pointer)?.on === "turn";
+    return (isHandle ? null : outlines.press(view, screen, pointer)) ?? planeLines.press(view, screen, pointer);
+  },
+  hover: ({ outlines, planeLines }, { view, screen, pointer, hit }) => {
     if (hit) return { contour: hit, view };
     const line = planeLines.at(view, screen, pointer);
+    const outline = line?.on === "turn" ? null : outlines.at(view, screen, pointer);
+    if (outline) return { outline, view };
     return line && { line, view };
   },
   cursor: usualCursor,
+  paint: (painter, { outlines, project }, view, hover) => {
+    if (!hover || !("outline" in hover) || hover.view !== view) return;
+    painter.outlineToTake(outlines.line(view, hover.outline), project.structures.get(hover.outline.structure)?.color ?? "#888888");
+  },
 };

@@ -6,9 +6,11 @@ import type { Project } from "../model/project";
 import type { ViewName } from "../net/protocol";
 import type { OverlayPainter } from "../view/overlay";
 import { ContourEdits } from "./contour_edits";
+import { Drafts } from "./drafts";
 import { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import { hitContour } from "./hit";
+import { OutlineEdits } from "./outline_edits";
 import { PlaneLines } from "./plane_lines";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
 import type { EditorServices } from "./services";
@@ -18,8 +20,10 @@ import type { Hover, Place, Tool, ToolContext } from "./tool";
 export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   tool: Tool<ToolName> = toolNamed("edit");
   hover: Hover = null;
+  private pointer: { view: ViewName; at: Point2 } | null = null; // where it was moved last, until it left the view
   readonly drawing: Drawing;
   readonly edits: ContourEdits;
+  readonly outlines: OutlineEdits;
   readonly planeLines: PlaneLines;
 
   constructor(
@@ -29,7 +33,9 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   ) {
     super();
     this.drawing = new Drawing(project, services);
-    this.edits = new ContourEdits(navigation, project, this.drawing, services);
+    const drafts = new Drafts(project, services);
+    this.edits = new ContourEdits(navigation, project, this.drawing, drafts, services);
+    this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);
     this.drawing.on(["resumed"], () => this.takeToolOfSketch());
   }
@@ -61,12 +67,19 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   moved(view: ViewName, screen: Screen, pointer: Point2): void {
+    this.pointer = { view, at: pointer };
     this.setHover(this.tool.hover(this, this.place(view, screen, pointer)));
   }
 
   left(): void {
+    this.pointer = null;
     this.setHover(null);
     this.drawing.dropRubber();
+  }
+
+  /** Makes a contour of the outline of the slice under the pointer, or else of the one that the keyboard is in. */
+  adoptOutline(focused: ViewName): void {
+    this.outlines.adopt(this.pointer?.view ?? focused, this.pointer?.at ?? null);
   }
 
   doubleClick(): void {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { nearestOnLoop } from "../geometry/loop";
 import { commonDirection, coincide, type Axes } from "../geometry/plane";
 import { clippedLine, gap, nearestOnLine, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { dot, type Vec3 } from "../geometry/vec";
@@ -9,7 +10,7 @@ export type ContourHit =
   | { on: "line"; contour: number; at: Vec3 };
 
 const POINT_PIXELS = 8;
-const LINE_PIXELS = 6;
+export const LINE_PIXELS = 6;
 
 /** A contour drawn by hand has one control point, which only marks where it began: there is nothing to drag. */
 export const hasHandles = (contour: Contour): boolean => contour.control.length > 1;
@@ -54,18 +55,8 @@ function hitPoint(contour: Contour, screen: Screen, pointer: Point2): ContourHit
 }
 
 function hitLine(contour: Contour, screen: Screen, pointer: Point2): ContourHit | null {
-  const points = contour.points.map((p) => toScreen(screen, p));
-  let nearest = LINE_PIXELS;
-  let hit: ContourHit | null = null;
-  points.forEach((a, i) => {
-    const b = points[(i + 1) % points.length]!;
-    const { distance, t } = nearestOnLine(pointer, a, b);
-    if (distance > nearest) return;
-    nearest = distance;
-    const at: Point2 = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-    hit = { on: "line", contour: contour.id, at: toWorld(screen, at) };
-  });
-  return hit;
+  const { at, distance } = nearestOnLoop(contour.points.map((p) => toScreen(screen, p)), pointer);
+  return distance > LINE_PIXELS ? null : { on: "line", contour: contour.id, at: toWorld(screen, at) };
 }
 
 /** The line in which another view's plane cuts this one, with the handles that turn it. */

@@ -102,6 +102,7 @@ export class Outbox {
       structure: sketch.structure,
       plane: this.drawing.pixelPlane(sketch),
       control: sketch.points,
+      ...(sketch.hole && { hole: true }),
     });
     return contour;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Screen } from "../geometry/screen";
 import type { Contour, ViewName } from "../net/protocol";
+import type { ShownOutlines } from "./free_outlines";
 import type { Sketch } from "./sketch";
 
 /** What the user may do about what he is told. */
@@ -13,6 +14,8 @@ export interface Remedy {
 export interface EditorServices {
   call<Result>(name: string, args?: Record<string, unknown>): Promise<Result>;
   screenOf(view: ViewName): Screen | null;
+  /** What is shown of computed surfaces on the view's slice; null before that has come. */
+  outlinesOf(view: ViewName): ShownOutlines | null;
   failed(error: unknown): void;
   tell(text: string, remedy?: Remedy): void;
   /** A contour as an edit of this page has left it. */

@@ -11,6 +11,7 @@ export interface SavedSketch {
   points: SketchPoint[];
   isUnsaved?: boolean;
   redraws?: number;
+  hole?: boolean;
 }
 
 const SAVED_DIGITS = 9;
@@ -27,6 +28,8 @@ export class Sketch {
   points: SketchPoint[] = [];
   /** Finished by the user, but not taken by the server. */
   isUnsaved = false;
+  /** Its inside does not belong to the structure. */
+  hole = false;
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
   constructor(
@@ -95,8 +98,9 @@ export class Sketch {
   }
 
   /** A hand-drawn contour as a whole: one stretch from its first point around to it. */
-  static closedFree(plane: Plane, structure: number, path: readonly Vec3[]): Sketch {
+  static closedFree(plane: Plane, structure: number, path: readonly Vec3[], hole = false): Sketch {
     const sketch = new Sketch(plane, structure, "free");
+    sketch.hole = hole;
     sketch.points = [{ at: path[0]!, kind: "free", path: path.slice(1) }];
     return sketch;
   }
@@ -128,15 +132,16 @@ export class Sketch {
   }
 
   saved(): SavedSketch {
-    const { plane, structure, kind, isUnsaved, redraws } = this;
+    const { plane, structure, kind, isUnsaved, redraws, hole } = this;
     const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
-    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }), ...(redraws !== undefined && { redraws }) };
+    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }), ...(redraws !== undefined && { redraws }), ...(hole && { hole }) };
   }
 
-  static from({ plane, structure, kind, points, isUnsaved = false, redraws }: SavedSketch): Sketch {
+  static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false }: SavedSketch): Sketch {
     const sketch = new Sketch(plane, structure, kind, redraws);
     sketch.points = points;
     sketch.isUnsaved = isUnsaved;
+    sketch.hole = hole;
     return sketch;
   }
 

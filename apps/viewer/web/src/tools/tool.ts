@@ -8,6 +8,7 @@ import type { ContourEdits } from "./contour_edits";
 import type { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import type { ContourHit, LineHit } from "./hit";
+import type { OutlineEdits, OutlineHit } from "./outline_edits";
 import type { PlaneLines } from "./plane_lines";
 import type { Sketch } from "./sketch";
 
@@ -17,6 +18,7 @@ export interface ToolContext {
   project: Project;
   drawing: Drawing;
   edits: ContourEdits;
+  outlines: OutlineEdits;
   planeLines: PlaneLines;
 }
 
@@ -30,7 +32,7 @@ export interface Place {
 }
 
 /** What the pointer would take. */
-export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | null;
+export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | null;
 
 export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D"] as const;
 export type HelpSection = (typeof HELP_SECTIONS)[number];
@@ -58,7 +60,7 @@ export interface Tool<Id extends string = string> {
   /** Whether it is the tool to go on with this sketch. */
   resumes?(sketch: Sketch): boolean;
   /** What can be done next, for the status line. */
-  hint(context: ToolContext): string;
+  hint(context: ToolContext, hover: Hover): string;
   press(context: ToolContext, place: Place, modifiers: Modifiers): Gesture | null;
   /** The pointer is here, and no button is held. */
   hover(context: ToolContext, place: Place): Hover;
@@ -69,6 +71,7 @@ export interface Tool<Id extends string = string> {
 
 export function usualCursor(hover: Hover): string {
   if (!hover) return "crosshair";
+  if ("outline" in hover) return "grab";
   if ("contour" in hover) return hover.contour.on === "point" ? "grab" : "pointer";
   return hover.line.on === "turn" ? "alias" : "move";
 }

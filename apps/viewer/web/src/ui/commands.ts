@@ -66,6 +66,11 @@ export const COMMANDS: readonly Command[] = [
     help: ["Edit", "C, Shift + C", "copy to the next, previous slice"],
     run: ({ editor, focused }, isShifted) => void editor.edits.copySelected(focused(), isShifted ? -1 : 1),
   },
+  {
+    keys: ["a"],
+    help: ["Edit", "A", "make the computed outline under the pointer a contour, as it is"],
+    run: ({ editor, focused }) => editor.adoptOutline(focused()),
+  },
   { keys: ["h"], help: ["Edit", "H", "hole on or off"], run: toggleHole },
   {
     keys: ["Control+z"],

@@ -9,5 +9,5 @@ export function hintFor(editor: Editor): string {
   const { sketch } = editor.drawing;
   if (sketch?.isUnsaved || sketch?.redraws !== undefined) return `${sketch.title} is not saved · Enter tries again · Esc gives it up`;
   if (sketch) return sketch.canClose ? CLOSE : GO_ON;
-  return editor.tool.hint(editor);
+  return editor.tool.hint(editor, editor.hover);
 }

@@ -84,6 +84,12 @@ export class OverlayPainter {
     });
   }
 
+  /** A computed outline that the pointer would take. */
+  outlineToTake(points: readonly Vec3[], color: string): void {
+    this.ctx.lineJoin = "round";
+    this.stroke(this.path(points, true), tinted(color, 0.5), 2.6);
+  }
+
   hand(points: readonly Vec3[], color: string): void {
     this.ctx.lineJoin = "round";
     this.line(points, tinted(color, 0.75), 2.2);

@@ -10,6 +10,7 @@ import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
 import type { ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
+import type { ShownOutlines } from "../tools/free_outlines";
 import { inView } from "../tools/hit";
 import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
@@ -166,6 +167,11 @@ export class SliceView {
     this.slice.outlines.set(structure, toldOutline(structure, revision, lines));
     this.paintNow();
     this.tellState();
+  }
+
+  /** Null before the first slice has come. Those of a slice that was shown before are told with their own plane. */
+  shownOutlines(): ShownOutlines | null {
+    return this.slice && { plane: this.slice.plane, outlines: this.slice.outlines.values() };
   }
 
   /** Of a server that has started anew, and counts revisions from 1. */

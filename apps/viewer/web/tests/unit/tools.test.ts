@@ -3,19 +3,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Point2, Screen } from "../../src/geometry/screen";
 import type { Vec3 } from "../../src/geometry/vec";
-import { Project } from "../../src/model/project";
 import { ServerError } from "../../src/net/http";
 import type { Contour, SketchPoint } from "../../src/net/protocol";
-import { Editor } from "../../src/tools/editor";
-import type { Gesture } from "../../src/tools/gesture";
 import { hitContour, hitPlaneLines, planeLine } from "../../src/tools/hit";
-import type { Remedy } from "../../src/tools/services";
-import type { ToolName } from "../../src/tools/registry";
 import { Sketch } from "../../src/tools/sketch";
-import { AXIAL, CORONAL, near, SAGITTAL, session, SKEW, square, started } from "./support";
+import { editing, round, screen, type Call } from "./editing";
+import { AXIAL, CORONAL, near, SAGITTAL, session, SKEW, square } from "./support";
 
 const plane = { ...AXIAL, origin: [0, 0, 0] as Vec3 };
-const screen: Screen = { axes: AXIAL, center: [0, 0, 0], mm_per_pixel: 0.5, width: 400, height: 400 };
 const line = (count: number): Vec3[] => Array.from({ length: count }, (_, i) => [i, i * i * 0.1, 0]);
 
 test("hand-drawn and clicked stretches make one sketch", () => {
@@ -93,63 +88,6 @@ test("plane lines are hit on their line, their handles and the crosshair", () =>
   assert.deepEqual(hitPlaneLines(lines, crosshair, [352, 199]), { on: "turn", view: "coronal" });
   assert.equal(hitPlaneLines(lines, crosshair, [100, 100]), null);
 });
-
-interface Call {
-  name: string;
-  args: Record<string, unknown>;
-}
-
-/** An editor whose server answers every call with what it was told, but for those that it is told to refuse. */
-function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3): Vec3 => p) {
-  const calls: Call[] = [];
-  const complaints: string[] = [];
-  const remedies: Remedy[] = [];
-  const server: { refusal: ServerError | null } = { refusal: null };
-  const project = new Project();
-  project.start(session({ contours }));
-  const navigation = started();
-  const editor = new Editor(navigation, project, {
-    call: (name, args = {}) => {
-      calls.push({ name, args: structuredClone(args) }); // the sketch goes on
-      if (server.refusal) return Promise.reject(server.refusal);
-      const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));
-      return Promise.resolve({ control, points: control.map((point) => point.at), contour: square((args["id"] as number) ?? 9) } as never);
-    },
-    screenOf: () => screen,
-    failed: (error) => (server.refusal ? complaints.push(String(error)) : assert.fail(String(error))),
-    tell: (text, remedy) => {
-      complaints.push(text);
-      if (remedy) remedies.push(remedy);
-    },
-    made: () => undefined,
-    notSaved: (_, why) => complaints.push(why),
-  });
-  editor.choose(tool);
-  const press = (p: Point2, modifiers = {}): Gesture | null => editor.press("axial", screen, p, { ctrl: false, shift: false, ...modifiers });
-  const drag = (...points: Point2[]) => {
-    const gesture = press(points[0]!);
-    for (const p of points.slice(1)) gesture?.move(p);
-    gesture?.end(points.at(-1)!);
-  };
-  const settled = () => new Promise((resolve) => setImmediate(resolve));
-  const edits = () => calls.filter(({ name, args }) => name !== "path" && args["draft"] !== true);
-  const { drawing } = editor;
-  /** The server takes edits again: trying again sends the one that it had refused as it was, and nothing waits any more. */
-  const savedByTryingAgain = async () => {
-    server.refusal = null;
-    drawing.close();
-    await settled();
-    assert.equal(drawing.sketch, null);
-    assert.ok(!drawing.outbox.hasUnsaved);
-    const [first, second] = edits();
-    assert.equal(edits().length, 2);
-    assert.deepEqual(first!.args, second!.args);
-  };
-  return { editor, drawing, outbox: drawing.outbox, project, navigation, calls, press, drag, settled, edits, server, complaints, remedies, savedByTryingAgain };
-}
-
-const round = (count: number, radius: number): Point2[] =>
-  Array.from({ length: count }, (_, i) => [200 + radius * Math.cos((6.2 * i) / count), 200 + radius * Math.sin((6.2 * i) / count)]);
 
 test("the freehand tool makes a contour when the button is released", async () => {
   const { drag, edits, settled } = editing("freehand", []);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+import { gap, type Point2 } from "../geometry/screen";
+import type { Project } from "../model/project";
+import { Latest } from "../net/latest";
+import type { Contour } from "../net/protocol";
+import { DRAG_PIXELS, type Gesture } from "./gesture";
+import type { EditorServices } from "./services";
+
+/** A call that changes a contour, or adds one. */
+export interface Edit {
+  name: string;
+  args: Record<string, unknown>;
+}
+
+/** Edits that the surface follows while the hand is at them, and that are not made before it lets go. */
+export class Drafts {
+  private readonly edits = new Latest<Edit>((edit) => this.ask(edit));
+
+  constructor(
+    private readonly project: Project,
+    private readonly services: EditorServices,
+  ) {}
+
+  /** Drags something: what `editAt` a place would do is shown on the way, and done by `make` where the pointer lets go. */
+  drag(start: Point2, editAt: (pointer: Point2) => Edit, make: (edit: Edit) => void): Gesture {
+    let isDrag = false;
+    return {
+      move: (at) => {
+        isDrag ||= gap(at, start) > DRAG_PIXELS;
+        if (isDrag) this.send(editAt(at));
+      },
+      end: (at) => {
+        this.drop();
+        if (isDrag) make(editAt(at));
+      },
+      cancel: () => this.giveUp(),
+    };
+  }
+
+  send(edit: Edit): void {
+    this.edits.send(edit);
+  }
+
+  /** What waits is not sent any more: the edit itself follows. */
+  drop(): void {
+    this.edits.drop();
+  }
+
+  /** No edit follows: all is as it was. */
+  giveUp(): void {
+    this.drop();
+    void this.edits.idle().then(() => {
+      this.project.draft = null;
+      this.services.call("draft.drop").catch(this.services.failed);
+    });
+  }
+
+  private async ask({ name, args }: Edit): Promise<void> {
+    try {
+      const { contour } = await this.services.call<{ contour: Contour }>(name, { ...args, draft: true });
+      this.project.draft = contour;
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+}

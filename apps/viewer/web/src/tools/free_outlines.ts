@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+import { heightOver, pixelToWorld, type PixelPlane } from "../geometry/plane";
+import { isInside, nearestOnLoop, type NearPlace } from "../geometry/loop";
+import { planeOf, toScreen, type Point2, type Screen } from "../geometry/screen";
+import type { Vec3 } from "../geometry/vec";
+import type { Project } from "../model/project";
+import type { Outline } from "../view/outlines";
+import { inView } from "./hit";
+
+/** The outlines that a view shows, and the plane that they were cut with. */
+export interface ShownOutlines {
+  plane: PixelPlane;
+  outlines: Iterable<Outline>;
+}
+
+/** A closed line in which a computed surface cuts the slice, where nothing of that structure is drawn on it. */
+export interface FreeOutline {
+  structure: number;
+  points: readonly Vec3[];
+  seen: readonly Point2[]; // the same on the screen
+  isHole: boolean;
+}
+
+const SAME_SLICE_MM = 1e-3; // outlines of a slice that was shown before are not this slice's
+
+/** What of the outlines can be made a contour. Where the structure has one already, that one is to be changed, and not a second one laid over it. */
+export function freeOutlines({ plane, outlines }: ShownOutlines, project: Project, screen: Screen, step_mm: number): FreeOutline[] {
+  if (Math.abs(heightOver(planeOf(screen), plane.origin)) > SAME_SLICE_MM) return [];
+  const drawn = [...project.contours.values()].filter((contour) => inView(contour, screen, step_mm));
+  return [...outlines].flatMap((outline) => {
+    if (!project.structures.get(outline.structure)?.visible) return [];
+    const contours = drawn.filter(({ structure }) => structure === outline.structure).map(({ points }) => points.map((p) => toScreen(screen, p)));
+    return closedLines(outline, plane, screen).filter(({ seen }) => !contours.some((contour) => boxesMeet(contour, seen)));
+  });
+}
+
+function closedLines({ structure, points, lines }: Outline, plane: PixelPlane, screen: Screen): FreeOutline[] {
+  const world = lines
+    .filter(({ closed, count }) => closed && count >= 3)
+    .map(({ first, count }) => Array.from({ length: count }, (_, i) => pixelToWorld(plane, points[2 * (first + i)]!, points[2 * (first + i) + 1]!)));
+  const seen = world.map((line) => line.map((p) => toScreen(screen, p)));
+  return world.map((line, i) => {
+    const around = seen.filter((other, k) => k !== i && isInside(other, seen[i]![0]!)).length;
+    return { structure, points: line, seen: seen[i]!, isHole: around % 2 === 1 };
+  });
+}
+
+function boxesMeet(a: readonly Point2[], b: readonly Point2[]): boolean {
+  return ([0, 1] as const).every((axis) => {
+    const [from, to] = rangeOf(a, axis), [first, last] = rangeOf(b, axis);
+    return from <= last && first <= to;
+  });
+}
+
+function rangeOf(points: readonly Point2[], axis: 0 | 1): [number, number] {
+  let least = Infinity, most = -Infinity;
+  for (const p of points) {
+    least = Math.min(least, p[axis]);
+    most = Math.max(most, p[axis]);
+  }
+  return [least, most];
+}
+
+/** The outline that is nearest to the pointer, and where; null where there is none. */
+export function nearestOutline(outlines: readonly FreeOutline[], pointer: Point2): { outline: FreeOutline; place: NearPlace } | null {
+  const places = outlines.map((outline) => ({ outline, place: nearestOnLoop(outline.seen, pointer) }));
+  return places.reduce<(typeof places)[number] | null>((best, next) => (best && best.place.distance <= next.place.distance ? best : next), null);
+}

@@ -111,6 +111,7 @@ export class App {
       help: () => openHelp(this.session?.version ?? ""),
       leave: () => this.leave(),
       rename: () => panel.rename(this.project.activeStructure?.id),
+      tell: (text) => void this.notices.show("info", text),
     });
     this.stage.append(...[...this.views.values()].map((view) => view.element), this.surface.element, this.notices.element);
     document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element);
@@ -152,7 +153,7 @@ export class App {
           navigation,
           editor,
           pointers: this.pointers,
-          isPanning: () => this.keyboard.spaceHeld,
+          isPanning: () => this.keyboard.isPanning,
           pointed: (_, event) => this.pointed(view, event),
           jump: (_, event) => this.jump(view, event),
         }),

@@ -79,7 +79,7 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
 
   /** Where scrolling on leads: down, from the head to the feet, or else away from the viewer. */
   direction(view: ViewName): Vec3 {
-    return scale(this.cameras[view].axes.normal, this.views[view].plane.normal[2] > 0.5 ? -1 : 1);
+    return scale(this.cameras[view].axes.normal, this.scrollsBackwards(view) ? -1 : 1);
   }
 
   /** How far the crosshair can go in the view's direction from the image's centre, in mm, and where it is. */
@@ -89,7 +89,24 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     const [first, last] = this.views[view].range_mm;
     const ends: [number, number] = dot(direction, normal) > 0 ? [first, last] : [-last, -first];
     const [from, to] = this.isTurned(view) ? extent(this.image!.corners, direction, origin) : ends;
-    return { from, to, at: dot(sub(this.crosshair, origin), direction) };
+    return { from, to, at: this.depthOf(view, this.crosshair) };
+  }
+
+  /** How deep a point lies in the view's direction, from the image's centre, in mm. */
+  depthOf(view: ViewName, p: Vec3): number {
+    return dot(sub(p, this.views[view].plane.origin), this.direction(view));
+  }
+
+  /** The number of the slice on which the point lies while the view is not turned, from 1. */
+  unturnedSliceOf(view: ViewName, p: Vec3): number {
+    const { plane, range_mm, step_mm } = this.views[view];
+    const [first, last] = range_mm;
+    const height = dot(sub(p, plane.origin), plane.normal);
+    return Math.round((this.scrollsBackwards(view) ? last - height : height - first) / step_mm) + 1;
+  }
+
+  private scrollsBackwards(view: ViewName): boolean {
+    return this.views[view].plane.normal[2] > 0.5;
   }
 
   /** The view that looks along this normal, or against it, when it is not turned. */

@@ -20,6 +20,8 @@ import type { Hover, Place, Tool, ToolContext } from "./tool";
 export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   tool: Tool<ToolName> = toolNamed("edit");
   hover: Hover = null;
+  /** All that is drawn and fitted is out of sight, so that the image can be looked at; what is not seen is not edited. */
+  isBare = false;
   private pointer: { view: ViewName; at: Point2 } | null = null; // where it was moved last, until it left the view
   readonly drawing: Drawing;
   readonly edits: ContourEdits;
@@ -62,7 +64,13 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.emit("hover");
   }
 
+  showBare(isBare: boolean): void {
+    this.isBare = isBare;
+    this.emit("hover");
+  }
+
   press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
+    if (this.isBare) return null;
     return this.tool.press(this, this.place(view, screen, pointer), modifiers);
   }
 

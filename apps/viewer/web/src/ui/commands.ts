@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { nextDrawnSlice } from "../model/drawn_slices";
 import type { Navigation, PaneName } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { ViewName } from "../net/protocol";
@@ -19,6 +20,7 @@ export interface CommandServices {
   help(): void;
   leave(): void;
   rename(): void;
+  tell(text: string): void;
 }
 
 /** What a key does; keys as events name them, letters small, with "Control+" before them where that is held. */
@@ -27,6 +29,20 @@ export interface Command {
   readonly help?: readonly [HelpSection, ...HelpRow];
   run(page: CommandServices, isShifted: boolean): void;
 }
+
+/** What lasts for as long as a key is down. */
+export interface HeldKey {
+  readonly key: string;
+  readonly help?: readonly [HelpSection, ...HelpRow];
+  held?(page: CommandServices, isHeld: boolean): void;
+}
+
+export const PAN_KEY: HeldKey = { key: " ", help: ["Look around", "Middle drag, Space + drag", "pan"] };
+
+export const HELD_KEYS: readonly HeldKey[] = [
+  PAN_KEY,
+  { key: "b", help: ["Look around", "B, held", "the bare image: all that is drawn is out of sight"], held: ({ editor }, isHeld) => editor.showBare(isHeld) },
+];
 
 const KEY_ZOOM = 1.2;
 const PANES: readonly PaneName[] = ["axial", "sagittal", "coronal", "oblique", "surface"];
@@ -51,6 +67,11 @@ export const COMMANDS: readonly Command[] = [
   },
   { keys: ["x"], help: ["Look around", "X, K", "plane lines on or off; all slices zoom and shift together"], run: ({ editor }) => editor.toggleLines() },
   { keys: ["k"], run: ({ navigation }) => navigation.toggleLinked() },
+  {
+    keys: ["n"],
+    help: ["Look around", "N, Shift + N", "the next, the previous slice with a contour"],
+    run: (page, isShifted) => goToDrawnSlice(page, isShifted ? -1 : 1),
+  },
   { keys: ["Home"], help: ["Look around", "Home", "all views back to where they began"], run: ({ navigation }) => navigation.resetAll() },
   { keys: ["Enter"], help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor }) => editor.drawing.close() },
   {
@@ -80,6 +101,12 @@ export const COMMANDS: readonly Command[] = [
   { keys: ["Control+y"], run: ({ redo }) => redo() },
   { keys: ["?"], run: ({ help }) => help() },
 ];
+
+function goToDrawnSlice({ navigation, project, focused, tell }: CommandServices, direction: 1 | -1): void {
+  const slice = nextDrawnSlice(focused(), direction, navigation, project);
+  if (slice) navigation.scrollTo(focused(), slice.depth_mm);
+  else tell(`No slice with a contour lies ${direction > 0 ? "beyond" : "before"} this one in the ${focused()} view.`);
+}
 
 function toggleHole({ editor, project }: CommandServices): void {
   const contour = project.selectedContour;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { TOOLS } from "../tools/registry";
 import { HELP_SECTIONS, type Help, type HelpRow, type HelpSection } from "../tools/tool";
-import { COMMANDS } from "./commands";
+import { COMMANDS, HELD_KEYS } from "./commands";
 import { openDialog } from "./dialogs";
 import { el } from "./dom";
 
@@ -10,7 +10,6 @@ const GESTURES: Help = {
   "Look around": [
     ["Wheel, ↑ ↓", "scroll through slices (Page keys: ten at a time)"],
     ["Ctrl + wheel, + −", "zoom"],
-    ["Middle drag, Space + drag", "pan"],
     ["Right drag", "window: width to the right, centre up and down"],
     ["Shift + move", "all views jump to the point under the pointer"],
   ],
@@ -23,8 +22,8 @@ const GESTURES: Help = {
 
 /** The rows of a section of the sheet: of the mouse, of tools, of keys. */
 export function helpRows(section: HelpSection): HelpRow[] {
-  const commands = COMMANDS.flatMap(({ help }): HelpRow[] => (help?.[0] === section ? [[help[1], help[2]]] : []));
-  return [...[GESTURES, ...TOOLS.map((tool) => tool.help)].flatMap((help) => help[section] ?? []), ...commands];
+  const keys = [...HELD_KEYS, ...COMMANDS].flatMap(({ help }): HelpRow[] => (help?.[0] === section ? [[help[1], help[2]]] : []));
+  return [...[GESTURES, ...TOOLS.map((tool) => tool.help)].flatMap((help) => help[section] ?? []), ...keys];
 }
 
 export function openHelp(version: string): void {

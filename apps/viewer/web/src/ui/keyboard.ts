@@ -1,29 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-import { COMMANDS, type Command, type CommandServices } from "./commands";
+import { COMMANDS, HELD_KEYS, PAN_KEY, type Command, type CommandServices, type HeldKey } from "./commands";
 
 const COMMAND_OF_KEY: ReadonlyMap<string, Command> = new Map(COMMANDS.flatMap((command) => command.keys.map((key) => [key, command])));
 
 /** The keys of the `?` sheet. Fields and dialogs keep theirs. */
 export class Keyboard {
-  spaceHeld = false;
+  private readonly held = new Set<HeldKey>();
 
   constructor(private readonly services: CommandServices) {
     window.addEventListener("keydown", (event) => this.down(event));
-    window.addEventListener("keyup", (event) => {
-      if (event.key === " ") this.spaceHeld = false;
-    });
-    window.addEventListener("blur", () => {
-      this.spaceHeld = false;
-    });
+    window.addEventListener("keyup", (event) => this.release(({ key }) => key === letterOf(event)));
+    window.addEventListener("blur", () => this.release(() => true)); // another window gets the keyup
+  }
+
+  get isPanning(): boolean {
+    return this.held.has(PAN_KEY);
   }
 
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
     const presses = event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ");
     if (presses && !this.services.editor.drawing.sketch) return;
-    if (event.key === " ") this.spaceHeld = true;
-    else if (!this.obey(event)) return;
-    event.preventDefault();
+    if (this.hold(event) || this.obey(event)) event.preventDefault();
+  }
+
+  private hold(event: KeyboardEvent): boolean {
+    const key = HELD_KEYS.find((one) => one.key === keyOf(event));
+    if (!key) return false;
+    if (!this.held.has(key)) key.held?.(this.services, true);
+    this.held.add(key);
+    return true;
+  }
+
+  private release(isReleased: (key: HeldKey) => boolean): void {
+    for (const key of [...this.held].filter(isReleased)) {
+      this.held.delete(key);
+      key.held?.(this.services, false);
+    }
   }
 
   private obey(event: KeyboardEvent): boolean {
@@ -33,9 +46,8 @@ export class Keyboard {
   }
 }
 
-function keyOf({ key, ctrlKey, metaKey }: KeyboardEvent): string {
-  return (ctrlKey || metaKey ? "Control+" : "") + (key.length === 1 ? key.toLowerCase() : key);
-}
+const letterOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toLowerCase() : key);
+const keyOf = (event: KeyboardEvent): string => (event.ctrlKey || event.metaKey ? "Control+" : "") + letterOf(event);
 
 function isField(target: EventTarget | null): boolean {
   if (target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement) return true;

@@ -191,7 +191,7 @@ export class Panel {
 
   private contourRow(contour: Contour, structure: Structure): HTMLElement {
     const { project, call, show } = this.services;
-    const { name, position } = this.planeOf(contour);
+    const { name, slice, position } = this.planeOf(contour);
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = name ? PLANE_COLORS[name] : PLANE_COLORS.oblique;
     const isSelected = project.selection?.contour === contour.id;
@@ -206,7 +206,7 @@ export class Panel {
       "div",
       { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it`, on: { click: choose } },
       dot,
-      el("button", { type: "button", class: "contour-plane", "data-part": "show", title: "Show this contour" }, `${name ? VIEW_TITLES[name] : "Oblique"} ${position}`),
+      el("button", { type: "button", class: "contour-plane", "data-part": "show", title: "Show this contour" }, el("span", { class: "contour-view" }, name ? VIEW_TITLES[name] : "Oblique"), " ", el("span", { class: "contour-slice", title: "Slice" }, slice), " ", el("span", { class: "contour-position" }, position)),
       contour.hole ? el("span", { class: "flag", title: "A hole" }, "hole") : null,
       contour.self_crossings.length > 0 ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself") : null,
       el("span", { class: "contour-points" }, points),
@@ -215,14 +215,16 @@ export class Panel {
     );
   }
 
-  /** The view whose unturned planes the contour is parallel to, and where along them it lies. */
-  private planeOf(contour: Contour): { name: ViewName | null; position: string } {
+  /** The view whose unturned planes the contour is parallel to, on which of its slices and where along them it lies. */
+  private planeOf(contour: Contour): { name: ViewName | null; slice: string; position: string } {
     const { normal, origin } = contour.plane;
-    const name = this.services.navigation.unturnedViewAlong(normal);
+    const { navigation } = this.services;
+    const name = navigation.unturnedViewAlong(normal);
+    const slice = name ? String(navigation.unturnedSliceOf(name, origin)) : "";
     const axis = [0, 1, 2].find((i) => Math.abs(normal[i]!) > 0.9999);
-    if (axis === undefined) return { name, position: dot(origin, normal).toFixed(1) };
+    if (axis === undefined) return { name, slice, position: dot(origin, normal).toFixed(1) };
     const letter = (["RL", "AP", "IS"] as const)[axis]![origin[axis]! >= 0 ? 1 : 0]!;
-    return { name, position: `${letter} ${Math.abs(origin[axis]!).toFixed(1)}` };
+    return { name, slice, position: `${letter} ${Math.abs(origin[axis]!).toFixed(1)}` };
   }
 
   private updateActions(): void {

@@ -32,14 +32,18 @@ export class SliceVectors {
   ) {}
 
   paint(painter: OverlayPainter, screen: Screen, slice: ShownSlice | null): void {
+    if (!this.services.editor.isBare) this.paintDrawn(painter, screen, slice);
+    if (slice) painter.letters(slice.header.letters);
+    painter.scaleBar();
+  }
+
+  private paintDrawn(painter: OverlayPainter, screen: Screen, slice: ShownSlice | null): void {
     if (slice && areParallel(slice.plane, screen.axes)) this.paintSurfaces(painter, screen, slice);
     this.paintLines(painter, screen);
     this.paintContours(painter, screen);
     this.paintRings(painter, screen);
     this.paintSketch(painter, screen);
     this.services.editor.paint(painter, this.name);
-    if (slice) painter.letters(slice.header.letters);
-    painter.scaleBar();
   }
 
   private paintSurfaces(painter: OverlayPainter, screen: Screen, { header, outlines, crossingPoints, plane }: ShownSlice): void {

@@ -17,6 +17,7 @@ import { ICONS } from "../ui/icons";
 import { OverlayPainter } from "./overlay";
 import { newestOutlines, toldOutline } from "./outlines";
 import { PLANE_COLORS, VIEW_TITLES } from "./palette";
+import { SliceSlider } from "./slice_slider";
 import { SliceVectors, type ShownSlice } from "./slice_vectors";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
@@ -38,7 +39,7 @@ export class SliceView {
   readonly overlay = el("canvas", { class: "overlay", tabIndex: 0 });
   readonly header: HTMLElement;
   private readonly image = el("canvas", { class: "image" });
-  private readonly slider = el("input", { type: "range", class: "slice-slider", title: "Slice (mouse wheel, arrow keys)", on: { input: () => this.slid() } });
+  private readonly slider: SliceSlider;
   private readonly position = el("span", { class: "slice-number" });
   private readonly bitmap = document.createElement("canvas");
   private bitmapPlane: PixelPlane | null = null;
@@ -61,6 +62,7 @@ export class SliceView {
     private readonly services: SliceViewServices,
   ) {
     const { navigation } = services;
+    this.slider = new SliceSlider(name, navigation, services.project);
     this.vectors = new SliceVectors(name, services);
     this.requests = new Latest(
       (request) => this.ask(request.pixels),
@@ -86,7 +88,7 @@ export class SliceView {
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[name];
     this.header.append(dot, el("span", { class: "pane-title" }, VIEW_TITLES[name]), this.position, el("span", { class: "spring" }), reset, enlarge);
-    this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image, this.overlay, this.header, this.slider);
+    this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image, this.overlay, this.header, this.slider.element);
     this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
@@ -127,6 +129,7 @@ export class SliceView {
   contoursChanged(): void {
     const isComing = [...this.services.project.surfaces.values()].some(({ stage }) => stage === "outdated" || stage === "preview");
     if (!isComing || !this.slice) return this.refresh(false);
+    this.slider.update();
     this.paint();
     this.element.dataset["pending"] = "true";
     window.clearTimeout(this.crossingsTimer);
@@ -264,15 +267,9 @@ export class SliceView {
     ++this.images;
   }
 
-  private slid(): void {
-    this.services.navigation.scrollTo(this.name, Number(this.slider.value));
-  }
-
   private updateSlider(): void {
     const { navigation } = this.services;
-    const { from, to, at } = navigation.depth(this.name);
-    Object.assign(this.slider, { min: String(from), max: String(to), step: String(navigation.step(this.name)) });
-    this.slider.value = String(at);
+    this.slider.update();
     const { number, count } = navigation.slice(this.name);
     this.position.textContent = `${number} / ${count}`;
     const { dataset } = this.element;

@@ -6,7 +6,7 @@ import { Editor } from "../../src/tools/editor";
 import { TOOLS } from "../../src/tools/registry";
 import type { EditorServices } from "../../src/tools/services";
 import { HELP_SECTIONS } from "../../src/tools/tool";
-import { COMMANDS } from "../../src/ui/commands";
+import { COMMANDS, HELD_KEYS } from "../../src/ui/commands";
 import { helpRows } from "../../src/ui/help";
 import { hintFor } from "../../src/ui/hints";
 import { session, started } from "./support";
@@ -21,7 +21,7 @@ const rows = HELP_SECTIONS.flatMap(helpRows);
 test("no two tools have a name in common, and no two commands a key", () => {
   assert.deepEqual(twice(TOOLS.map(({ id }) => id)), []);
   assert.deepEqual(twice(TOOLS.map(({ icon }) => icon)), []);
-  assert.deepEqual(twice(COMMANDS.flatMap(({ keys }) => keys)), []);
+  assert.deepEqual(twice([...COMMANDS.flatMap(({ keys }) => keys), ...HELD_KEYS.map(({ key }) => key)]), []);
 });
 
 test("the key of every tool takes it, and the ? sheet and the status line know it", () => {

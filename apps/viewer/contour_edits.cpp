@@ -193,6 +193,12 @@ DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, 
     return redrawn(contour, sketch, edges, {.snap = false});
 }
 
+DrawnContour redraw_whole(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges) {
+    if (path.size() < 3) refuse("the new line of a contour has fewer than 3 points");
+    const std::vector<Vec3> rest(path.begin() + 1, path.end());
+    return redrawn(contour, {{.at = path.front(), .kind = Stretch::free, .path = rest}}, edges, {.snap = false});
+}
+
 DrawnContour translate(const DrawnContour& contour, const Vec3& by) {
     return moved(contour, by - dot(by, contour.plane.normal) * contour.plane.normal);
 }

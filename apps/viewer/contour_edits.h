@@ -33,6 +33,9 @@ DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to,
 /// Replaces the shorter part of the line between the points nearest to the path's two ends by the path.
 DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges);
 
+/// Replaces the whole line by the path, whose last point is followed by its first.
+DrawnContour redraw_whole(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges);
+
 /// Moves all of it within its plane; what of `by` leads out of it is left out.
 DrawnContour translate(const DrawnContour& contour, const Vec3& by);
 

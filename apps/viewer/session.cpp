@@ -407,7 +407,10 @@ json Session::pull_contour(const Members& m) {
 }
 
 json Session::redraw_contour(const Members& m) {
-    return put("Redraw a part", redraw(contour_of(project_.state(), m.id("id")), m.points("path"), edges_), m);
+    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    const std::vector<Vec3> path = m.points("path");
+    const bool whole = m.flag_or("whole", false);
+    return put("Redraw a part", whole ? redraw_whole(contour, path, edges_) : redraw(contour, path, edges_), m);
 }
 
 json Session::translate_contour(const Members& m) {

@@ -31,7 +31,7 @@ export function isInside(points: readonly Point2[], [x, y]: Point2): boolean {
 }
 
 /** How far along the line each point is, and last how long it is. */
-function arcLengths(points: readonly Vec3[]): number[] {
+export function arcLengths(points: readonly Vec3[]): number[] {
   const at = [0];
   points.forEach((p, i) => void at.push(at[i]! + distance(p, points[(i + 1) % points.length]!)));
   return at;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { StretchKind } from "../net/protocol";
 import type { ContourHit } from "./hit";
-import { usualCursor, type Place, type Tool, type ToolContext } from "./tool";
+import type { Place } from "./place";
+import { usualCursor, type Tool, type ToolContext } from "./tool";
 
 type Parts<Id extends string> = Pick<Tool<Id>, "id" | "key" | "label" | "title" | "icon" | "help"> & { stretch: StretchKind; hint: string };
 

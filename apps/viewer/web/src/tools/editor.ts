@@ -11,10 +11,12 @@ import { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import { hitContour } from "./hit";
 import { OutlineEdits } from "./outline_edits";
+import type { Place } from "./place";
 import { PlaneLines } from "./plane_lines";
+import { Pushing } from "./pushing";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
 import type { EditorServices } from "./services";
-import type { Hover, Place, Tool, ToolContext } from "./tool";
+import type { Hover, Tool, ToolContext } from "./tool";
 
 /** Hands presses and moves on a view to the tool that the user has chosen. */
 export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
@@ -27,17 +29,19 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly edits: ContourEdits;
   readonly outlines: OutlineEdits;
   readonly planeLines: PlaneLines;
+  readonly pushing: Pushing;
 
   constructor(
     readonly navigation: Navigation,
     readonly project: Project,
-    services: EditorServices,
+    private readonly services: EditorServices,
   ) {
     super();
     this.drawing = new Drawing(project, services);
     const drafts = new Drafts(project, services);
     this.edits = new ContourEdits(navigation, project, this.drawing, drafts, services);
     this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
+    this.pushing = new Pushing(project, this.drawing, this.edits, this.outlines, drafts, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);
     this.drawing.on(["resumed"], () => this.takeToolOfSketch());
   }
@@ -51,6 +55,13 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.setHover(null);
     this.emit("tool");
     drawing.changed();
+    this.hoverAgain();
+  }
+
+  /** The pointer has not moved, but what it would do may be something else. */
+  private hoverAgain(): void {
+    const screen = this.pointer && this.services.screenOf(this.pointer.view);
+    if (screen) this.moved(this.pointer!.view, screen, this.pointer!.at);
   }
 
   private takeToolOfSketch(): void {
@@ -81,6 +92,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
 
   left(): void {
     this.pointer = null;
+    this.tool.left?.(this);
     this.setHover(null);
     this.drawing.dropRubber();
   }
@@ -88,6 +100,14 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   /** Makes a contour of the outline of the slice under the pointer, or else of the one that the keyboard is in. */
   adoptOutline(focused: ViewName): void {
     this.outlines.adopt(this.pointer?.view ?? focused, this.pointer?.at ?? null);
+  }
+
+  /** False where the wheel with Ctrl means nothing to the tool. */
+  wheel(factor: number): boolean {
+    if (!this.tool.wheel) return false;
+    this.tool.wheel(this, factor);
+    this.emit("hover");
+    return true;
   }
 
   doubleClick(): void {

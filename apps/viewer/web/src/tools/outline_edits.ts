@@ -53,7 +53,7 @@ export class OutlineEdits {
     return {
       move: (at) => {
         isDrag ||= gap(at, pointer) > DRAG_PIXELS;
-        if (isDrag) this.showDraft(contourAt(at));
+        if (isDrag) this.draft(contourAt(at));
       },
       end: (at) => {
         this.drafts.drop();
@@ -82,22 +82,25 @@ export class OutlineEdits {
     this.services.tell(`${name} has no outline on this slice that is not drawn already. Point at a slice where its computed outline shows, and press A again.`);
   }
 
-  private showDraft(sketch: Sketch): void {
+  /** A contour that the hand still holds. */
+  draft(sketch: Sketch): void {
     this.drawing.showHand(sketch.line());
     const { plane, structure, points, hole } = sketch;
     this.drafts.send({ name: "contour.add", args: { structure, plane, control: points, ...(hole && { hole }) } });
   }
 
-  private add(contour: Sketch): void {
+  add(contour: Sketch): void {
     this.project.activate(contour.structure);
     this.drawing.send(contour);
   }
 
-  private contour(screen: Screen, { structure, isHole }: FreeOutline, points: readonly Vec3[]): Sketch {
+  /** An outline's contour with this line. */
+  contour(screen: Screen, { structure, isHole }: FreeOutline, points: readonly Vec3[]): Sketch {
     return Sketch.closedFree(planeOf(screen), structure, points, isHole);
   }
 
-  private free(view: ViewName, screen: Screen): FreeOutline[] {
+  /** The outlines of the view's slice that can be made contours. */
+  free(view: ViewName, screen: Screen): FreeOutline[] {
     const shown = this.services.outlinesOf(view);
     return shown ? freeOutlines(shown, this.project, screen, this.navigation.step(view)) : [];
   }

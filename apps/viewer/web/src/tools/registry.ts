@@ -2,12 +2,13 @@
 import { editTool } from "./edit_tool";
 import { freehandTool } from "./freehand_tool";
 import { moveTool } from "./move_tool";
+import { pushTool } from "./push_tool";
 import { redrawTool } from "./redraw_tool";
 import { splineTool } from "./spline_tool";
 import type { Tool } from "./tool";
 import { wireTool } from "./wire_tool";
 
-const ALL = [editTool, wireTool, freehandTool, splineTool, redrawTool, moveTool] as const;
+const ALL = [editTool, wireTool, freehandTool, splineTool, redrawTool, moveTool, pushTool] as const;
 
 export type ToolName = (typeof ALL)[number]["id"];
 

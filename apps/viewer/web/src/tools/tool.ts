@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Point2, Screen } from "../geometry/screen";
+import type { Point2 } from "../geometry/screen";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { StretchKind, ViewName } from "../net/protocol";
@@ -9,7 +9,9 @@ import type { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import type { ContourHit, LineHit } from "./hit";
 import type { OutlineEdits, OutlineHit } from "./outline_edits";
+import type { Place } from "./place";
 import type { PlaneLines } from "./plane_lines";
+import type { Pushing } from "./pushing";
 import type { Sketch } from "./sketch";
 
 /** What a tool works with. */
@@ -20,19 +22,11 @@ export interface ToolContext {
   edits: ContourEdits;
   outlines: OutlineEdits;
   planeLines: PlaneLines;
-}
-
-/** Where the pointer is, and the contour that it is on. */
-export interface Place {
-  view: ViewName;
-  screen: Screen;
-  step_mm: number; // from slice to slice
-  pointer: Point2;
-  hit: ContourHit | null;
+  pushing: Pushing;
 }
 
 /** What the pointer would take. */
-export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | null;
+export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { brush: Point2; view: ViewName } | null;
 
 export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D"] as const;
 export type HelpSection = (typeof HELP_SECTIONS)[number];
@@ -64,13 +58,17 @@ export interface Tool<Id extends string = string> {
   press(context: ToolContext, place: Place, modifiers: Modifiers): Gesture | null;
   /** The pointer is here, and no button is held. */
   hover(context: ToolContext, place: Place): Hover;
+  /** The wheel with Ctrl, where it does not zoom; above 1: larger. */
+  wheel?(context: ToolContext, factor: number): void;
+  /** The pointer is gone from the view. */
+  left?(context: ToolContext): void;
   cursor(hover: Hover): string;
   /** What it shows on a view beside contours and sketch. */
   paint?(painter: OverlayPainter, context: ToolContext, view: ViewName, hover: Hover): void;
 }
 
 export function usualCursor(hover: Hover): string {
-  if (!hover) return "crosshair";
+  if (!hover || "brush" in hover) return "crosshair";
   if ("outline" in hover) return "grab";
   if ("contour" in hover) return hover.contour.on === "point" ? "grab" : "pointer";
   return hover.line.on === "turn" ? "alias" : "move";

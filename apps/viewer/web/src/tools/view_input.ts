@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { toWorld, type Point2 } from "../geometry/screen";
+import { toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { SliceView } from "../view/slice_view";
@@ -103,11 +103,15 @@ export class ViewInput {
     const delta = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? event.deltaY * 20 : event.deltaY;
     const screen = this.view.screen();
     if (!screen) return;
-    if (event.ctrlKey || event.metaKey) return navigation.zoomAt(this.view.name, toWorld(screen, this.view.pointOf(event)), Math.exp(-delta / 400));
+    if (event.ctrlKey || event.metaKey) return this.grow(screen, this.view.pointOf(event), Math.exp(-delta / 400));
     this.wheelRest += delta;
     const steps = Math.trunc(this.wheelRest / WHEEL_STEP);
     this.wheelRest -= steps * WHEEL_STEP;
     if (steps !== 0) navigation.scroll(this.view.name, Math.abs(delta) >= 100 ? Math.sign(steps) : steps);
+  }
+
+  private grow(screen: Screen, at: Point2, factor: number): void {
+    if (!this.services.editor.wheel(factor)) this.services.navigation.zoomAt(this.view.name, toWorld(screen, at), factor);
   }
 
   private panGesture(start: Point2): Gesture {

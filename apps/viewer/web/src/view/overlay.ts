@@ -90,6 +90,14 @@ export class OverlayPainter {
     this.stroke(this.path(points, true), tinted(color, 0.5), 2.6);
   }
 
+  brush(at: Point2, radius: number): void {
+    for (const [color, width] of [[SHADE, 3], [INK, 1.3]] as const) {
+      const path = new Path2D();
+      path.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+      this.stroke(path, color, width);
+    }
+  }
+
   hand(points: readonly Vec3[], color: string): void {
     this.ctx.lineJoin = "round";
     this.line(points, tinted(color, 0.75), 2.2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Vec3 } from "./geometry/vec";
 import type { Screen } from "./geometry/screen";
+import { Appearance, type SavedAppearance } from "./model/appearance";
 import { Navigation, type PaneName, type SavedNavigation } from "./model/navigation";
 import { Project } from "./model/project";
 import { Http, ServerError } from "./net/http";
@@ -27,6 +28,7 @@ interface SavedPage {
   navigation: SavedNavigation;
   structure: number;
   hintSeen: boolean;
+  appearance?: SavedAppearance;
   sketch?: SavedSketch;
   unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
 }
@@ -39,6 +41,7 @@ const REFUSALS = new Set(["invalid_input", "not_found"]); // by which no work is
 export class App {
   private readonly navigation = new Navigation();
   private readonly project = new Project();
+  private readonly appearance = new Appearance();
   private readonly views = new Map<ViewName, SliceView>();
   private readonly editor: Editor;
   private active: ViewName = "axial";
@@ -82,7 +85,7 @@ export class App {
       made: (contour) => this.tellCrossing(contour),
       notSaved: (sketch, why) => this.tellNotSaved(sketch, why),
     });
-    const shared = { navigation: this.navigation, project: this.project, editor: this.editor, http: this.http, failed };
+    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, editor: this.editor, http: this.http, failed };
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
     this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p) });
     this.values = new Latest((p) => this.askValue(p));
@@ -139,6 +142,8 @@ export class App {
     project.on(["structures"], () => this.surface.restyle());
     project.on(["surfaces"], () => this.surface.surfacesChanged());
     project.on(["structures"], () => this.savePageSoon());
+    this.appearance.on(["changed"], each((view) => view.paint()));
+    this.appearance.on(["changed"], () => this.savePageSoon());
     editor.on(["tool", "hover"], each((view) => view.paint()));
     editor.on(["tool", "hover"], () => this.tellHint());
     editor.drawing.on(["sketch"], each((view) => view.paint()));
@@ -204,6 +209,7 @@ export class App {
     this.views.forEach((view) => view.forgetOutlines());
     this.surface.forgetRevisions();
     this.project.start(session);
+    if (isFirst && page?.appearance) this.appearance.set(page.appearance);
     if (isFirst && page?.structure) this.project.activate(page.structure);
     if (isFirst) this.editor.drawing.outbox.restore(page?.sketch, page?.unsaved ?? []);
     void this.surface.start(session.image);
@@ -434,7 +440,7 @@ export class App {
     if (!this.session) return;
     window.clearTimeout(this.saveTimer);
     this.saveTimer = 0;
-    const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen };
+    const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen, appearance: this.appearance.saved() };
     let room = LONGEST_SAVED_SKETCHES;
     const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
     const { drawing } = this.editor;

@@ -50,6 +50,7 @@ const letterOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toL
 const keyOf = (event: KeyboardEvent): string => (event.ctrlKey || event.metaKey ? "Control+" : "") + letterOf(event);
 
 function isField(target: EventTarget | null): boolean {
+  if (target instanceof Element && target.closest("[popover]")) return true;
   if (target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement) return true;
   return target instanceof HTMLInputElement && (target.type === "text" || target.type === "number");
 }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Appearance } from "../model/appearance";
 import type { LayoutName, Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Preset } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { TOOLS, type ToolName } from "../tools/registry";
+import { appearanceButton } from "./appearance";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 
 export interface ToolbarServices {
   navigation: Navigation;
+  appearance: Appearance;
   project: Project;
   editor: Editor;
   undo(): void;
@@ -58,6 +61,7 @@ export class Toolbar {
       group(
         button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", click: () => editor.toggleLines() }),
         this.link,
+        ...appearanceButton(services.appearance),
       ),
       group(
         button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", click: services.openImport }),

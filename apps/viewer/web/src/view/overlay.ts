@@ -3,6 +3,7 @@ import { sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/s
 import { scaleBar } from "../geometry/scale_bar";
 import type { PixelPlane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
+import type { SavedAppearance } from "../model/appearance";
 import type { Contour, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
 import type { Outline } from "./outlines";
@@ -20,6 +21,7 @@ export class OverlayPainter {
   constructor(
     private readonly ctx: CanvasRenderingContext2D,
     private readonly screen: Screen,
+    private readonly appearance: SavedAppearance,
     private readonly fontPixels = USUAL_FONT_PIXELS,
   ) {
     this.scale = fontPixels / USUAL_FONT_PIXELS;
@@ -39,10 +41,10 @@ export class OverlayPainter {
         if (closed) path.closePath();
       }
       const color = colorOf(structure);
-      this.ctx.fillStyle = withAlpha(color, 0.13);
+      this.ctx.fillStyle = withAlpha(color, this.appearance.fill);
       this.ctx.fill(path, "evenodd");
       this.ctx.lineJoin = "round";
-      this.stroke(path, withAlpha(color, 0.95), 1.4);
+      this.stroke(path, withAlpha(color, 0.95), 1.4 * this.appearance.width);
     }
   }
 
@@ -62,9 +64,10 @@ export class OverlayPainter {
     const path = this.path(contour.points, true);
     const light = tinted(color, state.selected || state.hovered ? 0.82 : 0.55);
     this.ctx.lineJoin = "round";
-    this.stroke(path, SHADE, state.selected ? 4.5 : 3.8);
+    const width = (state.selected ? 2.4 : 1.9) * this.appearance.width;
+    this.stroke(path, SHADE, width + 2);
     if (contour.hole) this.ctx.setLineDash([7, 4]);
-    this.stroke(path, light, state.selected ? 2.4 : 1.9);
+    this.stroke(path, light, width);
     this.ctx.setLineDash([]);
     if (!hasHandles(contour) || !(state.selected || state.hovered)) return;
     contour.control.forEach(({ at }, i) => this.handle(toScreen(this.screen, at), i === state.point, i === state.hoveredPoint, color));
@@ -87,7 +90,7 @@ export class OverlayPainter {
   /** A computed outline that the pointer would take. */
   outlineToTake(points: readonly Vec3[], color: string): void {
     this.ctx.lineJoin = "round";
-    this.stroke(this.path(points, true), tinted(color, 0.5), 2.6);
+    this.stroke(this.path(points, true), tinted(color, 0.5), 2.6 * this.appearance.width);
   }
 
   brush(at: Point2, radius: number): void {
@@ -182,6 +185,7 @@ export class OverlayPainter {
   private line(points: readonly Vec3[], color: string, width: number): void {
     if (points.length < 2) return;
     const path = this.path(points, false);
+    width *= this.appearance.width;
     const dash = this.ctx.getLineDash();
     this.ctx.setLineDash([]);
     this.stroke(path, SHADE, width + 1.8);

@@ -2,6 +2,7 @@
 import { areParallel, type PixelPlane } from "../geometry/plane";
 import { depthBelow, toScreen, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
+import type { SavedAppearance } from "../model/appearance";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { SliceHeader, ViewName } from "../net/protocol";
@@ -22,6 +23,7 @@ export interface SliceVectorsServices {
   navigation: Navigation;
   project: Project;
   editor: Editor;
+  appearance: SavedAppearance;
 }
 
 /** Which lines and marks are seen over a view's slice. */

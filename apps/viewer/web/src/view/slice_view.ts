@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { PixelPlane } from "../geometry/plane";
-import { areParallel, isSamePlane } from "../geometry/plane";
-import { sliceOnScreen, slicePlane, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { isSamePlane } from "../geometry/plane";
+import { slicePlane, toWorld, type Point2, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
+import type { SavedAppearance } from "../model/appearance";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Http } from "../net/http";
@@ -17,18 +18,19 @@ import { ICONS } from "../ui/icons";
 import { OverlayPainter } from "./overlay";
 import { newestOutlines, toldOutline } from "./outlines";
 import { PLANE_COLORS, VIEW_TITLES } from "./palette";
+import { SliceImage } from "./slice_image";
 import { SliceSlider } from "./slice_slider";
 import { SliceVectors, type ShownSlice } from "./slice_vectors";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
 const CROSSINGS_WAIT_MS = 250;
 const ASK_AGAIN_MS = 50; // so that two who overtake each other leave the server time to answer one
-const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
 
 export interface SliceViewServices {
   navigation: Navigation;
   project: Project;
   editor: Editor;
+  appearance: SavedAppearance;
   http: Http;
   failed(error: unknown): void;
 }
@@ -38,14 +40,9 @@ export class SliceView {
   readonly element: HTMLElement;
   readonly overlay = el("canvas", { class: "overlay", tabIndex: 0 });
   readonly header: HTMLElement;
-  private readonly image = el("canvas", { class: "image" });
+  private readonly image = new SliceImage();
   private readonly slider: SliceSlider;
   private readonly position = el("span", { class: "slice-number" });
-  private readonly bitmap = document.createElement("canvas");
-  private bitmapPlane: PixelPlane | null = null;
-  private paintedImage = ""; // which image, and where: painting it once more would cost a frame as much again
-  private images = 0; // how many have come
-  private pixels: ImageData | null = null;
   private slice: ShownSlice | null = null;
   private readonly vectors: SliceVectors;
   private readonly requests: Latest<{ pixels: boolean }>;
@@ -88,7 +85,7 @@ export class SliceView {
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[name];
     this.header.append(dot, el("span", { class: "pane-title" }, VIEW_TITLES[name]), this.position, el("span", { class: "spring" }), reset, enlarge);
-    this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image, this.overlay, this.header, this.slider.element);
+    this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image.canvas, this.overlay, this.header, this.slider.element);
     this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
@@ -105,7 +102,7 @@ export class SliceView {
     this.updateSlider();
     this.paint();
     const wanted = this.pixelKey();
-    const needsPixels = this.bitmapPlane === null || wanted !== this.asked;
+    const needsPixels = this.image.isEmpty || wanted !== this.asked;
     if (pixels && !needsPixels) return;
     if (needsPixels) this.asked = wanted;
     this.requests.send({ pixels: needsPixels });
@@ -194,11 +191,11 @@ export class SliceView {
     this.height = box.height;
     this.fontPixels = Number.parseFloat(getComputedStyle(this.element).fontSize);
     const ratio = this.ratio();
-    for (const canvas of [this.image, this.overlay]) {
+    for (const canvas of [this.image.canvas, this.overlay]) {
       canvas.width = Math.round(this.width * ratio);
       canvas.height = Math.round(this.height * ratio);
     }
-    this.paintedImage = ""; // a canvas of another size is empty
+    this.image.resized();
     this.refresh(true);
   }
 
@@ -229,7 +226,7 @@ export class SliceView {
         outlines: newestOutlines(reply.header.outlines, reply.f32("outline_points"), this.slice && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null),
         crossingPoints: reply.f32("crossing_points"),
       };
-      if (pixels) this.keepPixels(reply.u8("pixels"), width, height, plane);
+      if (pixels) this.image.keep(reply.u8("pixels"), width, height, plane);
       this.paintNow();
     } catch (error) {
       if (error instanceof ServerError && error.kind === "cancelled") return this.askAgain(pixels);
@@ -253,20 +250,6 @@ export class SliceView {
     dataset["crossings"] = String(this.slice?.header.crossings.length ?? 0);
   }
 
-  private keepPixels(gray: Uint8Array, width: number, height: number, plane: PixelPlane): void {
-    const context = this.bitmap.getContext("2d")!;
-    if (this.pixels?.width !== width || this.pixels.height !== height) {
-      this.bitmap.width = width;
-      this.bitmap.height = height;
-      this.pixels = context.createImageData(width, height);
-    }
-    const rgba = new Uint32Array(this.pixels.data.buffer);
-    for (let i = 0; i < gray.length; ++i) rgba[i] = GRAY[gray[i]!]!;
-    context.putImageData(this.pixels, 0, 0);
-    this.bitmapPlane = plane;
-    ++this.images;
-  }
-
   private updateSlider(): void {
     const { navigation } = this.services;
     this.slider.update();
@@ -281,28 +264,8 @@ export class SliceView {
   private paintNow(): void {
     const screen = this.screen();
     if (!screen) return;
-    this.paintImage(screen);
+    this.image.paint(screen, this.ratio());
     this.paintOverlay(screen);
-  }
-
-  private paintImage(screen: Screen): void {
-    const context = this.image.getContext("2d")!;
-    const isTurned = !this.bitmapPlane || !areParallel(this.bitmapPlane, screen.axes);
-    const ratio = this.ratio();
-    const { a, dx, dy } = isTurned ? { a: 0, dx: 0, dy: 0 } : sliceOnScreen(screen, this.bitmapPlane!);
-    const painting = [this.images, ratio, a, dx, dy, this.image.width, this.image.height].join();
-    if (painting === this.paintedImage) return;
-    this.paintedImage = painting;
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, this.image.width, this.image.height);
-    if (isTurned) return this.drawStretched(context);
-    context.setTransform(a * ratio, 0, 0, a * ratio, (dx - a / 2) * ratio, (dy - a / 2) * ratio);
-    context.drawImage(this.bitmap, 0, 0);
-  }
-
-  /** Until the turned slice arrives the old one stays, as it was. */
-  private drawStretched(context: CanvasRenderingContext2D): void {
-    if (this.bitmapPlane) context.drawImage(this.bitmap, 0, 0, this.image.width, this.image.height);
   }
 
   private paintOverlay(screen: Screen): void {
@@ -310,7 +273,7 @@ export class SliceView {
     const ratio = this.ratio();
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.height);
-    this.vectors.paint(new OverlayPainter(context, screen, this.fontPixels), screen, this.slice);
+    this.vectors.paint(new OverlayPainter(context, screen, this.services.appearance, this.fontPixels), screen, this.slice);
     this.overlay.style.cursor = this.services.editor.cursor();
   }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+import { FILL_RANGE, WIDTH_RANGE, type Appearance, type SavedAppearance } from "../model/appearance";
+import { button, el } from "./dom";
+import { ICONS } from "./icons";
+
+/** A button of the toolbar, and what it opens: how strongly outlines are filled, and how wide lines are. */
+export function appearanceButton(appearance: Appearance): HTMLElement[] {
+  const fields = { fill: slider("fill", "Filling of outlines", FILL_RANGE, appearance), width: slider("width", "Width of lines", WIDTH_RANGE, appearance) };
+  const sheet = el(
+    "div",
+    { class: "popover", popover: "auto", "data-test": "appearance-sheet" },
+    ...Object.values(fields).map(({ label }) => label),
+  );
+  const opener = button({ icon: ICONS.appearance, title: "Filling of outlines, width of lines", class: "icon-button", test: "appearance", click: () => undefined });
+  opener.popoverTargetElement = sheet;
+  appearance.on(["changed"], () => {
+    fields.fill.input.value = String(appearance.fill);
+    fields.width.input.value = String(appearance.width);
+  });
+  return [opener, sheet];
+}
+
+function slider(name: keyof SavedAppearance, words: string, [min, max]: readonly [number, number], appearance: Appearance) {
+  const set = () => appearance.set({ [name]: input.valueAsNumber });
+  const input = el("input", { type: "range", min: String(min), max: String(max), step: "0.01", "data-test": `appearance-${name}`, on: { input: set } });
+  input.value = String(appearance[name]);
+  return { input, label: el("label", { class: "field" }, words, input) };
+}

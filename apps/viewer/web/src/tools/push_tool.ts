@@ -6,7 +6,7 @@ export const pushTool: Tool<"push"> = {
   key: "p",
   label: "Push",
   title: "Push the nearest line of the active structure by a round brush, from inside or outside; Ctrl + wheel: its size",
-  icon: "M3 4c5 0 6 2.500 6 6s-1 6-6 6M13.500 14a4 4 0 1 0 0-8 4 4 0 0 0 0 8z",
+  icon: "M7 2c0 3-3 4-3 8s3 5 3 8M16.500 10a4.500 4.500 0 1 1-9 0 4.500 4.500 0 0 1 9 0z",
   isMinor: true,
   help: { Edit: [["P, Ctrl + wheel", "push lines by a round brush; its size"]] },
   hint: () => "Push the line from inside or from outside · Ctrl + wheel: size of the brush",

@@ -90,7 +90,7 @@ export class OutlineEdits {
   }
 
   add(contour: Sketch): void {
-    this.project.activate(contour.structure);
+    if (this.project.activeStructure?.id !== contour.structure) this.project.activate(contour.structure);
     this.drawing.send(contour);
   }
 

@@ -204,11 +204,12 @@ describe("the pointer", () => {
   test("that drew first draws on: a touch of the palm beside the pen does nothing, then or later", async () => {
     const input = await viewer.page.context().newCDPSession(viewer.page);
     await viewer.page.keyboard.press("f");
+    const said = notice("A pen draws here").waitFor(); // it is gone again after some seconds
     await strokeAround(asPen(input), () => palm(input));
     const whole = await viewer.volume();
     assert.ok(whole > 200, `${whole} ml: the whole circle, not a half`);
     await palm(input);
-    await notice("A pen draws here").waitFor();
+    await said;
     await viewer.saved();
     assert.equal(await viewer.contours(), 1);
   });

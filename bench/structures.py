@@ -23,11 +23,12 @@ import nibabel
 import numpy as np
 from scipy import ndimage
 
+import hands
+
 LEAST_VOXELS, MOST_VOXELS = 300, 2.6e6
 MARGIN, LEAST_MARGIN = 0.35, 10  # of the diameter; voxels
 LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
 TILTED = (0.3, -0.25, 0.92)  # normal of the tilted planes, LPS
-HAND_MM, HAND_HARMONICS = 0.55, 5
 FIELDS = ["number", "set", "structure", "source", "voxels", "volume_ml", "parts", "at_border", "coarsened"]
 
 
@@ -129,37 +130,25 @@ def tilted_parallel(points, random):
     return [plane(points.mean(axis=0) + height * normal, normal) for height in at]
 
 
+def first(points, random):
+    """The three planes with which a user begins: one across each patient axis, through the centroid."""
+    return [plane(points.mean(axis=0), axis) for axis in np.eye(3)]
+
+
 DRAWINGS = {"oblique10": oblique, "ortho3x3": orthogonal, "radial6": radial, "tilted_parallel7": tilted_parallel}
+PLANE_SETS = DRAWINGS | {"ortho1x3": first}
+
+
+def turned(drawing, points, random):
+    """Planes in directions that are neither the image's nor the patient's: those of the turned object, turned back with it."""
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    planes = PLANE_SETS[drawing](points @ turn.T, random)
+    return [plane(np.array(made["origin"]) @ turn, np.array(made["normal"]) @ turn) for made in planes]
 
 
 def random_for(*names):
     digest = hashlib.sha256("/".join(names).encode()).digest()
     return np.random.default_rng(int.from_bytes(digest[:8], "little"))
-
-
-def displaced(points, normal, random):
-    """A closed contour as an unsteady hand draws it: moved along its normal by waves, 1 to 5 around it, each less the shorter."""
-    points = np.array(points)
-    tangents = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
-    outward = np.cross(tangents, normal)
-    outward /= np.maximum(np.linalg.norm(outward, axis=1, keepdims=True), 1e-12)
-    lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
-    around = 2 * np.pi * np.r_[0, np.cumsum(lengths)[:-1]] / lengths.sum()
-    waves = np.arange(1, HAND_HARMONICS + 1)
-    # A tiny contour displaced by as much as a large one would cross itself.
-    rms = min(HAND_MM, lengths.sum() / 40) / np.sqrt((1 / waves).sum())
-    heights = random.normal(size=(2, len(waves))) * rms / np.sqrt(waves)
-    phases = np.outer(around, waves)
-    return points + (np.cos(phases) @ heights[0] + np.sin(phases) @ heights[1])[:, None] * outward
-
-
-def by_hand(drawing, random):
-    """The same contours, displaced. What `kontur trace` said of their origin is no longer the whole of it."""
-    drawing = {key: value for key, value in drawing.items() if key != "provenance"}
-    for drawn in drawing["planes"]:
-        for contour in drawn["contours"]:
-            contour["points"] = displaced(contour["points"], drawn["normal"], random).tolist()
-    return drawing
 
 
 def cut(kontur, folder, drawing, planes, least_area):
@@ -171,18 +160,26 @@ def cut(kontur, folder, drawing, planes, least_area):
                         "--min-area-mm2", str(least_area), "--quiet"], check=True)
 
 
-def write_structure(folder, name, truth, affine, kontur):
+def write_truth(folder, truth, affine):
     folder.mkdir(parents=True, exist_ok=True)
     image = nibabel.Nifti1Image(truth.astype(np.uint8), LPS @ affine)
     image.set_sform(LPS @ affine, 1)
     image.set_qform(None, 0)  # it could not hold a shear
     nibabel.save(image, folder / "truth.nii.gz")
-    points = np.argwhere(truth) @ affine[:3, :3].T + affine[:3, 3]
+
+
+def voxel_points(truth, affine):
+    return np.argwhere(truth) @ affine[:3, :3].T + affine[:3, 3]
+
+
+def write_structure(folder, name, truth, affine, kontur):
+    write_truth(folder, truth, affine)
+    points = voxel_points(truth, affine)
     least_area = np.linalg.norm(affine[:3, :3], axis=0).min() ** 2
     for drawing, planes in DRAWINGS.items():
         cut(kontur, folder, drawing, planes(points, random_for(name, drawing)), least_area)
     exact = json.loads((folder / "ortho3x3.json").read_text())
-    (folder / "ortho3x3_hand.json").write_text(json.dumps(by_hand(exact, random_for(name, "hand"))))
+    (folder / "ortho3x3_hand.json").write_text(json.dumps(hands.by_hand(exact, "wave", 0, random_for(name, "hand"))))
 
 
 def touches_border(mask):

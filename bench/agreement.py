@@ -54,6 +54,13 @@ def panel(left, top, rows, metric, title):
     return parts
 
 
+def svg_of(width, height, parts):
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" fill="#222">'
+        + f'<rect width="{width}" height="{height}" fill="white"/>' + "".join(parts) + "</svg>\n"
+    )
+
+
 def svg(rows):
     organs = list(dict.fromkeys(row["object"] for row in rows))
     width, height = LEFT + ACROSS * len(organs), TOP + DOWN * len(METRICS) + 34
@@ -68,10 +75,7 @@ def svg(rows):
         at = LEFT + 150 * k
         parts += [line(at, bottom - 4, at + 26, bottom - 4, colour, f'stroke-width="2.2" {extra}'), text(at + 32, bottom, name, "start")]
     parts.append(text(width - 20, bottom, "planes drawn", "end"))
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" fill="#222">'
-        + f'<rect width="{width}" height="{height}" fill="white"/>' + "".join(parts) + "</svg>\n"
-    )
+    return svg_of(width, height, parts)
 
 
 def table(rows):

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables and plots of what organs.py measured. Means are over drawings; `behind` counts losses of more than 0.002 of Dice."""
+import csv
+import math
+import statistics
+
+from agreement import svg_of
+from growth import line, text
+from shape_groups import GROUPS
+from tables import table
+from versus import BEHIND
+
+HANDS = ("exact", "wave", "jitter", "coarse")
+HAND_COLOURS = dict(zip(HANDS, ("#1b6ca8", "#c4552d", "#4a8f3c", "#8a5fb0")))
+PEERS = ("nearest slice", "shape-based", "plain")
+METHOD_COLOURS = {"nearest slice": "#999", "shape-based": "#c4552d", "plain": "#4a8f3c", "kontur": "#1b6ca8", "paper": "#8a5fb0"}
+WORST = 12
+
+
+def read(path):
+    """One entry for each drawing: its structure, group, drawing and hand, and for each method what was measured."""
+    found = {}
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            key = {name: row[name] for name in ("structure", "group", "drawing", "hand")}
+            entry = found.setdefault(tuple(key.values()), key | {"by": {}})
+            entry["by"][row["method"]] = {name: float(row[name] or "nan") for name in ("dice", "dice_between", "hausdorff95_mm", "mean_mm")}
+    return list(found.values())
+
+
+def is_slices(entry):
+    return entry["drawing"].startswith("slices")
+
+
+def mean(entries, method, what="dice"):
+    return statistics.fmean(entry["by"][method][what] for entry in entries)
+
+
+def gains(entries, peer="plain"):
+    return [entry["by"]["kontur"]["dice"] - entry["by"][peer]["dice"] for entry in entries]
+
+
+def versus_cells(entries):
+    gained = gains(entries)
+    hd95 = [f"{statistics.median(entry['by'][method]['hausdorff95_mm'] for entry in entries):.1f}" for method in ("plain", "kontur")]
+    return [len(entries), f"{mean(entries, 'plain'):.4f}", f"{mean(entries, 'kontur'):.4f}",
+            f"{sum(gain > 0 for gain in gained) / len(gained):.0%}", f"{sum(gain < -BEHIND for gain in gained) / len(gained):.0%}",
+            f"{min(gained):+.3f}", *hd95]
+
+
+VERSUS = ["drawings", "plain: Dice", "kontur: Dice", "ahead", "behind", "worst", "plain: median HD95, mm", "kontur"]
+
+
+def planes_table(entries):
+    rows = []
+    for drawing in sorted({entry["drawing"] for entry in entries if not is_slices(entry)}):
+        for hand in HANDS:
+            own = [entry for entry in entries if (entry["drawing"], entry["hand"]) == (drawing, hand)]
+            if own:
+                rows.append([drawing, hand, *versus_cells(own)])
+    return table(["planes", "drawn", *VERSUS], rows)
+
+
+def shapes_table(entries):
+    rows = []
+    for group in GROUPS:
+        for hand in HANDS:
+            own = [entry for entry in entries if (entry["group"], entry["hand"]) == (group, hand) and not is_slices(entry)]
+            if own:
+                rows.append([group, hand, *versus_cells(own)])
+    return table(["shape", "drawn", *VERSUS], rows)
+
+
+def slice_sets(entries):
+    """(group, step, entries), the real drawings last."""
+    for group in (*GROUPS, "real drawing"):
+        for step in (2, 4, 8):
+            own = [entry for entry in entries if (entry["group"], entry["drawing"]) == (group, f"slices{step}")]
+            if own:
+                yield group, step, own
+
+
+def slices_table(entries):
+    methods = [*PEERS, "kontur"]
+    rows = [[group, step, len(own), *(f"{mean(own, method):.4f}" for method in methods),
+             *(f"{mean(own, method, 'dice_between'):.4f}" for method in methods)] for group, step, own in slice_sets(entries)]
+    header = ["structures", "kept: one in", "drawings", *(f"{method}: Dice" for method in methods),
+              *(f"{method}: between" for method in methods)]
+    return table(header, rows)
+
+
+def best_peer(entry):
+    return max((method for method in entry["by"] if method in PEERS), key=lambda method: entry["by"][method]["dice"])
+
+
+def worst_table(entries):
+    rows = []
+    for entry in sorted(entries, key=lambda entry: gains([entry], best_peer(entry))[0])[:WORST]:
+        peer = best_peer(entry)
+        kontur, other = entry["by"]["kontur"], entry["by"][peer]
+        rows.append([entry["structure"], entry["group"], f"{entry['drawing']}, {entry['hand']}", peer, f"{other['dice']:.3f}",
+                     f"{kontur['dice']:.3f}", f"{other['hausdorff95_mm']:.1f}", f"{kontur['hausdorff95_mm']:.1f}"])
+    return table(["structure", "shape", "drawing", "best peer", "its Dice", "kontur", "its HD95, mm", "kontur"], rows)
+
+
+TABLES = {"planes": planes_table, "shapes": shapes_table, "slices": slices_table, "worst": worst_table}
+
+
+def quantile(values, share):
+    ordered = sorted(values)
+    at = share * (len(ordered) - 1)
+    low = math.floor(at)
+    return ordered[low] + (at - low) * (ordered[min(low + 1, len(ordered) - 1)] - ordered[low])
+
+
+def gains_panel(left, top, width, height, entries, title):
+    """Boxes from the lower to the upper quartile of kontur's gain, lines from the 5th to the 95th percentile."""
+    limit = 0.05
+
+    def y(gain):
+        return top + height / 2 * (1 - max(-1.0, min(1.0, gain / limit)))
+
+    parts = [text(left + width / 2, top - 8, title, size=12)]
+    for tick in (-0.04, -0.02, 0, 0.02, 0.04):
+        parts += [line(left, y(tick), left + width, y(tick), "#888" if tick == 0 else "#ddd"),
+                  text(left - 5, y(tick) + 4, f"{tick:+.2f}" if tick else "0", "end", 10)]
+    drawings = sorted({entry["drawing"] for entry in entries})
+    for n, drawing in enumerate(drawings):
+        middle = left + width * (n + 0.5) / len(drawings)
+        parts.append(text(middle, top + height + 14, drawing, size=10))
+        for k, hand in enumerate(HANDS):
+            gained = gains([entry for entry in entries if (entry["drawing"], entry["hand"]) == (drawing, hand)])
+            if not gained:
+                continue
+            x = middle + 13 * (k - 1.5)
+            low, first, centre, third, high = (y(quantile(gained, share)) for share in (0.05, 0.25, 0.5, 0.75, 0.95))
+            colour = HAND_COLOURS[hand]
+            parts += [line(x, low, x, high, colour), line(x - 5, centre, x + 5, centre, "white", 'stroke-width="2"')]
+            parts.insert(-1, f'<rect x="{x - 5:.1f}" y="{third:.1f}" width="10" height="{max(first - third, 0.5):.1f}" fill="{colour}"/>')
+    return parts
+
+
+def gains_svg(entries):
+    width, height, left, top = 500, 150, 56, 34
+    parts = []
+    for n, group in enumerate(GROUPS):
+        own = [entry for entry in entries if entry["group"] == group and not is_slices(entry)]
+        if own:
+            parts += gains_panel(left, top + n * (height + 58), width, height, own, f"{group}: Dice of kontur less that of the plain method")
+    bottom = top + len(GROUPS) * (height + 58)
+    for k, hand in enumerate(HANDS):
+        parts += [f'<rect x="{left + 110 * k}" y="{bottom - 16}" width="10" height="10" fill="{HAND_COLOURS[hand]}"/>',
+                  text(left + 16 + 110 * k, bottom - 7, hand, "start")]
+    return svg_of(left + width + 14, bottom + 8, parts)
+
+
+def slices_svg(entries):
+    width, height, left, top, across = 170, 190, 50, 34, 232
+    ticks = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
+    low, high = math.log(ticks[0]), math.log(ticks[-1])
+
+    def y(missed):
+        return top + height * (high - max(low, min(high, math.log(max(missed, 1e-9))))) / (high - low)
+
+    parts = []
+    groups = list(dict.fromkeys(group for group, _, _ in slice_sets(entries)))
+    for n, group in enumerate(groups):
+        at = left + n * across
+        parts.append(text(at + width / 2, top - 10, f"{group}: 1 - Dice", size=12))
+        for tick in ticks:
+            parts += [line(at, y(tick), at + width, y(tick), "#ddd"), text(at - 5, y(tick) + 4, f"{tick:g}", "end", 10)]
+        for k, step in enumerate((2, 4, 8)):
+            parts.append(text(at + width * (k + 0.5) / 3, top + height + 15, f"1 in {step}", size=10))
+        for method in (*PEERS, "kontur"):
+            points = [(at + width * ((2, 4, 8).index(step) + 0.5) / 3, y(1 - mean(own, method)))
+                      for name, step, own in slice_sets(entries) if name == group]
+            path = " ".join(f"{px:.1f},{py:.1f}" for px, py in points)
+            colour = METHOD_COLOURS[method]
+            parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>')
+            parts += [f'<circle cx="{px:.1f}" cy="{py:.1f}" r="2.5" fill="{colour}"/>' for px, py in points]
+    bottom = top + height + 44
+    for k, method in enumerate((*PEERS, "kontur")):
+        parts += [line(left + 120 * k, bottom - 4, left + 120 * k + 24, bottom - 4, METHOD_COLOURS[method], 'stroke-width="2"'),
+                  text(left + 120 * k + 30, bottom, method, "start")]
+    return svg_of(left + across * len(groups), bottom + 12, parts)
+
+
+def write(folder):
+    """tables.md and the plots from results.csv, all in `folder`."""
+    entries = read(folder / "results.csv")
+    text_of = [f"<!-- begin organs {name} -->\n{make(entries)}\n<!-- end organs {name} -->\n" for name, make in TABLES.items()]
+    (folder / "tables.md").write_text("\n".join(text_of), encoding="utf-8")
+    (folder / "organs_gains.svg").write_text(gains_svg(entries), encoding="utf-8")
+    (folder / "organs_slices.svg").write_text(slices_svg(entries), encoding="utf-8")

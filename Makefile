@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench docs format install clean
+.PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench accuracy docs format install clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -65,6 +65,11 @@ tidy: ## clang-tidy over the library and the programs (installs clang-tidy)
 bench: build ## time the paper's cases and show the tables (some minutes)
 	@build/release/bin/kontur_bench --json build/bench.json
 	@bench/tables.py build/bench.json
+
+accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, into build/organs (an hour; docs/accuracy.md)
+	@test -d "$(DATA)" || { echo "make accuracy: say where the scans are: make accuracy DATA=FOLDER"; exit 1; }
+	@python3 bench/organs.py "$(DATA)" build/organs --kontur build/release/bin/kontur --jobs $(JOBS)
+	@cat build/organs/tables.md
 
 docs: ## write the C++ reference to build/release/reference/html (installs doxygen)
 	@tools/setup doxygen

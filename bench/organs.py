@@ -48,6 +48,12 @@ def voxel_of(affine):
     return np.linalg.norm(affine[:3, :3], axis=0).min()
 
 
+def leave_out_if_flat(file):
+    """What lies in fewer than two planes is no drawing of a body: the planes missed it, or its section was below a voxel."""
+    if sum(bool(plane["contours"]) for plane in json.loads(file.read_text())["planes"]) < 2:
+        file.unlink()
+
+
 def draw_planes(folder, name, points, affine, options, with_hands):
     """The five sets of planes, exactly and by each hand."""
     voxel = voxel_of(affine)
@@ -59,6 +65,8 @@ def draw_planes(folder, name, points, affine, options, with_hands):
         for hand in hands.HANDS if with_hands else ():
             drawn = hands.by_hand(exact, hand, voxel, structures.random_for(options.seed, name, drawing, hand))
             (folder / f"{drawing}.{hand}.json").write_text(json.dumps(drawn))
+        for file in folder.glob(f"{drawing}*.json"):
+            leave_out_if_flat(file)
 
 
 def draw_slices(folder, truth, affine, kontur):
@@ -66,6 +74,7 @@ def draw_slices(folder, truth, affine, kontur):
         kept = slices.kept(truth, step)
         if len(kept):
             structures.cut(kontur, folder, f"slices{step}", slices.slice_planes(kept, affine), voxel_of(affine) ** 2)
+            leave_out_if_flat(folder / f"slices{step}.json")
 
 
 def draw_real_slices(folder, truth, affine, planes):

@@ -72,7 +72,7 @@ def shape_based(mask, slices, spacing):
     return result
 
 
-def repeated(mask, slices):
+def repeated(mask, slices, spacing):
     """The simplest: every slice is the nearest kept one, the lower of two that are as near."""
     result = np.zeros_like(mask)
     for k in range(slices[0], slices[-1] + 1):

@@ -115,10 +115,10 @@ def orthogonal(points, random):
             for axis in range(3) for step in (-1, 0, 1)]
 
 
-def radial(points, random):
+def radial(points, random, start=0.0):
     """Six planes through the centroid around the long axis."""
     across = np.linalg.eigh(np.cov(points.T))[1][:, :2]
-    angles = np.arange(6) * np.pi / 6
+    angles = start + np.arange(6) * np.pi / 6
     return [plane(points.mean(axis=0), across @ (np.cos(a), np.sin(a))) for a in angles]
 
 
@@ -140,7 +140,10 @@ PLANE_SETS = DRAWINGS | {"ortho1x3": first}
 
 
 def turned(drawing, points, random):
-    """Planes in directions that are neither the image's nor the patient's: those of the turned object, turned back with it."""
+    """Planes in directions that are neither the image's nor the patient's: those of the turned object, turned back with it.
+    Around the object's own axis they begin somewhere else."""
+    if drawing == "radial6":
+        return radial(points, random, random.uniform(0, np.pi / 6))
     turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
     planes = PLANE_SETS[drawing](points @ turn.T, random)
     return [plane(np.array(made["origin"]) @ turn, np.array(made["normal"]) @ turn) for made in planes]

@@ -68,7 +68,7 @@ bench: build ## time the paper's cases and show the tables (some minutes)
 
 accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, into build/organs (an hour; docs/accuracy.md)
 	@test -d "$(DATA)" || { echo "make accuracy: say where the scans are: make accuracy DATA=FOLDER"; exit 1; }
-	@python3 bench/organs.py "$(DATA)" build/organs --kontur build/release/bin/kontur --jobs $(JOBS)
+	@/usr/bin/python3 bench/organs.py "$(DATA)" build/organs --kontur build/release/bin/kontur --jobs $(JOBS)
 	@cat build/organs/tables.md
 
 docs: ## write the C++ reference to build/release/reference/html (installs doxygen)

@@ -38,7 +38,11 @@ import structures
 
 INDEX_FIELDS = ["structure", "group", "source", "voxels", "volume_ml", "elongation", "fill", "parts", "at_border", "coarsened"]
 RESULT_FIELDS = ["structure", "group", "drawing", "hand", "method", "dice", "dice_between", "hausdorff95_mm", "mean_mm"]
-KONTUR = {"kontur": [], "paper": ["--kernel", "triharmonic", "--normals", "in-plane", "--normal-offset-mm", "1", "--solver", "cholesky"]}
+KONTUR = {
+    "kontur": [],
+    "in-plane normals": ["--normals", "in-plane", "--smoothing", "1e-5"],  # all else as the defaults have it
+    "paper": ["--kernel", "triharmonic", "--normals", "in-plane", "--normal-offset-mm", "1", "--solver", "cholesky"],
+}
 PEERS = {"shape-based": slices.shape_based, "nearest slice": slices.repeated}  # on slices alone
 METHODS = ["kontur", "plain", *PEERS]
 PLAIN = argparse.Namespace(points=700, smoothing=2e-4)  # as plain.py's own
@@ -97,7 +101,7 @@ def described(name, group, source, truth, affine, factors, mask):
 
 def draw(options):
     drawings = options.output / "drawings"
-    drawn_by_group = dict.fromkeys(shape_groups.GROUPS, 0)
+    drawn_by_group = dict.fromkeys(organs_report.GROUPS, 0)
     with open(options.output / "structures.csv", "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(INDEX_FIELDS)
@@ -197,7 +201,7 @@ def measure(options):
 
 
 def report(options):
-    organs_report.write(options.output)
+    organs_report.write(options.output / "results.csv", options.output)
 
 
 def main():
@@ -210,7 +214,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--seed", default="", help="any text: other planes, other hands")
     parser.add_argument("--keep", action="store_true", help="do not measure again what has been measured in OUTPUT")
-    parser.add_argument("--methods", nargs="+", default=METHODS, choices=[*METHODS, "paper"])
+    parser.add_argument("--methods", nargs="+", default=METHODS, choices=[*KONTUR, "plain", *PEERS])
     parser.add_argument("--only", choices=stages)
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)

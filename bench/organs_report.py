@@ -1,15 +1,22 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tables and plots of what organs.py measured. Means are over drawings; `behind` counts losses of more than 0.002 of Dice."""
+"""Tables and plots of what organs.py measured. Means are over drawings; `behind` counts losses of more than 0.002 of Dice.
+
+Usage: bench/organs_report.py results.csv FOLDER [DOCUMENT.md]...: tables.md and plots into FOLDER; a document's tables, between
+the markers that tables.md has, are replaced.
+"""
 import csv
 import math
+import pathlib
 import statistics
+import sys
 
 from agreement import svg_of
 from growth import line, text
-from shape_groups import GROUPS
 from tables import table
 from versus import BEHIND
 
+GROUPS = ("compact", "elongated", "thin or branched")  # shape_groups.py
 HANDS = ("exact", "wave", "jitter", "coarse")
 HAND_COLOURS = dict(zip(HANDS, ("#1b6ca8", "#c4552d", "#4a8f3c", "#8a5fb0")))
 PEERS = ("nearest slice", "shape-based", "plain")
@@ -51,23 +58,26 @@ def versus_cells(entries):
 VERSUS = ["drawings", "plain: Dice", "kontur: Dice", "ahead", "behind", "worst", "plain: median HD95, mm", "kontur"]
 
 
+def by_hand(entries):
+    """(how drawn, entries): all exact ones, and of the structures that hands drew the exact ones again, and each hand's."""
+    by_hands = {entry["structure"] for entry in entries if entry["hand"] != "exact"}
+    sets = {"exact": [entry for entry in entries if entry["hand"] == "exact"]}
+    for hand in HANDS:
+        own = [entry for entry in entries if entry["hand"] == hand and entry["structure"] in by_hands]
+        sets["exact, of these:" if hand == "exact" else hand] = own
+    return [(drawn, own) for drawn, own in sets.items() if own]
+
+
 def planes_table(entries):
-    rows = []
-    for drawing in sorted({entry["drawing"] for entry in entries if not is_slices(entry)}):
-        for hand in HANDS:
-            own = [entry for entry in entries if (entry["drawing"], entry["hand"]) == (drawing, hand)]
-            if own:
-                rows.append([drawing, hand, *versus_cells(own)])
+    on_planes = [entry for entry in entries if not is_slices(entry)]
+    rows = [[drawing, drawn, *versus_cells(own)] for drawing in sorted({entry["drawing"] for entry in on_planes})
+            for drawn, own in by_hand([entry for entry in on_planes if entry["drawing"] == drawing])]
     return table(["planes", "drawn", *VERSUS], rows)
 
 
 def shapes_table(entries):
-    rows = []
-    for group in GROUPS:
-        for hand in HANDS:
-            own = [entry for entry in entries if (entry["group"], entry["hand"]) == (group, hand) and not is_slices(entry)]
-            if own:
-                rows.append([group, hand, *versus_cells(own)])
+    rows = [[group, drawn, *versus_cells(own)] for group in GROUPS
+            for drawn, own in by_hand([entry for entry in entries if entry["group"] == group and not is_slices(entry)])]
     return table(["shape", "drawn", *VERSUS], rows)
 
 
@@ -185,10 +195,29 @@ def slices_svg(entries):
     return svg_of(left + across * len(groups), bottom + 12, parts)
 
 
-def write(folder):
-    """tables.md and the plots from results.csv, all in `folder`."""
-    entries = read(folder / "results.csv")
-    text_of = [f"<!-- begin organs {name} -->\n{make(entries)}\n<!-- end organs {name} -->\n" for name, make in TABLES.items()]
-    (folder / "tables.md").write_text("\n".join(text_of), encoding="utf-8")
+def marked(name, made):
+    return f"<!-- begin organs {name} -->\n{made}\n<!-- end organs {name} -->\n"
+
+
+def filled(document, entries):
+    """A document with each table that it has markers for in its place."""
+    for name, make in TABLES.items():
+        head, begin, rest = document.partition(f"<!-- begin organs {name} -->\n")
+        if begin:
+            document = head + marked(name, make(entries)) + rest.split(f"<!-- end organs {name} -->\n", 1)[1]
+    return document
+
+
+def write(results, folder, documents=()):
+    """tables.md and the plots in `folder`; and the tables in documents."""
+    entries = read(results)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "tables.md").write_text("\n".join(marked(name, make(entries)) for name, make in TABLES.items()), encoding="utf-8")
     (folder / "organs_gains.svg").write_text(gains_svg(entries), encoding="utf-8")
     (folder / "organs_slices.svg").write_text(slices_svg(entries), encoding="utf-8")
+    for document in documents:
+        document.write_text(filled(document.read_text(encoding="utf-8"), entries), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), [pathlib.Path(document) for document in sys.argv[3:]])

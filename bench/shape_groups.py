@@ -9,7 +9,6 @@ import numpy as np
 from scipy import ndimage
 
 LEAST_FILL, LEAST_ELONGATION = 0.2, 2.0
-GROUPS = ("compact", "elongated", "thin or branched")
 
 
 def inscribed_radius(mask, index_to_mm):

@@ -30,7 +30,7 @@ SHARES = ["too much within", "too much beyond", "missing within", "missing beyon
 
 
 def within_hull(points, shape, affine):
-    """Voxels whose centres lie in the convex hull of points, or in no body at all if these lie in one plane."""
+    """Voxels whose centres lie in the convex hull of points, which must not all lie in one plane."""
     sides = spatial.ConvexHull(points).equations
     index_sides = sides[:, :3] @ affine[:3, :3], sides[:, :3] @ affine[:3, 3] + sides[:, 3]
     inside = np.ones(shape, bool)

@@ -31,7 +31,7 @@ def read(path):
         for row in csv.DictReader(file):
             key = {name: row[name] for name in ("structure", "group", "drawing", "hand")}
             entry = found.setdefault(tuple(key.values()), key | {"by": {}})
-            entry["by"][row["method"]] = {name: float(row[name] or "nan") for name in ("dice", "dice_between", "hausdorff95_mm", "mean_mm")}
+            entry["by"][row["method"]] = {name: float(row[name] or "nan") for name in ("dice", "dice_left_out", "hausdorff95_mm", "mean_mm")}
     return list(found.values())
 
 
@@ -93,9 +93,9 @@ def slice_sets(entries):
 def slices_table(entries):
     methods = [*PEERS, "kontur"]
     rows = [[group, step, len(own), *(f"{mean(own, method):.4f}" for method in methods),
-             *(f"{mean(own, method, 'dice_between'):.4f}" for method in methods)] for group, step, own in slice_sets(entries)]
+             *(f"{mean(own, method, 'dice_left_out'):.4f}" for method in methods)] for group, step, own in slice_sets(entries)]
     header = ["structures", "kept: one in", "drawings", *(f"{method}: Dice" for method in methods),
-              *(f"{method}: between" for method in methods)]
+              *(f"{method}: left out" for method in methods)]
     return table(header, rows)
 
 

@@ -13,10 +13,13 @@ import numpy as np
 import pytest
 
 BENCH = pathlib.Path(__file__).parent
+DOCS = BENCH.parent / "docs"
 sys.path.insert(0, str(BENCH))
 import hands
+import losses
 import organ_sources
 import organs
+import organs_report
 import paper_steps
 import plain
 import shape_groups
@@ -142,6 +145,18 @@ def test_surfaces_two_voxels_apart_are():
     assert organs.surface_distances(a, np.zeros_like(a), np.eye(4)) == (np.inf, np.inf)
 
 
+def test_errors_are_shared_out_between_the_hull_of_what_was_drawn_and_beyond():
+    corners = np.array(np.meshgrid([2, 8], [2, 8], [2, 8])).reshape(3, -1).T.astype(float)
+    within = losses.within_hull(corners @ SHEARED[:3, :3].T + SHEARED[:3, 3], (12, 12, 12), SHEARED)
+    cube = np.zeros((12, 12, 12), bool)
+    cube[2:9, 2:9, 2:9] = True
+    assert np.array_equal(within, cube)
+    truth, mask = np.zeros_like(cube), np.zeros_like(cube)
+    truth[2:9, 2:9, 4:9] = True
+    mask[2:9, 2:9, 3:8] = mask[2:9, 2:9, 10] = True
+    assert losses.shares(mask, truth, within) == pytest.approx([1 / 5, 1 / 5, 1 / 5, 0])
+
+
 def test_planes_of_another_seed_are_others_and_still_cut_the_object():
     points = np.argwhere(ellipsoid((40, 40, 40), (20, 20, 20), (15, 8, 6))).astype(float)
     for name in structures.PLANE_SETS:
@@ -195,8 +210,8 @@ def test_every_drawing_is_measured_by_every_method_that_can(once):
             assert methods == {"kontur", "plain", "paper"} | ({"shape-based", "nearest slice"} if "slices" in name else set())
     exact = [float(row["dice"]) for row in rows if (row["method"], row["hand"], row["structure"]) == ("kontur", "exact", "brain_002")]
     assert min(exact) > 0.85
-    between = {row["method"]: float(row["dice_between"]) for row in rows if (row["structure"], row["drawing"]) == ("brain_002", "slices2")}
-    assert min(between.values()) > 0.9 and between["shape-based"] > between["nearest slice"]
+    between = {row["method"]: float(row["dice_left_out"]) for row in rows if (row["structure"], row["drawing"]) == ("brain_002", "slices2")}
+    assert min(between.values()) > 0.85 and between["shape-based"] > between["nearest slice"]
 
 
 def test_the_report_has_all_tables_and_plots(once):
@@ -205,6 +220,16 @@ def test_the_report_has_all_tables_and_plots(once):
         assert len(tables.split(f"<!-- begin organs {name} -->")[1].split("<!-- end")[0].strip().splitlines()) > 3
     for plot in ("organs_gains.svg", "organs_slices.svg"):
         assert xml.etree.ElementTree.parse(once / plot).getroot().tag.endswith("svg")
+
+
+def test_the_published_tables_and_plots_are_made_from_the_published_results(tmp_path):
+    entries = organs_report.read(DOCS / "organs.csv")
+    published = (DOCS / "accuracy.md").read_text()
+    for name in organs_report.TABLES:
+        assert f"<!-- begin organs {name} -->\n| " in published
+    assert organs_report.filled(published, entries) == published
+    assert (DOCS / "images/organs_gains.svg").read_text() == organs_report.gains_svg(entries)
+    assert (DOCS / "images/organs_slices.svg").read_text() == organs_report.slices_svg(entries)
 
 
 def test_drawings_are_the_same_again_and_others_with_another_seed(data, once):

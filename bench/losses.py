@@ -3,7 +3,7 @@
 """Where masks are wrong, too much or missing, within the convex hull of what was drawn or beyond: those of kontur, of the plain
 method, and of kontur with in-plane normals, between the two.
 
-Usage: bench/losses.py DRAWINGS --kontur build/release/bin/kontur [--every N] > losses.csv
+Usage: bench/losses.py DRAWINGS --kontur build/release/bin/kontur [--every N] [--methods METHOD...] > losses.csv
 
 DRAWINGS is what organs.py has drawn, or a folder as kontur_accuracy takes it; of all structures every N-th is taken, of its
 drawings the exact ones. Shares are of the truth's volume. A table of their means goes to stderr.
@@ -54,6 +54,7 @@ def main():
     parser.add_argument("drawings", type=pathlib.Path)
     parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--methods", nargs="+", default=METHODS, choices=[*organs.KONTUR, "plain"])
     options = parser.parse_args()
     output = csv.writer(sys.stdout)
     output.writerow(["structure", "drawing", "method", "dice", *SHARES])
@@ -62,7 +63,7 @@ def main():
         truth, affine = plain.read_truth(folder / "truth.nii.gz")
         for path in sorted(path for path in folder.glob("*.json") if "." not in path.stem):
             within = within_hull(drawn_points(path), truth.shape, affine)
-            for method in METHODS:
+            for method in options.methods:
                 mask = organs.segmented(method, path, truth, affine, [], options.kontur)
                 row = [plain.dice(mask, truth), *shares(mask, truth, within)]
                 found.setdefault((path.stem, method), []).append(row)

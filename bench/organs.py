@@ -41,6 +41,7 @@ RESULT_FIELDS = ["structure", "group", "drawing", "hand", "method", "dice", "dic
 KONTUR = {
     "kontur": [],
     "in-plane normals": ["--normals", "in-plane", "--smoothing", "1e-5"],  # all else as the defaults have it
+    "r^3": ["--kernel", "triharmonic"],
     "paper": ["--kernel", "triharmonic", "--normals", "in-plane", "--normal-offset-mm", "1", "--solver", "cholesky"],
 }
 PEERS = {"shape-based": slices.shape_based, "nearest slice": slices.repeated}  # on slices alone

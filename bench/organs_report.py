@@ -164,31 +164,40 @@ def gains_svg(entries):
     return svg_of(left + width + 14, bottom + 8, parts)
 
 
-def slices_svg(entries):
-    width, height, left, top, across = 170, 190, 50, 34, 232
-    ticks = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
-    low, high = math.log(ticks[0]), math.log(ticks[-1])
+MISSED_TICKS = (0.02, 0.05, 0.1, 0.2, 0.5)
+
+
+def slices_panel(left, top, width, height, steps, what, title):
+    """What is missed, by how many slices were kept; `steps` are (step, entries)."""
+    low, high = math.log(MISSED_TICKS[0]), math.log(MISSED_TICKS[-1])
 
     def y(missed):
         return top + height * (high - max(low, min(high, math.log(max(missed, 1e-9))))) / (high - low)
 
-    parts = []
+    parts = [text(left + width / 2, top - 10, title, size=12)]
+    for tick in MISSED_TICKS:
+        parts += [line(left, y(tick), left + width, y(tick), "#ddd"), text(left - 5, y(tick) + 4, f"{tick:g}", "end", 10)]
+    places = [left + width * (k + 0.5) / len(steps) for k in range(len(steps))]
+    parts += [text(x, top + height + 15, f"1 in {step}", size=10) for x, (step, _) in zip(places, steps)]
+    for method in (*PEERS, "kontur"):
+        points = [(x, y(1 - mean(own, method, what))) for x, (_, own) in zip(places, steps)]
+        path = " ".join(f"{px:.1f},{py:.1f}" for px, py in points)
+        colour = METHOD_COLOURS[method]
+        parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>')
+        parts += [f'<circle cx="{px:.1f}" cy="{py:.1f}" r="2.5" fill="{colour}"/>' for px, py in points]
+    return parts
+
+
+def slices_svg(entries):
+    """Above all slices, below those left out between kept ones."""
+    width, height, left, top, across, down = 170, 150, 50, 34, 232, 212
     groups = list(dict.fromkeys(group for group, _, _ in slice_sets(entries)))
+    parts = []
     for n, group in enumerate(groups):
-        at = left + n * across
-        parts.append(text(at + width / 2, top - 10, f"{group}: 1 - Dice", size=12))
-        for tick in ticks:
-            parts += [line(at, y(tick), at + width, y(tick), "#ddd"), text(at - 5, y(tick) + 4, f"{tick:g}", "end", 10)]
-        for k, step in enumerate((2, 4, 8)):
-            parts.append(text(at + width * (k + 0.5) / 3, top + height + 15, f"1 in {step}", size=10))
-        for method in (*PEERS, "kontur"):
-            points = [(at + width * ((2, 4, 8).index(step) + 0.5) / 3, y(1 - mean(own, method)))
-                      for name, step, own in slice_sets(entries) if name == group]
-            path = " ".join(f"{px:.1f},{py:.1f}" for px, py in points)
-            colour = METHOD_COLOURS[method]
-            parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>')
-            parts += [f'<circle cx="{px:.1f}" cy="{py:.1f}" r="2.5" fill="{colour}"/>' for px, py in points]
-    bottom = top + height + 44
+        steps = [(step, own) for name, step, own in slice_sets(entries) if name == group]
+        for k, (what, title) in enumerate((("dice", "1 - Dice"), ("dice_left_out", "1 - Dice, left out"))):
+            parts += slices_panel(left + n * across, top + k * down, width, height, steps, what, f"{group}: {title}")
+    bottom = top + down + height + 44
     for k, method in enumerate((*PEERS, "kontur")):
         parts += [line(left + 120 * k, bottom - 4, left + 120 * k + 24, bottom - 4, METHOD_COLOURS[method], 'stroke-width="2"'),
                   text(left + 120 * k + 30, bottom, method, "start")]

@@ -232,6 +232,28 @@ def test_the_published_tables_and_plots_are_made_from_the_published_results(tmp_
     assert (DOCS / "images/organs_slices.svg").read_text() == organs_report.slices_svg(entries)
 
 
+def test_losses_tell_what_is_wrong_with_each_method(once):
+    done = subprocess.run([sys.executable, BENCH / "losses.py", once / "drawings", "--kontur", os.environ["KONTUR"], "--every", "3",
+                           "--methods", "kontur", "in-plane normals", "r^3"], check=True, timeout=200, capture_output=True, text=True)
+    rows = list(csv.DictReader(done.stdout.splitlines()))
+    assert {row["structure"] for row in rows} == {"brain_002"} and len(rows) == 3 * (len(structures.PLANE_SETS) + 2)
+    by_method = {row["method"]: row for row in rows if row["drawing"] == "ortho1x3"}
+    assert len({row["dice"] for row in by_method.values()}) > 1
+    for row in rows:
+        too_much, missing = (sum(float(row[f"{kind} {where}"]) for where in ("within", "beyond")) for kind in ("too much", "missing"))
+        assert float(row["dice"]) == pytest.approx(2 * (1 - missing) / (2 - missing + too_much), abs=1e-4)
+    assert "| ortho1x3 | 1 | r^3 |" in done.stderr
+
+
+def test_the_picture_of_losses_is_drawn(tmp_path):
+    done = subprocess.run([sys.executable, BENCH / "loss_pictures.py", "--kontur", os.environ["KONTUR"], tmp_path / "losses.png"],
+                          check=True, timeout=200, capture_output=True, text=True)
+    assert (tmp_path / "losses.png").read_bytes().startswith(b"\x89PNG")
+    dice = {tuple(line.rsplit(" ", 1)[0].split(": ")): float(line.rsplit(" ", 1)[1]) for line in done.stdout.splitlines()}
+    assert dice["cut off flat", "shape-based"] > 0.95 > dice["cut off flat", "plain"]
+    assert dice["a slanted plate of 6 mm", "shape-based"] < 0.8 < dice["a slanted plate of 6 mm", "kontur"]
+
+
 def test_drawings_are_the_same_again_and_others_with_another_seed(data, once):
     again = run(data, "again", "--hands-every", "2", "--only", "draw")
     other = run(data, "other", "--hands-every", "2", "--only", "draw", "--seed", "x")

@@ -185,13 +185,13 @@ def data(tmp_path_factory):
 
 def run(data, output, *extra):
     subprocess.run([sys.executable, BENCH / "organs.py", data / "data", data / output, "--kontur", os.environ["KONTUR"], *extra],
-                   check=True, timeout=200, capture_output=True)
+                   check=True, timeout=500, capture_output=True)
     return data / output
 
 
 @pytest.fixture(scope="module")
 def once(data):
-    return run(data, "once", "--hands-every", "2", "--methods", "kontur", "plain", "shape-based", "nearest slice", "paper")
+    return run(data, "once", "--hands-every", "2")
 
 
 def test_every_drawing_is_measured_by_every_method_that_can(once):
@@ -207,7 +207,7 @@ def test_every_drawing_is_measured_by_every_method_that_can(once):
         assert drawn == planes | kept
         for name, hand in drawn:
             methods = {row["method"] for row in own if (row["drawing"], row["hand"]) == (name, hand)}
-            assert methods == {"kontur", "plain", "paper"} | ({"shape-based", "nearest slice"} if "slices" in name else set())
+            assert methods == {"kontur", "plain"} | ({"shape-based", "nearest slice"} if "slices" in name else set())
     exact = [float(row["dice"]) for row in rows if (row["method"], row["hand"], row["structure"]) == ("kontur", "exact", "brain_002")]
     assert min(exact) > 0.85
     between = {row["method"]: float(row["dice_left_out"]) for row in rows if (row["structure"], row["drawing"]) == ("brain_002", "slices2")}
@@ -234,7 +234,7 @@ def test_the_published_tables_and_plots_are_made_from_the_published_results(tmp_
 
 def test_losses_tell_what_is_wrong_with_each_method(once):
     done = subprocess.run([sys.executable, BENCH / "losses.py", once / "drawings", "--kontur", os.environ["KONTUR"], "--every", "3",
-                           "--methods", "kontur", "in-plane normals", "r^3"], check=True, timeout=200, capture_output=True, text=True)
+                           "--methods", "kontur", "in-plane normals", "r^3"], check=True, timeout=500, capture_output=True, text=True)
     rows = list(csv.DictReader(done.stdout.splitlines()))
     assert {row["structure"] for row in rows} == {"brain_002"} and len(rows) == 3 * (len(structures.PLANE_SETS) + 2)
     by_method = {row["method"]: row for row in rows if row["drawing"] == "ortho1x3"}
@@ -247,7 +247,7 @@ def test_losses_tell_what_is_wrong_with_each_method(once):
 
 def test_the_picture_of_losses_is_drawn(tmp_path):
     done = subprocess.run([sys.executable, BENCH / "loss_pictures.py", "--kontur", os.environ["KONTUR"], tmp_path / "losses.png"],
-                          check=True, timeout=200, capture_output=True, text=True)
+                          check=True, timeout=500, capture_output=True, text=True)
     assert (tmp_path / "losses.png").read_bytes().startswith(b"\x89PNG")
     dice = {tuple(line.rsplit(" ", 1)[0].split(": ")): float(line.rsplit(" ", 1)[1]) for line in done.stdout.splitlines()}
     assert dice["cut off flat", "shape-based"] > 0.95 > dice["cut off flat", "plain"]

@@ -86,6 +86,12 @@ Keywords<FitOptions> fit_keywords() {
             "normal_offset_mm", [](FitOptions& o) -> double& { return o.place.normal_offset_mm; },
             "Length of the normal constraints.")
         .field(
+            "both_sides", [](FitOptions& o) -> bool& { return o.place.both_sides; },
+            "Normal constraints inside as well as outside, at every second point.")
+        .field(
+            "slope_noise", [](FitOptions& o) -> double& { return o.place.slope_noise; },
+            "Standard deviation of the slopes: of a normal constraint this times its length.")
+        .field(
             "merge_distance_mm", [](FitOptions& o) -> double& { return o.place.merge_distance_mm; },
             "A constraint closer than this to an earlier one is left out.");
     return solve_fields(keywords, [](FitOptions& o) -> SolveOptions& { return o.solve; });

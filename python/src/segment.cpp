@@ -17,7 +17,7 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("normals", &SegmentOptions::normals,
                "Direction of the surface at a contour: from all contours together, or the contour's alone (the paper's).")
         .field("normal_offset_mm", &SegmentOptions::normal_offset_mm,
-               "Length of the normal constraints; None: 0.45 % of the contours' diameter.")
+               "Length of the normal constraints; None: 1.35 % of the contours' diameter, in-plane normals 0.45 %.")
         .field("smoothing", &SegmentOptions::smoothing,
                "On unit coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
         .field("conflicts", &SegmentOptions::conflicts,

@@ -16,8 +16,9 @@ namespace kontur {
 struct SegmentOptions {
     Kernel kernel = Kernel::screened;
     Normals normals = Normals::surface;
-    std::optional<double> normal_offset_mm{};  ///< length of the normal constraints; unset: 0.45 % of the contours' diameter
-    std::optional<double> smoothing{};         ///< on unit coordinates; unset: 1e-5 with surface normals, else 0
+    std::optional<double> normal_offset_mm{};    ///< length of the normal constraints; unset: 1.35 % of the contours'
+                                                 ///< diameter, in-plane normals 0.45 %
+    std::optional<double> smoothing{};           ///< on unit coordinates; unset: 1e-5 with surface normals, else 0
     Conflicts conflicts = Conflicts::reconcile;  ///< where contours contradict each other; surface normals only
     FillRule fill_rule = FillRule::even_odd;     ///< what contours inside others of their plane mean
     Corners corners = Corners::rounded;          ///< what becomes of the corners of closed contours; surface normals only

@@ -12,33 +12,39 @@
 namespace kontur {
 namespace {
 
-// Fractions of the contours' diameter (diameter_mm). The offset is short enough to stay clear of the opposite wall of thin
-// structures and long enough for a well-conditioned system; docs/decisions/0001-surface-normals.md has the measurements.
-constexpr double kOffsetFraction = 4.5e-3;
+// Fractions of the contours' diameter; docs/decisions/0001-surface-normals.md has the measurements.
+constexpr double kOffsetFraction = 1.35e-2;        // normal constraints on both sides, soft
+constexpr double kInPlaneOffsetFraction = 4.5e-3;  // outside alone, exact
+constexpr double kMarginFraction = 4.5e-3;         // of clicks; what contours may disagree by
+constexpr double kSlopeNoise = 0.21;               // what the tilt of an organ's surface is known to
 constexpr double kMergeFraction = 6e-4;
 constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
 
 FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     FitOptions fit;
+    const bool is_surface = options.normals == Normals::surface;
     fit.normals = options.normals;
-    fit.place.normal_offset_mm = options.normal_offset_mm.value_or(kOffsetFraction * diameter_mm);
+    fit.place.normal_offset_mm =
+        options.normal_offset_mm.value_or((is_surface ? kOffsetFraction : kInPlaneOffsetFraction) * diameter_mm);
+    fit.place.both_sides = is_surface;
+    fit.place.slope_noise = is_surface ? kSlopeNoise : 0;
     fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
     if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
         throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",
                                                           fit.place.normal_offset_mm));
     fit.solve.kernel = options.kernel;
     fit.solve.solver = options.solver;
-    fit.solve.smoothing = options.smoothing.value_or(options.normals == Normals::surface ? kSurfaceSmoothing : 0.0);
+    fit.solve.smoothing = options.smoothing.value_or(is_surface ? kSurfaceSmoothing : 0.0);
     fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
     fit.solve.threads = options.threads;
     return fit;
 }
 
 /// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
-PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting) {
+PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting, double diameter_mm) {
     PrepareOptions prepare{
-        .quality = options.quality, .click_margin_mm = fitting.place.normal_offset_mm, .threads = options.threads};
+        .quality = options.quality, .click_margin_mm = kMarginFraction * diameter_mm, .threads = options.threads};
     prepare.corners = options.corners;
     prepare.corner_spacing_mm = 2 * fitting.place.merge_distance_mm;
     if (options.normals == Normals::in_plane) {
@@ -78,8 +84,8 @@ StageOptions stage_options(const SegmentOptions& options, double diameter_mm) {
     const FitOptions fit = fit_options(options, diameter_mm);
     const ReconcileOptions reconcile{
         .conflicts = options.normals == Normals::in_plane ? Conflicts::exact : options.conflicts,
-        .offset_mm = kOffsetFraction * diameter_mm};
-    return {prepare_options(options, fit), reconcile, fit};
+        .offset_mm = kMarginFraction * diameter_mm};
+    return {prepare_options(options, fit, diameter_mm), reconcile, fit};
 }
 
 Drawing read_drawing(const ContourSet& drawn, FillRule rule) {

@@ -50,7 +50,7 @@ TEST(RandomMixes, OfManyPointsCanBeThinnedToFew) {
         options.tilt_points = options.most_points = 8;
         options.rounds = 1;
         options.most_solves = 2;
-        options.place = {0.0045 * diameter, 6e-4 * diameter};
+        options.place = {.normal_offset_mm = 0.0045 * diameter, .merge_distance_mm = 6e-4 * diameter};
         options.solve.smoothing = 1e-5;
         try {
             const PreparedContours prepared = prepare(read_drawing(set, FillRule::even_odd), {.least_segments = 200});

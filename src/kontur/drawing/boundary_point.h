@@ -17,7 +17,8 @@ struct BoundaryPoint {
     Vec3 plane_normal{};     ///< unit normal of the contour's plane: where the surface may tilt; zero: it may not
     std::int32_t contour{};  ///< index into ContourSet::contours; kNoContour for a single point
     double trust = 1;        ///< > 0: how closely the surface is to follow, against smoothness
-    double gap_mm = std::numeric_limits<double>::infinity();  ///< along the normal to the next drawn line of the plane
+    double gap_mm = std::numeric_limits<double>::infinity();    ///< along the normal to the next drawn line of the plane
+    double depth_mm = std::numeric_limits<double>::infinity();  ///< the same against the normal
 };
 
 }  // namespace kontur

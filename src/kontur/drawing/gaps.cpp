@@ -16,7 +16,7 @@ Point2 minus(const Point2& a, const Point2& b) { return {a[0] - b[0], a[1] - b[1
 double cross2(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 /// All lines of a plane in its coordinates.
-struct Drawing {
+struct PlaneLines {
     static constexpr std::size_t kStretchEdges = 16;
 
     Plane plane;
@@ -31,32 +31,32 @@ struct Drawing {
     }
 };
 
-struct Drawings {
-    std::vector<Drawing> all;
+struct AllLines {
+    std::vector<PlaneLines> all;
     std::vector<std::size_t> of;  ///< for each contour which one it belongs to
 
-    const Drawing& with(std::int32_t contour) const { return all[of[static_cast<std::size_t>(contour)]]; }
+    const PlaneLines& with(std::int32_t contour) const { return all[of[static_cast<std::size_t>(contour)]]; }
 };
 
-Drawings drawings_of(const ContourSet& set, double tolerance_mm) {
+AllLines lines_of(const ContourSet& set, double tolerance_mm) {
     const std::vector<std::size_t> plane = shared_planes(set.contours, tolerance_mm);
-    Drawings drawings{{}, std::vector<std::size_t>(set.contours.size())};
+    AllLines lines{{}, std::vector<std::size_t>(set.contours.size())};
     for (std::size_t c = 0; c < set.contours.size(); ++c)
         if (plane[c] == c) {
-            drawings.of[c] = drawings.all.size();
-            drawings.all.push_back({set.contours[c].plane, {}, BoxTree{}});
+            lines.of[c] = lines.all.size();
+            lines.all.push_back({set.contours[c].plane, {}, BoxTree{}});
         }
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         const Contour& contour = set.contours[c];
-        drawings.of[c] = drawings.of[plane[c]];
-        Drawing& drawing = drawings.all[drawings.of[c]];
+        lines.of[c] = lines.of[plane[c]];
+        PlaneLines& lines_here = lines.all[lines.of[c]];
         for (std::size_t i = contour.closed ? 0 : 1; i < contour.points.size(); ++i) {
             const Vec3 &from = contour.points[i > 0 ? i - 1 : contour.points.size() - 1], &to = contour.points[i];
-            drawing.edges.emplace_back(drawing.plane.to_uv(from), drawing.plane.to_uv(to));
+            lines_here.edges.emplace_back(lines_here.plane.to_uv(from), lines_here.plane.to_uv(to));
         }
     }
-    for (Drawing& drawing : drawings.all) drawing.finish();
-    return drawings;
+    for (PlaneLines& lines_here : lines.all) lines_here.finish();
+    return lines;
 }
 
 /// Where the ray from `start` in the unit direction `along` meets the edge; infinity where it does not.
@@ -69,9 +69,10 @@ double hit(const Point2& start, const Point2& along, const Point2& a, const Poin
     return distance >= 0 && at >= 0 && at <= 1 ? distance : kNone;
 }
 
-double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, double own_edge) {
-    const Point2 start = drawing.plane.to_uv(point.position);
-    const Point2 along{dot(point.inplane_normal, drawing.plane.u), dot(point.inplane_normal, drawing.plane.v)};
+/// From the point in the unit direction to the next line; infinity beyond the reach.
+double gap(const PlaneLines& lines_here, const Vec3& from, const Vec3& direction, double reach, double own_edge) {
+    const Point2 start = lines_here.plane.to_uv(from);
+    const Point2 along{dot(direction, lines_here.plane.u), dot(direction, lines_here.plane.v)};
     Box2 ray;
     ray.extend(start);
     ray.extend(Point2{start[0] + reach * along[0], start[1] + reach * along[1]});
@@ -88,11 +89,11 @@ double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, dou
     const auto key = [&](const Box2& box) {
         return box.meets(ray) ? box.distance2(start) : std::numeric_limits<double>::infinity();
     };
-    drawing.stretches.visit(key, squared_limit, [&](std::size_t s) {
-        const std::size_t begin = s * Drawing::kStretchEdges;
-        const std::size_t end = std::min(begin + Drawing::kStretchEdges, drawing.edges.size());
+    lines_here.stretches.visit(key, squared_limit, [&](std::size_t s) {
+        const std::size_t begin = s * PlaneLines::kStretchEdges;
+        const std::size_t end = std::min(begin + PlaneLines::kStretchEdges, lines_here.edges.size());
         for (std::size_t e = begin; e < end; ++e) {
-            const auto& [a, b] = drawing.edges[e];
+            const auto& [a, b] = lines_here.edges[e];
             if (const double distance = hit(start, along, a, b); distance > own_edge) nearest = std::min(nearest, distance);
         }
     });
@@ -103,14 +104,16 @@ double gap(const Drawing& drawing, const BoundaryPoint& point, double reach, dou
 
 void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
                int threads) {
-    const Drawings drawings = drawings_of(set, tolerance_mm);
+    const AllLines lines = lines_of(set, tolerance_mm);
     // Points of refined contours lie on their edge only up to rounding.
     const double own_edge = 1e-5 * tolerance_mm;
     parallel_for(static_cast<std::int64_t>(points.size()), 128, threads, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
-            if (point.contour != kNoContour && !(point.inplane_normal == Vec3{}))
-                point.gap_mm = gap(drawings.with(point.contour), point, reach_mm, own_edge);
+            if (point.contour == kNoContour || point.inplane_normal == Vec3{}) continue;
+            const PlaneLines& here = lines.with(point.contour);
+            point.gap_mm = gap(here, point.position, point.inplane_normal, reach_mm, own_edge);
+            point.depth_mm = gap(here, point.position, -point.inplane_normal, reach_mm, own_edge);
         }
     });
 }

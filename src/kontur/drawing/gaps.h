@@ -8,10 +8,10 @@
 
 namespace kontur {
 
-/// Sets every point's `gap_mm`: how far one may go from it along its outward normal, within its contour's plane, before the
-/// next line drawn in that plane, up to `reach_mm`; infinity beyond. The edges at the point itself do not count.
-/// Contours share a plane within `tolerance_mm` (shared_planes). A point costs the logarithm of the edges in its plane and
-/// those that lie as near as the line found.
+/// Sets every point's `gap_mm` and `depth_mm`: how far one may go from it along its outward normal and against it, within
+/// its contour's plane, before the next line drawn in that plane, up to `reach_mm`; infinity beyond. The edges at the point
+/// itself do not count. Contours share a plane within `tolerance_mm` (shared_planes). A point costs the logarithm of the
+/// edges in its plane and those that lie as near as the line found.
 void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
                int threads = 0);
 

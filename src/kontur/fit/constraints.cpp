@@ -80,6 +80,9 @@ void check_points(std::span<const BoundaryPoint> points, std::span<const PointCo
         if (!(p.gap_mm > 0))
             throw Error(ErrorKind::invalid_input,
                         fmt::format("the gap of point {} is {:g} mm; it must be above 0", i + 1, p.gap_mm));
+        if (!(p.depth_mm > 0))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the depth of point {} is {:g} mm; it must be above 0", i + 1, p.depth_mm));
         check_trust(p.trust, "point", i);
     }
     for (std::size_t i = 0; i < single_points.size(); ++i) {
@@ -94,6 +97,7 @@ void check_points(std::span<const BoundaryPoint> points, std::span<const PointCo
 void check_place_options(const PlaceOptions& options) {
     check_above_0("the normal offset", options.normal_offset_mm, " mm");
     check_not_below_0("the merge distance", options.merge_distance_mm, " mm");
+    check_not_below_0("the noise of the slopes", options.slope_noise);
 }
 
 void check_slopes(std::span<const double> slopes, std::size_t points) {
@@ -124,10 +128,17 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
 
     std::vector<bool> kept(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) kept[i] = place(points[i].position, 0, points[i].trust);
+    const auto place_beside = [&](std::size_t i, double side, double room_mm) {
+        const double offset = std::min(options.normal_offset_mm, room_mm / 2);
+        place(points[i].position + side * offset * points[i].inplane_normal, -side * offset * slopes[i], points[i].trust,
+              offset * options.slope_noise);
+    };
+    std::size_t with_normal = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
-        const double offset = std::min(options.normal_offset_mm, points[i].gap_mm / 2);
-        place(points[i].position + offset * points[i].inplane_normal, -offset * slopes[i], points[i].trust);
+        if (options.both_sides && with_normal++ % 2 == 1) continue;
+        place_beside(i, 1, points[i].gap_mm);
+        if (options.both_sides) place_beside(i, -1, points[i].depth_mm);
     }
     for (const PointConstraint& p : single_points) place(p.position, p.value, p.trust, p.noise_mm);
     return result;

@@ -19,6 +19,8 @@ struct PointConstraint {
 
 struct PlaceOptions {
     double normal_offset_mm = 1.0;  ///< length d > 0 of the normal constraints
+    bool both_sides = false;        ///< normal constraints inside as well as outside, at every second point
+    double slope_noise = 0;         ///< >= 0, standard deviation of the slopes: of a normal constraint this times d, in mm
     double merge_distance_mm = 0;   ///< a constraint closer than this to an earlier one is left out (0: only exact copies)
 };
 
@@ -27,16 +29,21 @@ struct PlacedConstraints {
     std::size_t merged = 0;  ///< constraints left out because they (nearly) repeat others
 };
 
-/// Throws Error(invalid_input) for an offset that is not above 0, a merge distance below 0, and either that is not finite.
+/// Throws Error(invalid_input) for an offset that is not above 0, a merge distance or a noise below 0, and what is not
+/// finite of them.
 void check_place_options(const PlaceOptions& options);
 /// Throws Error(invalid_input) unless there is one slope in (0, 1] for each of the points.
 void check_slopes(std::span<const double> slopes, std::size_t points);
 
-/// Boundary constraints f = 0 at all points, and for each one normal constraint f = -d s at the distance d outside along
-/// its in-plane normal; then the single points. The distance is the offset, but no more than half of the point's gap, so
-/// that in a narrow cleft each wall keeps its side. `slopes` holds s in (0, 1], one per point: how fast f falls along the
-/// in-plane normal, which for a distance-like f is the cosine of the surface's tilt against the contour's plane. All ones
-/// is the paper's choice.
+/// Boundary constraints f = 0 at all points and normal constraints beside them, f = -d s at the distance d outside along the
+/// in-plane normal; then the single points. The distance is the offset, but no more than half of the point's gap, so that in
+/// a narrow cleft each wall keeps its side. `slopes` holds s in (0, 1], one per point: how fast f falls along the in-plane
+/// normal, which for a distance-like f is the cosine of the surface's tilt against the contour's plane. All ones is the
+/// paper's choice.
+///
+/// A normal constraint on the outside alone pulls the surface inwards wherever f does not reach it exactly. With
+/// `both_sides` every second point has two, f = +d s at the distance d inside (no more than half of the depth) as well:
+/// what they miss cancels at the line, and the constraints are as many.
 ///
 /// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
 /// distance of an earlier one is dropped; boundary constraints come first and win. Throws Error(invalid_input) as the two

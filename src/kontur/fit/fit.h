@@ -18,8 +18,8 @@ std::string_view name(Normals normals) noexcept;
 
 struct FitOptions {
     Normals normals = Normals::surface;
-    int rounds = 3;                      ///< surface normals: how often the tilts are read from the fit and given back to it
-    double start_smoothing = 1e-3;       ///< surface normals: smoothing of the first fit, on unit coordinates
+    int rounds = 2;                      ///< surface normals: how often the tilts are read from the fit and given back to it
+    double start_smoothing = 1e-2;       ///< surface normals: smoothing of the first fit, on unit coordinates
     double smoothing_factor = 0.3;       ///< ... and its factor from round to round; the last fit has `solve.smoothing`
     double least_slope = 0.2;            ///< surface normals: lower bound of the cosine of the tilt
     double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt
@@ -52,7 +52,7 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 /// f(c + d n_inplane) = -d, which the paper prescribes, is wrong by the cosine of the tilt, and where contours of
 /// different planes cross, these errors contradict each other. With surface normals the tilt is read from the fitted
 /// gradient at the contour's points and the prescribed values are corrected, f(c + d n_inplane) = -d cos(tilt); the fit
-/// is repeated, three rounds by default. The tilt varies slowly along a contour, so these rounds need only a part of the
+/// is repeated, two rounds by default. The tilt varies slowly along a contour, so these rounds need only a part of the
 /// points and cost less than the one fit of all points that follows. To first order that is the normal constraint of the
 /// true 3D normal, but only the contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot
 /// amplify it from round to round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start

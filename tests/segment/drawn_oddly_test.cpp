@@ -50,7 +50,7 @@ TEST(DrawnOddly, TwiceIsOnce) {
         EXPECT_NEAR(volume_ml(ball(heights)), once, 0.01 * once) << heights.size();
     ContourSet redrawn = ball({-30, 0, 30, 0});
     for (std::size_t i = 0; i < 60; ++i) redrawn.contours[3].points[i].x += 2 * std::sin(0.7 * static_cast<double>(i));
-    EXPECT_NEAR(volume_ml(redrawn), once, 0.07 * once) << "again by hand, in the same plane: what either line encloses";
+    EXPECT_NEAR(volume_ml(redrawn), once, 0.09 * once) << "again by hand, in the same plane: what either line encloses";
 }
 
 TEST(DrawnOddly, TwoPlanesAtTheSamePlaceAreOneEnd) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kontur/base/checks.h"
@@ -55,12 +56,12 @@ public:
         : all_(contours.points), ball_(contours.ball), options_(options), progress_(progress), bounds_(contours.bounds) {}
 
     /// Solves for points with these slopes; true if other bounds should have been held.
-    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes,
+    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes, const PlaceOptions& placing,
                    const SolveOptions& solving) {
         std::vector<PointConstraint> single_points;
         bounds_.append_to(single_points);
         result_.bounded = single_points.size();
-        const PlacedConstraints placed = place_constraints(points, slopes, single_points, options_.place);
+        const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
         SolveOptions in_ball = solving;
         if (solving.kernel == Kernel::screened && !solving.ball) in_ball.ball = ball_;
         const Solution solution = solve(placed.constraints, in_ball, progress_of_next_solve(), &previous_);
@@ -83,7 +84,7 @@ public:
         double smoothing = options_.start_smoothing;
         for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
             solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
-            solve_for(points, slopes, solving);
+            solve_for(points, slopes, options_.place, solving);
             std::vector<double> next = read_slopes(result_.function, points, options_);
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
@@ -100,7 +101,9 @@ public:
         const std::vector<double> slopes = pick(result_.slopes, kept);
         SolveOptions solving = options_.solve;
         solving.smoothing *= share(points);
-        for (int more = 0; solve_for(points, slopes, solving) && more + 1 < options_.most_solves;) ++more;
+        PlaceOptions placing = options_.place;
+        placing.slope_noise *= std::sqrt(share(points));
+        for (int more = 0; solve_for(points, slopes, placing, solving) && more + 1 < options_.most_solves;) ++more;
         return std::move(result_);
     }
 

@@ -2,6 +2,7 @@
 #include "kontur/editor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kontur/base/checks.h"
@@ -93,7 +94,10 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
     stages.fit.solve.tolerance_mm *= kPreviewTolerance;
     stages.fit.early_tolerance_factor = 2;
     stages.fit.start_slopes = known_slopes(drawing.contours, prepared);
-    if (!stages.fit.start_slopes.empty()) stages.fit.rounds = std::min(stages.fit.rounds, 1);
+    if (!stages.fit.start_slopes.empty()) {  // the last round is enough
+        stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
+        stages.fit.rounds = 1;
+    }
     const FittedFunction fitted = fit(prepared, stages.fit, progress);
     watch.lap("fit");
     const std::vector<Vec3> starts =

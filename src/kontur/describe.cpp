@@ -14,7 +14,7 @@
 namespace kontur {
 namespace {
 
-/// A sentence on the worst crossing, if it is worse than both a voxel and 1 % of the contours' box.
+/// A sentence on the worst crossing, if it is worse than both a voxel and 1.5 % of the drawing's diameter.
 void describe_crossings(const Drawing& drawing, const Grid& grid, SegmentReport& report) {
     report.crossings = drawing.crossings;
     std::stable_sort(report.crossings.begin(), report.crossings.end(),
@@ -121,7 +121,6 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     report.conflicts = stages.reconcile.conflicts;
     report.corners = stages.prepare.corners;
     append(report.warnings, drawing.notes);
-    if (const auto warning = check_contours_inside(contours, mask.grid)) report.warnings.push_back(*warning);
     append(report.warnings, prepared.notes);
     append(report.warnings, missed_clicks(contours, fitted.function, 2 * stages.prepare.click_margin_mm));
     describe_fit(prepared, fitted, stages.fit, report);

@@ -15,9 +15,9 @@ namespace kontur {
 Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOptions& options, const Progress& progress) {
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
-    const Drawing drawing = read_drawing(drawn, options.fill_rule);
+    Drawing drawing = read_drawing(drawn, options.fill_rule);
     check_grid(grid);
-    check_contours_inside(drawing.contours, grid);
+    if (const auto warning = check_contours_inside(drawing.contours, grid)) drawing.notes.push_back(*warning);
     const StageOptions stages = stage_options(options, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages);
     const double memory_mb = estimated_memory_mb(drawing, prepared, grid, options);

@@ -11,7 +11,7 @@
 #endif
 
 // In front of a hot function. Every level gives the same bytes where contraction is off, which it is unless
-// field/CMakeLists.txt turns it on for a file. Sanitizers cannot instrument the compiler's choice among clones: with them
+// kontur/CMakeLists.txt turns it on for a file. Sanitizers cannot instrument the compiler's choice among clones: with them
 // there is but one.
 #if KONTUR_X86_64_LEVEL == 3
 #define KONTUR_EVERY_INSTRUCTION_SET __attribute__((target("arch=x86-64-v3")))

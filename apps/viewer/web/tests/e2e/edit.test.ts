@@ -3,16 +3,11 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { before, beforeEach, describe, test } from "node:test";
-import type { Browser } from "playwright-core";
-import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { beforeEach, describe, test } from "node:test";
+import { BALL_ML, BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
-const folder = temporaryFolder();
-const image = join(folder.path, "ball.nii");
-let server: Server;
-let browser: Browser;
+const visits = new BallVisits();
 let viewer: Viewer;
-let visit = 0;
 
 interface Drawing {
   planes: { contours: { points: [number, number, number][] }[] }[];
@@ -39,20 +34,9 @@ async function drawBall(view: string, radius_mm = BALL_RADIUS_MM, contours = 1):
   return radius;
 }
 
-before(async () => {
-  writeBallImage(image);
-  browser = await launch();
-});
-
 beforeEach(async () => {
-  await viewer?.page.close();
-  await server?.end();
-  server = await Server.start(folder.path, image, "--project", join(folder.path, `visit${++visit}.kontur`));
-  viewer = await Viewer.open(browser, server.address);
-  await viewer.closeHint();
+  viewer = await visits.next();
 });
-
-cleanUp(folder, () => [browser, server]);
 
 describe("contours", () => {
   test("a part is redrawn from the line back to the line", async () => {
@@ -432,7 +416,7 @@ describe("files", () => {
     await drawBall("coronal", BALL_RADIUS_MM, 2);
     await viewer.surfaceShown();
     const drawn = await viewer.volume();
-    const mask = join(folder.path, "ball mask.nii.gz");
+    const mask = join(visits.folder.path, "ball mask.nii.gz");
     writeFileSync(mask, (await viewer.export("mask.nii.gz")).bytes);
     await viewer.import(mask);
     await viewer.page.click("[data-test=import-mask]");

@@ -3,31 +3,16 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { before, beforeEach, describe, test } from "node:test";
-import type { Browser, CDPSession } from "playwright-core";
-import { BALL_RADIUS_MM, circle, cleanUp, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { beforeEach, describe, test } from "node:test";
+import type { CDPSession } from "playwright-core";
+import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
-const folder = temporaryFolder();
-const image = join(folder.path, "ball.nii");
-let server: Server;
-let browser: Browser;
+const visits = new BallVisits();
 let viewer: Viewer;
-let visit = 0;
-
-before(async () => {
-  writeBallImage(image);
-  browser = await launch();
-});
 
 beforeEach(async () => {
-  await viewer?.page.close();
-  await server?.end();
-  server = await Server.start(folder.path, image, "--project", join(folder.path, `visit${++visit}.kontur`));
-  viewer = await Viewer.open(browser, server.address);
-  await viewer.closeHint();
+  viewer = await visits.next();
 });
-
-cleanUp(folder, () => [browser, server]);
 
 const names = () => viewer.page.locator(".structure-row button.name").allTextContents();
 const activeName = () => viewer.page.locator(".structure-row.active .name").textContent();
@@ -134,7 +119,7 @@ describe("the list of structures", () => {
     const { page } = viewer;
     await page.locator(".structure-row button.name").dblclick();
     await page.keyboard.type("Ki");
-    const other = await Viewer.open(browser, server.address);
+    const other = await Viewer.open(visits.browser, visits.server.address);
     await other.page.click("[data-test=add-structure]");
     await other.page.close();
     await page.waitForSelector(".structure:nth-child(2)");
@@ -290,7 +275,7 @@ describe("what a hand gets wrong is said, with a way back", () => {
 
   test("contours that lie outside of the image are asked about before they are imported", async () => {
     const { page } = viewer;
-    const path = join(folder.path, "elsewhere.json");
+    const path = join(visits.folder.path, "elsewhere.json");
     await drawBall("axial", 1);
     const drawing = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as { planes: { origin: number[]; contours: { points: number[][] }[] }[] };
     for (const plane of drawing.planes) for (const p of [plane.origin, ...plane.contours.flatMap((contour) => contour.points)]) p[0]! += 800;

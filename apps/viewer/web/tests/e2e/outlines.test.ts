@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is fitted is taken by the pointer, and by a key: with real presses, moves and keys.
 import assert from "node:assert/strict";
-import { join } from "node:path";
-import { before, beforeEach, describe, test } from "node:test";
-import type { Browser } from "playwright-core";
+import { beforeEach, describe, test } from "node:test";
 import { nearestOnLoop } from "../../src/geometry/loop";
-import { BALL_RADIUS_MM, circle, cleanUp, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
-const folder = temporaryFolder();
-const image = join(folder.path, "ball.nii");
-let server: Server;
-let browser: Browser;
+const visits = new BallVisits();
 let viewer: Viewer;
-let visit = 0;
 
 const SLICES = 4; // of 4 mm from the one that is drawn, at 2 mm
 const HEIGHT_MM = 2 - 4 * SLICES;
 const FITTED_MM = Math.sqrt(BALL_RADIUS_MM ** 2 - HEIGHT_MM ** 2);
 
-before(async () => {
-  writeBallImage(image);
-  browser = await launch();
-});
-
 /** The ball, drawn on the axial and the coronal slice through its middle; the axial view shows another slice. */
 beforeEach(async () => {
-  await viewer?.page.close();
-  await server?.end();
-  server = await Server.start(folder.path, image, "--project", join(folder.path, `visit${++visit}.kontur`));
-  viewer = await Viewer.open(browser, server.address);
-  await viewer.closeHint();
+  viewer = await visits.next();
   const { page } = viewer;
   await page.keyboard.press("f");
   for (const [i, view] of (["axial", "coronal"] as const).entries()) {
@@ -44,8 +29,6 @@ beforeEach(async () => {
   await viewer.slicesShown();
   await viewer.surfaceShown();
 });
-
-cleanUp(folder, () => [browser, server]);
 
 interface Drawing {
   planes: { origin: number[]; normal: number[]; contours: { points: [number, number, number][] }[] }[];

@@ -1,38 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The round brush under a real pointer, and how lines look.
 import assert from "node:assert/strict";
-import { join } from "node:path";
-import { before, beforeEach, describe, test } from "node:test";
-import type { Browser } from "playwright-core";
-import { BALL_RADIUS_MM, circle, cleanUp, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { beforeEach, describe, test } from "node:test";
+import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
-const folder = temporaryFolder();
-const image = join(folder.path, "ball.nii");
-let server: Server;
-let browser: Browser;
+const visits = new BallVisits();
 let viewer: Viewer;
-let visit = 0;
-
-before(async () => {
-  writeBallImage(image);
-  browser = await launch();
-});
 
 /** The ball, drawn on the axial slice through its middle. */
 beforeEach(async () => {
-  await viewer?.page.close();
-  await server?.end();
-  server = await Server.start(folder.path, image, "--project", join(folder.path, `visit${++visit}.kontur`));
-  viewer = await Viewer.open(browser, server.address);
-  await viewer.closeHint();
+  viewer = await visits.next();
   await viewer.page.keyboard.press("f");
   await viewer.drag("axial", circle(await viewer.pixels("axial", BALL_RADIUS_MM), 36));
   await viewer.waitForContours(1);
   await viewer.saved();
   await viewer.surfaceShown();
 });
-
-cleanUp(folder, () => [browser, server]);
 
 type Drawing = { planes: { contours: { points: [number, number, number][] }[] }[] };
 

@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
-import { after } from "node:test";
+import { after, before } from "node:test";
 import { chromium, type Browser, type Locator, type Page } from "playwright-core";
 
 export const KONTUR = process.env["KONTUR_CLI"] ?? "kontur";
@@ -130,6 +130,34 @@ export function cleanUp(folder: Folder, opened: () => (Browser | Server | undefi
     for (const one of opened()) await (one instanceof Server ? one.end() : one?.close());
     folder.remove();
   });
+}
+
+/** The image of a ball, opened for each test by a server, with a project and in a page of their own. */
+export class BallVisits {
+  readonly folder = temporaryFolder();
+  server!: Server;
+  browser!: Browser;
+  private viewer: Viewer | undefined;
+  private count = 0;
+  private readonly image = join(this.folder.path, "ball.nii");
+
+  constructor() {
+    before(async () => {
+      writeBallImage(this.image);
+      this.browser = await launch();
+    });
+    cleanUp(this.folder, () => [this.browser, this.server]);
+  }
+
+  /** Ends the visit before. */
+  async next(): Promise<Viewer> {
+    await this.viewer?.page.close();
+    await (this.server as Server | undefined)?.end();
+    this.server = await Server.start(this.folder.path, this.image, "--project", join(this.folder.path, `visit${++this.count}.kontur`));
+    this.viewer = await Viewer.open(this.browser, this.server.address);
+    await this.viewer.closeHint();
+    return this.viewer;
+  }
 }
 
 /** The page as a user sees it; gathers what it complains of. */

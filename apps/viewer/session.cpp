@@ -64,6 +64,18 @@ std::vector<Id> ids_from(const Members& m) {
     return {ids.begin(), ids.end()};
 }
 
+/// What the history calls a new contour.
+std::string label_of(std::string_view origin) {
+    static constexpr std::array<std::pair<std::string_view, const char*>, 4> kOrigins{{{"drawn", "Draw a contour"},
+                                                                                       {"pulled", "Pull the outline"},
+                                                                                       {"adopted", "Keep the outline"},
+                                                                                       {"proposed", "Accept the proposal"}}};
+    for (const auto& [name, label] : kOrigins)
+        if (name == origin) return label;
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("'origin' is {}; it must be drawn, pulled, adopted or proposed", origin));
+}
+
 Commit one_contour(const std::string& label, const State& state, const DrawnContour& after) {
     Change<DrawnContour> change{after.id, {}, after};
     if (const auto before = state.contours.find(after.id); before != state.contours.end()) change.before = *before->second;
@@ -322,6 +334,7 @@ void Session::left(PageId page) {
 const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
     static const std::map<std::string, Call, std::less<>> table{
         {"path", {&Session::path, false}},
+        {"outline", {&Session::outline_of, false}},
         {"contour.add", {&Session::add_contour}},
         {"contour.move_point", {&Session::move_control_point}},
         {"contour.insert_point", {&Session::insert_control_point}},
@@ -379,7 +392,7 @@ json Session::add_contour(const Members& m) {
     DrawnContour contour = draw_contour(sketch_from(m), plane, edges_, options);
     contour.structure = structure_of(project_.state(), m.id("structure")).id;
     contour.hole = m.flag_or("hole", false);
-    return put("Draw a contour", std::move(contour), m);
+    return put(label_of(m.has("origin") ? m.text("origin", 16) : "drawn"), std::move(contour), m);
 }
 
 json Session::move_control_point(const Members& m) {

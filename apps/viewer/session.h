@@ -108,6 +108,7 @@ private:
     static const std::map<std::string, Call, std::less<>>& calls();
 
     nlohmann::json path(const Members& m);
+    nlohmann::json outline_of(const Members& m);
     nlohmann::json add_contour(const Members& m);
     nlohmann::json move_control_point(const Members& m);
     nlohmann::json insert_control_point(const Members& m);

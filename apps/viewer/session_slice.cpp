@@ -179,6 +179,18 @@ std::string Session::slice(std::string_view text) {
     return reply.bytes();
 }
 
+/// Of a slice that no view shows yet.
+json Session::outline_of(const Members& m) {
+    const Id structure = m.id("structure");
+    const Plane plane = m.plane("plane");
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    json lines = json::array();
+    if (found != surfaces.end() && found->second->mesh)
+        for (const Polyline& line : outline(*found->second->mesh, plane)) lines.push_back(to_json(line.points));
+    return {{"lines", std::move(lines)}};
+}
+
 std::string Session::mesh(Id structure) {
     const auto surfaces = surfaces_.all();
     const auto found = surfaces.find(structure);

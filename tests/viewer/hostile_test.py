@@ -213,7 +213,7 @@ def test_random_paths_lead_nowhere(server):
 def test_fuzzed_messages_change_nothing_that_was_not_asked_for(server):
     choose = random.Random(FUZZ + 1)
     page = server.page()
-    calls = ["path", "contour.add", "contour.move_point", "contour.pull", "contour.redraw", "contour.copy", "contour.set", "structure.set", "value", "draft.drop"]
+    calls = ["path", "outline", "contour.add", "contour.move_point", "contour.pull", "contour.redraw", "contour.copy", "contour.set", "structure.set", "value", "draft.drop"]
     values = [None, -1, 0, 1, 1e308, "x", "", [], {}, [0, 0, 0], [[0, 0, 0]] * 3, True, SLICE["plane"], [{"at": [0, 0, 0], "kind": "wire"}] * 2]
     names = ["id", "plane", "control", "at", "to", "from", "by", "path", "index", "structure", "closed", "offset_mm", "radius_mm", "draft"]
     for _ in range(FUZZ):

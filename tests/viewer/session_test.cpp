@@ -75,5 +75,52 @@ TEST(Session, NamesOfFilesBecomeWholeCharactersThatCanBeReadAgain) {
     EXPECT_EQ(here.session.state().structures.at(id).name, "\xef\xbf\xbd" + std::string(97, 'x'));
 }
 
+json called(Session& session, json message) {
+    message["seq"] = 1;
+    return json::parse(session.call(message.dump()));
+}
+
+json circle_to_add(Id structure, const char* origin) {
+    json control = json::array();
+    for (const Vec3& p : test::circle(24)) control.push_back({{"at", {p.x, p.y, p.z}}, {"kind", "spline"}});
+    const Plane& at = test::kPlane;
+    const auto numbers = [](const Vec3& p) { return json{p.x, p.y, p.z}; };
+    json plane{{"origin", numbers(at.origin)}, {"u", numbers(at.u)}, {"v", numbers(at.v)}, {"normal", numbers(at.normal)}};
+    return {{"call", "contour.add"}, {"structure", structure}, {"plane", plane}, {"control", control}, {"origin", origin}};
+}
+
+TEST(Session, TheHistoryNamesWhatAContourWasMadeOf) {
+    SessionHere here;
+    const Id id = here.session.add_structures("Import", {circles(1, 20)}).front();
+    for (const auto& [origin, label] :
+         {std::pair("drawn", "Draw a contour"), std::pair("pulled", "Pull the outline"),
+          std::pair("adopted", "Keep the outline"), std::pair("proposed", "Accept the proposal")}) {
+        EXPECT_TRUE(called(here.session, circle_to_add(id, origin)).contains("result")) << origin;
+        EXPECT_EQ(called(here.session, {{"call", "undo"}})["result"]["label"], label);
+    }
+    const json refusal = called(here.session, circle_to_add(id, "stolen"));
+    EXPECT_EQ(refusal["error"]["kind"], "invalid_input");
+    EXPECT_EQ(refusal["error"]["message"], "'origin' is stolen; it must be drawn, pulled, adopted or proposed");
+}
+
+TEST(Session, TheOutlineOnAPlaneThatNoViewShowsIsTold) {
+    SessionHere here;
+    const Id id = here.session.add_structures("Import", {circles(1, 60)}).front();
+    here.session.wait_for_surfaces();
+    json request = circle_to_add(id, "drawn");
+    request["call"] = "outline";
+    const json lines = called(here.session, request)["result"]["lines"];
+    ASSERT_EQ(lines.size(), 1u);
+    for (const json& p : lines[0]) {
+        const Vec3 at{p[0], p[1], p[2]};
+        EXPECT_NEAR(distance(at, test::kPlane.origin), 10, 0.5);
+        EXPECT_NEAR(test::kPlane.distance_to(at), 0, 1e-6);
+    }
+    request["plane"]["origin"][2] = 1000;
+    EXPECT_EQ(called(here.session, request)["result"]["lines"], json::array());
+    request["structure"] = id + 1000;
+    EXPECT_EQ(called(here.session, request)["result"]["lines"], json::array());
+}
+
 }  // namespace
 }  // namespace kontur::viewer

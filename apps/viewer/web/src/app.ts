@@ -103,7 +103,7 @@ export class App {
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),
-      copySelected: (steps) => void this.editor.edits.copySelected(this.active, steps),
+      propose: (steps) => void this.editor.proposals.next(this.active, steps),
     });
     this.keyboard = new Keyboard({
       ...shared,
@@ -148,6 +148,8 @@ export class App {
     editor.on(["tool", "hover"], () => this.tellHint());
     editor.drawing.on(["sketch"], each((view) => view.paint()));
     editor.drawing.on(["sketch"], () => this.tellHint());
+    editor.proposals.on(["proposal"], each((view) => view.paint()));
+    editor.proposals.on(["proposal"], () => this.tellHint());
     editor.drawing.on(["points"], () => this.savePageSoon());
     editor.drawing.on(["points"], () => this.tellSaved());
     project.on(["selection"], () => this.tellHint());
@@ -379,6 +381,7 @@ export class App {
   private leave(): void {
     if (this.inputs.some((input) => input.cancel())) return;
     if (this.editor.drawing.sketch) return this.editor.drawing.leave();
+    if (this.editor.proposals.drop()) return;
     if (this.editor.tool.id !== "edit") return this.editor.choose("edit");
     this.project.select(null);
   }

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import { heightOver } from "../geometry/plane";
 import { toWorld, type Point2, type Screen } from "../geometry/screen";
-import { dot, scale, sub, type Vec3 } from "../geometry/vec";
-import type { Navigation } from "../model/navigation";
-import type { Project } from "../model/project";
-import type { Contour, ViewName } from "../net/protocol";
-import type { Drafts, Edit } from "./drafts";
-import type { Drawing } from "./drawing";
+import { sub, type Vec3 } from "../geometry/vec";
+import type { Contour } from "../net/protocol";
+import type { Edit } from "./drafts";
+import { Edits } from "./edits";
 import type { Gesture, Modifiers } from "./gesture";
 import { inView, type ContourHit } from "./hit";
-import type { EditorServices } from "./services";
 import { isContourHidden } from "./sight";
 
 /** Changes contours that are there, by gestures and by commands. */
-export class ContourEdits {
-  constructor(
-    private readonly navigation: Navigation,
-    private readonly project: Project,
-    private readonly drawing: Drawing,
-    private readonly drafts: Drafts,
-    private readonly services: EditorServices,
-  ) {}
-
+export class ContourEdits extends Edits {
   /** Carries out a call that changes the project, after the sketches that are on their way. */
   make(name: string, args: Record<string, unknown>): void {
     const { drawing, project, services } = this;
@@ -102,21 +90,5 @@ export class ContourEdits {
     if (selection.point === null) return this.make("contour.remove", { ids: [selection.contour] });
     this.make("contour.delete_point", { id: selection.contour, index: selection.point });
     this.project.select({ contour: selection.contour, point: null });
-  }
-
-  /** Lays a copy of the selected contour `steps` slices further along its normal, and shows it. */
-  async copySelected(view: ViewName, steps: number): Promise<void> {
-    const contour = this.project.selectedContour;
-    if (!contour) return this.services.tell("Select a contour first: click its line, or its row in the list.");
-    if (isContourHidden(contour, this.project, this.services)) return;
-    try {
-      const onward = Math.sign(dot(contour.plane.normal, this.navigation.direction(view))) || 1;
-      const offset_mm = steps * onward * this.navigation.step(view);
-      const copy = await this.services.call<{ contour: Contour }>("contour.copy", { id: contour.id, offset_mm });
-      this.project.select({ contour: copy.contour.id, point: null });
-      this.navigation.setCrosshair(sub(this.navigation.crosshair, scale(contour.plane.normal, heightOver(copy.contour.plane, this.navigation.crosshair))));
-    } catch (error) {
-      this.services.failed(error);
-    }
   }
 }

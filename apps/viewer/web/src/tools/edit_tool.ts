@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { usualCursor, type Tool } from "./tool";
 
-const SELECTED = "Drag points or the line · Ctrl + click inserts · Del deletes · C copies to the next slice";
+const SELECTED = "Drag points or the line · Ctrl + click inserts · Del deletes · C proposes the next slice";
 const OUTLINE = "Drag the outline where it is wrong, and it becomes a contour · A makes it one as it is";
 const LOOKING = "Wheel scrolls · right drag windows · Shift + move jumps · ? shows all";
 

@@ -13,6 +13,7 @@ import { hitContour } from "./hit";
 import { OutlineEdits } from "./outline_edits";
 import type { Place } from "./place";
 import { PlaneLines } from "./plane_lines";
+import { Proposals } from "./proposals";
 import { Pushing } from "./pushing";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
 import type { EditorServices } from "./services";
@@ -30,6 +31,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly outlines: OutlineEdits;
   readonly planeLines: PlaneLines;
   readonly pushing: Pushing;
+  readonly proposals: Proposals;
 
   constructor(
     readonly navigation: Navigation,
@@ -42,6 +44,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.edits = new ContourEdits(navigation, project, this.drawing, drafts, services);
     this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
     this.pushing = new Pushing(project, this.drawing, this.edits, this.outlines, drafts, services);
+    this.proposals = new Proposals(navigation, project, this.drawing, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);
     this.drawing.on(["resumed"], () => this.takeToolOfSketch());
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { heightOver, pixelToWorld, type PixelPlane } from "../geometry/plane";
+import { heightOver, pixelToWorld, type PixelPlane, type Plane } from "../geometry/plane";
 import { isInside, nearestOnLoop, type NearPlace } from "../geometry/loop";
 import { planeOf, toScreen, type Point2, type Screen } from "../geometry/screen";
-import type { Vec3 } from "../geometry/vec";
+import { dot, sub, type Vec3 } from "../geometry/vec";
 import type { Project } from "../model/project";
 import type { Outline } from "../view/outlines";
 import { inView } from "./hit";
@@ -40,9 +40,19 @@ function closedLines({ structure, points, lines }: Outline, plane: PixelPlane, s
     .map(({ first, count }) => Array.from({ length: count }, (_, i) => pixelToWorld(plane, points[2 * (first + i)]!, points[2 * (first + i) + 1]!)));
   const seen = world.map((line) => line.map((p) => toScreen(screen, p)));
   return world.map((line, i) => {
-    const around = seen.filter((other, k) => k !== i && isInside(other, seen[i]![0]!)).length;
-    return { structure, points: line, seen: seen[i]!, isHole: around % 2 === 1 };
+    return { structure, points: line, seen: seen[i]!, isHole: isHole(seen[i]!, seen) };
   });
+}
+
+/** Whether the structure lies outside of this line, one of those in which its surface cuts a plane. */
+function isHole(line: readonly Point2[], all: readonly (readonly Point2[])[]): boolean {
+  return all.filter((other) => other !== line && isInside(other, line[0]!)).length % 2 === 1;
+}
+
+/** The same of lines in space. */
+export function isHoleOf(line: readonly Vec3[], all: readonly (readonly Vec3[])[], { origin, u, v }: Plane): boolean {
+  const laid = all.map((one) => one.map((p): Point2 => [dot(sub(p, origin), u), dot(sub(p, origin), v)]));
+  return isHole(laid[all.indexOf(line)]!, laid);
 }
 
 function boxesMeet(a: readonly Point2[], b: readonly Point2[]): boolean {

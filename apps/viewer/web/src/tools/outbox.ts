@@ -103,6 +103,7 @@ export class Outbox {
       plane: this.drawing.pixelPlane(sketch),
       control: sketch.points,
       ...(sketch.hole && { hole: true }),
+      ...(sketch.origin !== "drawn" && { origin: sketch.origin }),
     });
     return contour;
   }

@@ -2,16 +2,12 @@
 import { pulled, pullReach } from "../geometry/loop";
 import { gap, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub, type Vec3 } from "../geometry/vec";
-import type { Navigation } from "../model/navigation";
-import type { Project } from "../model/project";
 import type { ViewName } from "../net/protocol";
-import type { Drafts } from "./drafts";
-import type { Drawing } from "./drawing";
+import { Edits } from "./edits";
 import { freeOutlines, nearestOutline, type FreeOutline } from "./free_outlines";
 import { DRAG_PIXELS, type Gesture } from "./gesture";
 import { LINE_PIXELS } from "./hit";
-import type { EditorServices } from "./services";
-import { Sketch } from "./sketch";
+import { Sketch, type Origin } from "./sketch";
 
 /** A computed outline that the pointer is on. */
 export interface OutlineHit {
@@ -20,15 +16,7 @@ export interface OutlineHit {
 }
 
 /** Makes contours of what is fitted: where the outline is wrong it is pulled right, and where it is right it is kept. */
-export class OutlineEdits {
-  constructor(
-    private readonly navigation: Navigation,
-    private readonly project: Project,
-    private readonly drawing: Drawing,
-    private readonly drafts: Drafts,
-    private readonly services: EditorServices,
-  ) {}
-
+export class OutlineEdits extends Edits {
   at(view: ViewName, screen: Screen, pointer: Point2): OutlineHit | null {
     const found = this.below(view, screen, pointer);
     return found && { structure: found.outline.structure, at: toWorld(screen, found.place.at) };
@@ -48,7 +36,7 @@ export class OutlineEdits {
     const before = place.index + 1;
     const points = [...outline.points.slice(0, before), toWorld(screen, place.at), ...outline.points.slice(before)];
     const start = toWorld(screen, pointer), reach = pullReach(points);
-    const contourAt = (at: Point2) => this.contour(screen, outline, pulled(points, before, sub(toWorld(screen, at), start), reach));
+    const contourAt = (at: Point2) => this.contour(screen, outline, pulled(points, before, sub(toWorld(screen, at), start), reach), "pulled");
     let isDrag = false;
     return {
       move: (at) => {
@@ -77,7 +65,7 @@ export class OutlineEdits {
     const active = this.project.activeStructure;
     const free = this.free(view, screen);
     const found = this.below(view, screen, at) ?? nearestOutline(free.filter(({ structure }) => structure === active?.id), at);
-    if (found) return this.add(this.contour(screen, found.outline, found.outline.points));
+    if (found) return this.add(this.contour(screen, found.outline, found.outline.points, "adopted"));
     const name = active?.name ?? "The structure";
     this.services.tell(`${name} has no outline on this slice that is not drawn already. Point at a slice where its computed outline shows, and press A again.`);
   }
@@ -95,8 +83,8 @@ export class OutlineEdits {
   }
 
   /** An outline's contour with this line. */
-  contour(screen: Screen, { structure, isHole }: FreeOutline, points: readonly Vec3[]): Sketch {
-    return Sketch.closedFree(planeOf(screen), structure, points, isHole);
+  contour(screen: Screen, { structure, isHole }: FreeOutline, points: readonly Vec3[], origin: Origin): Sketch {
+    return Sketch.closedFree(planeOf(screen), structure, points, { hole: isHole, origin });
   }
 
   /** The outlines of the view's slice that can be made contours. */

@@ -120,7 +120,7 @@ export class Pushing {
   }
 
   private ofOutline(screen: Screen, outline: FreeOutline): Target {
-    const contour = (line: readonly BrushPoint[]) => this.outlines.contour(screen, outline, this.world(screen, outline, line));
+    const contour = (line: readonly BrushPoint[]) => this.outlines.contour(screen, outline, this.world(screen, outline, line), "pulled");
     return { points: outline.points, draft: (line) => this.outlines.draft(contour(line)), make: (line) => this.outlines.add(contour(line)) };
   }
 }

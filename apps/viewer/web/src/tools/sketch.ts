@@ -12,7 +12,11 @@ export interface SavedSketch {
   isUnsaved?: boolean;
   redraws?: number;
   hole?: boolean;
+  origin?: Origin;
 }
+
+/** What the history calls the contour by: drawn by hand, or made of a computed outline. */
+export type Origin = "drawn" | "pulled" | "adopted" | "proposed";
 
 const SAVED_DIGITS = 9;
 const SAME_PLACE_MM = 1e-5; // what is saved is rounded
@@ -30,6 +34,7 @@ export class Sketch {
   isUnsaved = false;
   /** Its inside does not belong to the structure. */
   hole = false;
+  origin: Origin = "drawn";
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
   constructor(
@@ -98,9 +103,10 @@ export class Sketch {
   }
 
   /** A hand-drawn contour as a whole: one stretch from its first point around to it. */
-  static closedFree(plane: Plane, structure: number, path: readonly Vec3[], hole = false): Sketch {
+  static closedFree(plane: Plane, structure: number, path: readonly Vec3[], { hole = false, origin = "drawn" as Origin } = {}): Sketch {
     const sketch = new Sketch(plane, structure, "free");
     sketch.hole = hole;
+    sketch.origin = origin;
     sketch.points = [{ at: path[0]!, kind: "free", path: path.slice(1) }];
     return sketch;
   }
@@ -132,16 +138,17 @@ export class Sketch {
   }
 
   saved(): SavedSketch {
-    const { plane, structure, kind, isUnsaved, redraws, hole } = this;
+    const { plane, structure, kind, isUnsaved, redraws, hole, origin } = this;
     const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
-    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }), ...(redraws !== undefined && { redraws }), ...(hole && { hole }) };
+    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }), ...(redraws !== undefined && { redraws }), ...(hole && { hole }), ...(origin !== "drawn" && { origin }) };
   }
 
-  static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false }: SavedSketch): Sketch {
+  static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false, origin = "drawn" }: SavedSketch): Sketch {
     const sketch = new Sketch(plane, structure, kind, redraws);
     sketch.points = points;
     sketch.isUnsaved = isUnsaved;
     sketch.hole = hole;
+    sketch.origin = origin;
     return sketch;
   }
 

@@ -73,7 +73,7 @@ export const COMMANDS: readonly Command[] = [
     run: (page, isShifted) => goToDrawnSlice(page, isShifted ? -1 : 1),
   },
   { keys: ["Home"], help: ["Look around", "Home", "all views back to where they began"], run: ({ navigation }) => navigation.resetAll() },
-  { keys: ["Enter"], help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor }) => editor.drawing.close() },
+  { keys: ["Enter"], help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()) },
   {
     keys: ["Backspace"],
     help: ["Draw", "Backspace", "remove the last point"],
@@ -84,8 +84,8 @@ export const COMMANDS: readonly Command[] = [
   { keys: ["Delete"], help: ["Edit", "Del", "delete the selected point, or the contour"], run: ({ editor }) => editor.edits.deleteSelected() },
   {
     keys: ["c"],
-    help: ["Edit", "C, Shift + C", "copy to the next, previous slice"],
-    run: ({ editor, focused }, isShifted) => void editor.edits.copySelected(focused(), isShifted ? -1 : 1),
+    help: ["Edit", "C, Shift + C", "propose the outline on the next, previous slice; Enter accepts, Esc drops it"],
+    run: ({ editor, focused }, isShifted) => void editor.proposals.next(focused(), isShifted ? -1 : 1),
   },
   {
     keys: ["a"],

@@ -20,7 +20,8 @@ export class Keyboard {
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
     const presses = event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ");
-    if (presses && !this.services.editor.drawing.sketch) return;
+    const { drawing, proposals } = this.services.editor;
+    if (presses && !drawing.sketch && !(event.key === "Enter" && proposals.shown)) return;
     if (this.hold(event) || this.obey(event)) event.preventDefault();
   }
 

@@ -21,7 +21,8 @@ export interface PanelServices {
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
   show(contour: Contour): void;
-  copySelected(steps: number): void;
+  /** Proposes the outline that many slices further on. */
+  propose(steps: number): void;
 }
 
 const KIND_LABELS: Record<Contour["kind"], string> = { freehand: "freehand", spline: "spline", livewire: "live-wire", mixed: "mixed" };
@@ -228,7 +229,7 @@ export class Panel {
   }
 
   private updateActions(): void {
-    const { project, call, editor, copySelected } = this.services;
+    const { project, call, editor, propose } = this.services;
     const contour = project.selectedContour;
     this.actions.hidden = !contour;
     if (!contour) return;
@@ -237,9 +238,9 @@ export class Panel {
     const structure = el("select", { title: "The structure that this contour belongs to", on: { change: goOver } });
     structure.append(...[...project.structures.values()].map((entry) => el("option", { value: String(entry.id), selected: entry.id === contour.structure }, entry.name)));
     this.actions.replaceChildren(
-      el("span", {}, "Copy to"),
-      button({ icon: ICONS.copyDown, label: "next", title: "Copy to the next slice (C)", class: "tool", test: "copy-next", click: () => copySelected(1) }),
-      button({ icon: ICONS.copyUp, label: "previous", title: "Copy to the previous slice (Shift+C)", class: "tool", click: () => copySelected(-1) }),
+      el("span", {}, "Propose on"),
+      button({ icon: ICONS.copyDown, label: "next", title: "Propose the outline on the next slice (C)", class: "tool", test: "propose-next", click: () => propose(1) }),
+      button({ icon: ICONS.copyUp, label: "previous", title: "Propose the outline on the previous slice (Shift+C)", class: "tool", test: "propose-previous", click: () => propose(-1) }),
       button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", click: () => editor.edits.deleteSelected() }),
       el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       structure,

@@ -93,6 +93,21 @@ export class OverlayPainter {
     this.stroke(this.path(points, true), tinted(color, 0.5), 2.6 * this.appearance.width);
   }
 
+  /** What Enter would make contours of. */
+  proposal(lines: readonly (readonly Vec3[])[], color: string): void {
+    const { ctx } = this;
+    ctx.lineJoin = "round";
+    for (const line of lines) {
+      const path = this.path(line, true);
+      this.stroke(path, SHADE, 2.4 * this.appearance.width + 2);
+      ctx.setLineDash([8, 5]);
+      this.stroke(path, tinted(color, 0.82), 2.4 * this.appearance.width);
+      ctx.setLineDash([]);
+    }
+    const [x, y] = lines.flat().map((p) => toScreen(this.screen, p)).reduce((top, p) => (p[1] < top[1] ? p : top));
+    this.text("Enter accepts, Esc drops", [x, Math.max(y - 8, 52)], "center", "bottom", `${this.fontPixels}px system-ui, sans-serif`);
+  }
+
   brush(at: Point2, radius: number): void {
     for (const [color, width] of [[SHADE, 3], [INK, 1.3]] as const) {
       const path = new Path2D();

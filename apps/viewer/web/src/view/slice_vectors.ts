@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { areParallel, type PixelPlane } from "../geometry/plane";
-import { depthBelow, toScreen, type Screen } from "../geometry/screen";
+import { areParallel, coincide, type PixelPlane } from "../geometry/plane";
+import { depthBelow, planeOf, toScreen, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
 import type { Navigation } from "../model/navigation";
@@ -44,6 +44,7 @@ export class SliceVectors {
     this.paintLines(painter, screen);
     this.paintContours(painter, screen);
     this.paintRings(painter, screen);
+    this.paintProposal(painter, screen);
     this.paintSketch(painter, screen);
     this.services.editor.paint(painter, this.name);
   }
@@ -94,6 +95,13 @@ export class SliceVectors {
         hoveredPoint: hovered && hover.on === "point" ? hover.index : null,
       });
     }
+  }
+
+  private paintProposal(painter: OverlayPainter, screen: Screen): void {
+    const { editor, project, navigation } = this.services;
+    const proposal = editor.proposals.shown;
+    if (!proposal || !coincide(proposal.plane, planeOf(screen), navigation.step(this.name) / 2)) return;
+    painter.proposal(proposal.lines, project.structures.get(proposal.structure)?.color ?? "#888888");
   }
 
   private paintSketch(painter: OverlayPainter, screen: Screen): void {

@@ -313,7 +313,7 @@ describe("views", () => {
     await sheet.waitFor();
     const box = (await sheet.boundingBox())!;
     assert.ok(box.y >= 0 && box.y + box.height <= 720, "it fits at 1280 x 720");
-    for (const words of ["Shift + move", "copy to the next", "insert a point"]) assert.ok((await sheet.textContent())!.includes(words));
+    for (const words of ["Shift + move", "propose the outline on the next", "insert a point"]) assert.ok((await sheet.textContent())!.includes(words));
     await page.keyboard.press("l"); // the sheet has the keyboard
     await page.keyboard.press("Escape");
     await page.waitForSelector("[data-test=help-dialog]", { state: "detached" });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import type { Plane } from "../../src/geometry/plane";
 import type { Point2, Screen } from "../../src/geometry/screen";
 import type { Vec3 } from "../../src/geometry/vec";
 import { ServerError } from "../../src/net/http";
@@ -124,13 +125,13 @@ test("a slip comes back by undo, and Enter makes a contour of it", async () => {
   assert.equal(edits().length, 1);
 });
 
-test("nothing is drawn into a hidden structure, copied or redrawn where it is not seen, until it is shown", async () => {
+test("nothing is drawn into a hidden structure, proposed or redrawn where it is not seen, until it is shown", async () => {
   const { editor, drawing, project, drag, edits, settled, complaints, remedies } = editing("freehand");
   const [liver] = project.structures.values();
   project.select({ contour: 5, point: null });
   project.apply({ event: "changed", structures: { set: [{ ...liver!, visible: false }] }, history: { undo: null, redo: null } });
   drag(...round(40, 90));
-  await editor.edits.copySelected("axial", 1);
+  await editor.proposals.next("axial", 1);
   editor.choose("redraw");
   drag(...round(40, 90));
   await settled();
@@ -252,13 +253,13 @@ test("dragging the line of a tilted plane follows the pointer, and leaves the sl
   near(navigation.crosshair, [0, 20, 0], 1e-9);
 });
 
-test("the next slice lies onward, whichever way the contour looks", async () => {
-  for (const [normal, offset_mm] of [[[0, 0, 1], -2], [[0, 0, -1], 2]] as const) {
+test("the next slice lies onward, whichever way the contour looks", () => {
+  for (const normal of [[0, 0, 1], [0, 0, -1]] as const) {
     const drawn = square(5);
     const { editor, project, edits } = editing("edit", [{ ...drawn, plane: { ...drawn.plane, normal } }]);
     project.select({ contour: 5, point: null });
-    void editor.edits.copySelected("axial", 1);
-    assert.deepEqual(edits().map(({ name, args }) => [name, args["offset_mm"]]), [["contour.copy", offset_mm]]);
+    void editor.proposals.next("axial", 1);
+    assert.deepEqual(edits().map(({ name, args }) => [name, args["structure"], (args["plane"] as Plane).origin]), [["outline", 1, [0, 0, -2]]]);
   }
 });
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+import { coincide, heightOver, projected, type Plane } from "../geometry/plane";
+import { add, dot, scale, type Vec3 } from "../geometry/vec";
+import { Emitter } from "../model/emitter";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import { VIEW_NAMES, type Contour, type ViewName } from "../net/protocol";
+import type { Drawing } from "./drawing";
+import { isHoleOf } from "./free_outlines";
+import type { EditorServices } from "./services";
+import { isContourHidden, isHidden } from "./sight";
+import { Sketch } from "./sketch";
+
+/** Lines of a structure on a plane that are not contours before the user says so. */
+export interface Proposal {
+  structure: number;
+  plane: Plane;
+  lines: readonly (readonly Vec3[])[];
+}
+
+/** Offers what is fitted on another slice: Enter makes contours of it, Esc drops it. */
+export class Proposals extends Emitter<"proposal"> {
+  shown: Proposal | null = null;
+  private asked: Plane | null = null; // what is shown, or on its way
+
+  constructor(
+    private readonly navigation: Navigation,
+    private readonly project: Project,
+    private readonly drawing: Drawing,
+    private readonly services: EditorServices,
+  ) {
+    super();
+    project.on(["contours"], () => void this.drop());
+    navigation.on(["planes"], () => this.dropOutOfSight());
+  }
+
+  /** Goes `steps` slices on, from what is proposed, or the selected contour, or else the view's slice, and offers the outline there. */
+  async next(view: ViewName, steps: number): Promise<void> {
+    const { project, navigation, services, drawing } = this;
+    if (drawing.sketch) return services.tell("Close the contour that you are drawing first (Enter), or leave it (Esc).");
+    const selected = project.selectedContour;
+    const structure = selected ? project.structures.get(selected.structure) : project.activeStructure;
+    if (!structure) return services.tell("Draw a contour first; then its surface is proposed on other slices.");
+    if (selected ? isContourHidden(selected, project, services) : isHidden(structure.id, project, services)) return;
+    const from = this.asked ?? selected?.plane ?? navigation.plane(view);
+    const onward = Math.sign(dot(from.normal, navigation.direction(view))) || 1;
+    const step_mm = navigation.step(view);
+    const plane = { ...from, origin: add(from.origin, scale(from.normal, steps * onward * step_mm)) };
+    if (!this.goTo(plane, step_mm)) return services.tell("There is no slice further on in this direction.");
+    const drawn = project.contoursOf(structure.id).find((contour) => coincide(contour.plane, plane, step_mm / 2));
+    if (drawn) return this.pass(drawn, structure.name);
+    await this.propose(structure.id, plane, selected);
+  }
+
+  /** Shows what of the structure's surface lies on the plane; or else, if there is one, the contour laid there. */
+  async propose(structure: number, plane: Plane, instead?: Contour): Promise<void> {
+    this.asked = plane;
+    try {
+      const { lines } = await this.services.call<{ lines: Vec3[][] }>("outline", { structure, plane });
+      if (this.asked !== plane) return; // another one was asked for, or none is wanted any more
+      const there = lines.filter((line) => line.length >= 3);
+      if (there.length === 0 && instead) there.push(instead.points.map((p) => projected(plane, p)));
+      if (there.length === 0) return this.tellNone(structure);
+      this.shown = { structure, plane, lines: there };
+      this.emit("proposal");
+    } catch (error) {
+      this.services.failed(error);
+    }
+  }
+
+  /** False where nothing is proposed. */
+  accept(): boolean {
+    if (!this.shown || this.drawing.holdsUnsaved()) return false;
+    const { structure, plane, lines } = this.shown;
+    const sketches = lines.map((line) => Sketch.closedFree(plane, structure, line, { hole: isHoleOf(line, lines, plane), origin: "proposed" }));
+    this.drop();
+    if (this.project.activeStructure?.id !== structure) this.project.activate(structure);
+    for (const sketch of sketches) this.drawing.send(sketch);
+    return true;
+  }
+
+  /** False where nothing is proposed. */
+  drop(): boolean {
+    const was = this.shown;
+    this.asked = this.shown = null;
+    if (was) this.emit("proposal");
+    return was !== null;
+  }
+
+  /** What is not seen any more is not accepted by mistake. */
+  private dropOutOfSight(): void {
+    const { asked, navigation } = this;
+    if (asked && !VIEW_NAMES.some((view) => coincide(asked, navigation.plane(view), navigation.step(view) / 2))) this.drop();
+  }
+
+  /** Moves the crosshair onto the plane; false where the image ends before it. */
+  private goTo(plane: Plane, step_mm: number): boolean {
+    const { navigation } = this;
+    const before = navigation.crosshair;
+    this.asked = plane;
+    navigation.setCrosshair(projected(plane, before));
+    if (Math.abs(heightOver(plane, navigation.crosshair)) < step_mm / 4) return true;
+    this.drop();
+    navigation.setCrosshair(before);
+    return false;
+  }
+
+  private pass(drawn: Contour, name: string): void {
+    this.drop();
+    this.project.select({ contour: drawn.id, point: null });
+    this.services.tell(`This slice has a contour of ${name} already.`);
+  }
+
+  private tellNone(structure: number): void {
+    this.drop();
+    this.services.tell(`${this.project.structures.get(structure)?.name ?? "The structure"} has no outline on this slice.`);
+  }
+}

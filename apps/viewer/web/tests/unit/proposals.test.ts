@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Plane } from "../../src/geometry/plane";
+import type { Vec3 } from "../../src/geometry/vec";
+import { editing, type Call } from "./editing";
+import { square } from "./support";
+
+const ring = (half: number, z: number): Vec3[] => [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
+
+/** With the contour on the slice 0 selected; the server knows these outlines of any plane. */
+function proposing(lines: (z: number) => Vec3[][], contours = [square(5)]) {
+  const all = editing("edit", contours);
+  all.project.select({ contour: 5, point: null });
+  all.server.lines = (plane: Plane) => lines(plane.origin[2]);
+  const added = () => all.edits().filter(({ name }) => name === "contour.add");
+  return { ...all, proposals: all.editor.proposals, added };
+}
+
+const heights = (calls: Call[]) => calls.filter(({ name }) => name === "outline").map(({ args }) => (args["plane"] as Plane).origin[2]);
+
+test("a proposal is no contour before it is accepted, and then it is one by that name, with its holes", async () => {
+  const { proposals, drawing, settled, added } = proposing((z) => [ring(5, z), ring(2, z)]);
+  await proposals.next("axial", 1);
+  assert.deepEqual(proposals.shown?.lines, [ring(5, -2), ring(2, -2)]);
+  assert.deepEqual(added(), []);
+  assert.equal(proposals.accept(), true);
+  await drawing.outbox.afterSending(() => undefined);
+  await settled();
+  assert.deepEqual(added().map(({ args }) => [args["origin"], args["hole"] ?? false, (args["plane"] as Plane).origin]), [["proposed", false, [0, 0, -2]], ["proposed", true, [0, 0, -2]]]);
+  assert.equal(proposals.accept(), false);
+});
+
+test("the next one lies a slice on from what is proposed; dropped, it begins again from the contour", async () => {
+  const { proposals, calls, navigation } = proposing((z) => [ring(5, z)]);
+  await proposals.next("axial", 1);
+  await proposals.next("axial", 1);
+  assert.equal(navigation.crosshair[2], -4);
+  assert.equal(proposals.drop(), true);
+  assert.equal(proposals.shown, null);
+  await proposals.next("axial", -1);
+  assert.deepEqual(heights(calls), [-2, -4, 2]);
+});
+
+test("what is not seen any more is not accepted, nor what contours have changed since", async () => {
+  const { proposals, navigation, project, added } = proposing((z) => [ring(5, z)]);
+  await proposals.next("axial", 1);
+  navigation.scroll("axial", 1);
+  assert.equal(proposals.shown, null);
+  await proposals.next("axial", 1);
+  project.apply({ event: "changed", contours: { set: [square(6)] }, history: { undo: null, redo: null } });
+  assert.equal(proposals.accept(), false);
+  assert.deepEqual(added(), []);
+});
+
+test("an answer that comes after the next key or after Esc shows nothing", async () => {
+  const { proposals } = proposing((z) => [ring(5, z)]);
+  const late = proposals.next("axial", 1);
+  const newer = proposals.next("axial", 1);
+  await Promise.all([late, newer]);
+  assert.equal(proposals.shown?.plane.origin[2], -4);
+  const dropped = proposals.next("axial", 1);
+  proposals.drop();
+  await dropped;
+  assert.equal(proposals.shown, null);
+});
+
+test("where the surface has ended the contour itself is proposed, and a slice that is drawn is passed with a word", async () => {
+  const beyond = square(6, { plane: { ...square(6).plane, origin: [0, 0, -2] }, points: ring(9, -2) });
+  const { proposals, project, complaints } = proposing(() => [], [square(5), beyond]);
+  await proposals.next("axial", -1);
+  assert.deepEqual(proposals.shown?.lines, [square(5).points.map(([x, y]) => [x, y, 2])]);
+  proposals.drop();
+  await proposals.next("axial", 1);
+  assert.deepEqual([proposals.shown, project.selection?.contour], [null, 6]);
+  assert.match(complaints.at(-1)!, /has a contour of Liver already/);
+});
+
+test("beyond the image's last slice nothing is proposed, and the crosshair stays", async () => {
+  const last = square(5, { plane: { ...square(5).plane, origin: [0, 0, -49] }, points: ring(5, -49) });
+  const { proposals, navigation, calls, complaints } = proposing((z) => [ring(5, z)], [last]);
+  const before = navigation.crosshair;
+  await proposals.next("axial", 30);
+  assert.deepEqual([heights(calls), navigation.crosshair], [[], before]);
+  assert.match(complaints.at(-1)!, /no slice further on/);
+});

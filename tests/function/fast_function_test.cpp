@@ -126,6 +126,30 @@ TEST(FastFunction, SameBytesForAnyNumberOfThreadsAndAnyBatch) {
     }
 }
 
+TEST(FastFunction, TakesFinerLatticesOnceItMissesTheTolerance) {
+    const ImplicitFunction& function = bumpy(Kernel::screened);
+    constexpr std::int64_t kExpected = 10 * kPoints;
+    const EvaluationPlan first = plan_evaluation(function, kExpected);
+    const EvaluationPlan second = plan_evaluation(function, kExpected, first.spacings.back() / 2);
+    ASSERT_FALSE(second.spacings.empty());
+    EXPECT_LE(second.spacings.back(), 0.51 * first.spacings.back());
+
+    std::mt19937 random = test::random_of_this_test();
+    const std::vector<Vec3> points = points_about_surface(kPoints, random);
+    std::vector<double> values(points.size());
+    FastFunction coarse(function, {.tolerance_mm = 1, .expected_points = kExpected});
+    coarse.values(points, values);
+    const double tolerance_mm = coarse.error_mm() / 2;
+
+    FastFunction fast(function, {.tolerance_mm = tolerance_mm, .expected_points = kExpected});
+    fast.values(points, values);
+    EXPECT_FALSE(fast.is_direct());
+    EXPECT_LE(fast.error_mm(), tolerance_mm);
+    EXPECT_GT(fast.kernel_values(), coarse.kernel_values()) << "what the first lattices cost is forgotten";
+    const std::vector<double> exact = exact_values(function, points);
+    for (std::size_t i = 0; i < points.size(); ++i) ASSERT_NEAR(values[i], exact[i], 3 * tolerance_mm);
+}
+
 TEST(FastFunction, AnswersByDirectSumsOnceItMissesTheTolerance) {
     const ImplicitFunction& function = bumpy(Kernel::triharmonic);
     std::mt19937 random = test::random_of_this_test();

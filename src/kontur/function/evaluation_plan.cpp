@@ -63,8 +63,10 @@ struct Layer {
 
 class Planner {
 public:
-    explicit Planner(const ImplicitFunction& function)
-        : centers_(static_cast<double>(function.centers().size())),
+    Planner(const ImplicitFunction& function, double coarsest_spacing)
+        : coarsest_(static_cast<int>(
+              std::lround(std::log(std::max(kCoarsestSpacing / coarsest_spacing, 1.0)) / std::log(kSpacingRatio)))),
+          centers_(static_cast<double>(function.centers().size())),
           area_(surface_area(function.centers())),
           neighbours_(function.centers()) {}
 
@@ -72,7 +74,7 @@ public:
     EvaluationPlan best(const Layer& layer, int finest, int levels) const {
         EvaluationPlan best_plan{{}, layer.points * centers_};
         if (levels == 0) return best_plan;
-        for (int s = 0; s <= finest; ++s) {
+        for (int s = coarsest_; s <= finest; ++s) {
             const double spacing = kCoarsestSpacing / std::pow(kSpacingRatio, s);
             const double near = kGatheredPerNear * neighbours_.within(FarField::kRadius * spacing);
             const Layer nodes = nodes_about(layer, spacing);
@@ -99,16 +101,17 @@ private:
         return std::min(layer.points, volume(layer.thickness + 2 * spacing) / std::pow(spacing, 3));
     }
 
+    int coarsest_;  ///< the number of the coarsest spacing
     double centers_, area_;
     NeighbourCounts neighbours_;
 };
 
 }  // namespace
 
-EvaluationPlan plan_evaluation(const ImplicitFunction& function, double points) {
+EvaluationPlan plan_evaluation(const ImplicitFunction& function, double points, double coarsest_spacing) {
     const double direct = points * static_cast<double>(function.centers().size());
     if (!(direct > 1e6)) return {{}, direct};
-    return Planner(function).best({points, 0, kVisitsPerCell}, kSpacings - 1, kMostLevels);
+    return Planner(function, coarsest_spacing).best({points, 0, kVisitsPerCell}, kSpacings - 1, kMostLevels);
 }
 
 }  // namespace kontur

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "kontur/function/implicit_function.h"
@@ -14,7 +15,8 @@ struct EvaluationPlan {
     double cost = 0;  ///< estimate, in kernel values
 };
 
-/// The cheapest plan for `points` points on the surface that the centres lie on.
-EvaluationPlan plan_evaluation(const ImplicitFunction& function, double points);
+/// The cheapest plan for `points` points on the surface that the centres lie on, of lattices no coarser than a spacing.
+EvaluationPlan plan_evaluation(const ImplicitFunction& function, double points,
+                               double coarsest_spacing = std::numeric_limits<double>::infinity());
 
 }  // namespace kontur

@@ -20,14 +20,13 @@ void check(const FastOptions& options) {
     check_threads(options.threads);
 }
 
-std::unique_ptr<FarField> build(const ImplicitFunction& function, const FastOptions& options) {
-    check(options);
-    const EvaluationPlan plan = plan_evaluation(function, static_cast<double>(options.expected_points));
-    std::unique_ptr<PointEvaluator> nodes = std::make_unique<DirectSum>(function, options.threads);
+/// Null where direct sums are cheapest.
+std::unique_ptr<FarField> build(const ImplicitFunction& function, const EvaluationPlan& plan, int threads) {
+    std::unique_ptr<PointEvaluator> nodes = std::make_unique<DirectSum>(function, threads);
     std::unique_ptr<FarField> field;
     for (auto spacing = plan.spacings.rbegin(); spacing != plan.spacings.rend(); ++spacing) {
         if (field) nodes = std::move(field);
-        field = std::make_unique<FarField>(function, *spacing, std::move(nodes), options.threads);
+        field = std::make_unique<FarField>(function, *spacing, std::move(nodes), threads);
     }
     return field;
 }
@@ -42,11 +41,18 @@ std::vector<Vec3> pick(std::span<const Vec3> points, const std::vector<std::size
 }  // namespace
 
 struct FastFunction::State {
+    State(const ImplicitFunction& function, const FastOptions& options) : exact(function), options(options) {
+        check(options);
+        plan = plan_evaluation(exact, static_cast<double>(options.expected_points));
+        field = build(exact, plan, options.threads);
+    }
+
     ImplicitFunction exact;
     FastOptions options;
+    EvaluationPlan plan;
     std::unique_ptr<FarField> field;  ///< null: direct sums
     double error_mm = 0;
-    std::int64_t direct_kernel_values = 0;  ///< for direct sums and checks
+    std::int64_t earlier_kernel_values = 0;  ///< for direct sums, checks and fields given up
 
     std::size_t answered = 0;
 
@@ -56,7 +62,7 @@ struct FastFunction::State {
         std::vector<std::size_t> chosen;
         for (std::size_t i = (every - answered % every) % every; i < count; i += every) chosen.push_back(i);
         answered += count;
-        direct_kernel_values += static_cast<std::int64_t>(chosen.size() * exact.centers().size());
+        earlier_kernel_values += static_cast<std::int64_t>(chosen.size() * exact.centers().size());
         return chosen;
     }
 
@@ -68,18 +74,24 @@ struct FastFunction::State {
     }
 
     void count_direct(std::size_t points) {
-        direct_kernel_values += static_cast<std::int64_t>(points * exact.centers().size());
+        earlier_kernel_values += static_cast<std::int64_t>(points * exact.centers().size());
     }
 
-    void drop_field() {
-        direct_kernel_values += field->kernel_values();
-        field.reset();
+    /// After an error beyond the tolerance: a field whose coarsest lattice is half as coarse, if it still pays for the
+    /// points to come, which are no fewer than the `count` of this call.
+    void refine_field(std::size_t count) {
+        earlier_kernel_values += field->kernel_values();
+        options.expected_points = std::max(options.expected_points - static_cast<std::int64_t>(answered - count),
+                                           static_cast<std::int64_t>(count));
+        plan = plan_evaluation(exact, static_cast<double>(options.expected_points), plan.spacings.back() / 2);
+        field = build(exact, plan, options.threads);
         error_mm = 0;
+        answered = 0;
     }
 };
 
 FastFunction::FastFunction(const ImplicitFunction& function, const FastOptions& options)
-    : state_(new State{function, options, build(function, options)}) {}
+    : state_(new State(function, options)) {}
 FastFunction::~FastFunction() = default;
 FastFunction::FastFunction(FastFunction&&) noexcept = default;
 
@@ -87,14 +99,14 @@ const ImplicitFunction& FastFunction::exact() const { return state_->exact; }
 double FastFunction::error_mm() const { return state_->error_mm; }
 bool FastFunction::is_direct() const { return !state_->field; }
 std::int64_t FastFunction::kernel_values() const {
-    return state_->direct_kernel_values + (state_->field ? state_->field->kernel_values() : 0);
+    return state_->earlier_kernel_values + (state_->field ? state_->field->kernel_values() : 0);
 }
 
 void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out, const Progress& progress) {
     check_same_count("values", out.size(), "points", points_mm.size());
     State& s = *state_;
     const PointArrays points(s.exact.frame().to_unit(points_mm));
-    if (s.field && s.reaches(points)) {
+    while (s.field && s.reaches(points)) {
         s.field->values(points, out, progress);
         s.exact.add_fall(points, out);
         const std::vector<std::size_t> checked = s.choose_checked(points.size());
@@ -103,7 +115,7 @@ void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out
         for (std::size_t c = 0; c < checked.size(); ++c)
             s.error_mm = std::max(s.error_mm, std::abs(out[checked[c]] - exact[c]));
         if (s.error_mm <= s.options.tolerance_mm) return;
-        s.drop_field();
+        s.refine_field(points.size());
     }
     DirectSum(s.exact, s.options.threads).values(points, out, progress);
     s.exact.add_fall(points, out);
@@ -114,7 +126,7 @@ void FastFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> ou
     check_same_count("gradients", out.size(), "points", points_mm.size());
     State& s = *state_;
     const PointArrays points(s.exact.frame().to_unit(points_mm));
-    if (s.field && s.reaches(points)) {
+    while (s.field && s.reaches(points)) {
         s.field->gradients(points, out, progress);
         for (std::size_t i = 0; i < out.size(); ++i)
             out[i] = (out[i] + s.exact.fall_gradient_at(points[i])) / s.exact.frame().scale;
@@ -124,7 +136,7 @@ void FastFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> ou
         double error = 0;
         for (std::size_t c = 0; c < checked.size(); ++c) error = std::max(error, distance(out[checked[c]], exact[c]));
         if (error <= s.options.gradient_tolerance) return;
-        s.drop_field();
+        s.refine_field(points.size());
     }
     progress.check();
     s.exact.gradients(points_mm, out, s.options.threads);

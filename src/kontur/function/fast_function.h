@@ -20,7 +20,8 @@ struct FastOptions {
 /// An implicit function's values and gradients at many points near its centres, faster than by the sums over all centres:
 /// near centres are summed directly, the smooth rest is interpolated between lattice nodes (far_field.h). Where that would
 /// cost more than it saves (few centres or few points) the values are ImplicitFunction's own. Each call compares some of its
-/// values with those; if one misses the tolerance, that call and all later ones are answered by direct sums. Keeps what it
+/// values with those; if one misses the tolerance, that call and all later ones are answered through lattices half as coarse
+/// or, where these do not pay, by direct sums. Keeps what it
 /// computed for later calls; memory grows with the volume that the points fill. Not for use from several threads at once,
 /// and not after a call that threw. Same bytes for any number of threads (of one
 /// processor type; direct sums: of any).

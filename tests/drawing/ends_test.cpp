@@ -19,7 +19,7 @@ ContourSet stack(std::initializer_list<double> heights, ContourEnd end) {
     return set;
 }
 
-TEST(FindEnds, AFlatEndLiesInItsPlaneAndFacesAwayFromTheRest) {
+TEST(FindEnds, AFlatEndLiesJustBeyondItsPlaneAndFacesAwayFromTheRest) {
     for (const double direction : {1.0, -1.0}) {
         const ContourSet set = stack({0, 4 * direction, 8 * direction}, ContourEnd::flat);
         const Ends ends = find_ends(DrawnPlanes(set));
@@ -36,9 +36,26 @@ TEST(FindEnds, AFlatEndLiesInItsPlaneAndFacesAwayFromTheRest) {
                 ++wall;
                 continue;
             }
-            EXPECT_NEAR(height, 8, 1e-9);
+            EXPECT_NEAR(height, 8.05, 0.01) << "0.005 of the radius beyond what was drawn, which belongs to the object";
             EXPECT_LT(distance(point.inplane_normal, direction * kNormal), 1e-9);
             EXPECT_LT(norm(from_axis), 10);
+        }
+        EXPECT_EQ(wall, 60u);
+    }
+}
+
+TEST(FindEnds, TheWallAtAFlatEndGoesOnToTheNextPlane) {
+    for (const double wider : {2.0, 0.0, -2.0}) {
+        ContourSet set;
+        set.contours = {test::circle(make_plane({}, kNormal), 10 + wider, 60),
+                        test::circle(make_plane(4 * kNormal, kNormal), 10, 60)};
+        set.contours.back().end = ContourEnd::flat;
+        std::size_t wall = 0;
+        for (const BoundaryPoint& point : find_ends(DrawnPlanes(set)).lids) {
+            const double height = dot(point.position, kNormal);
+            if (height > 3.5) continue;
+            EXPECT_NEAR(norm(point.position - height * kNormal), 10 + (4 - height) / 4 * wider, 0.02) << wider;
+            ++wall;
         }
         EXPECT_EQ(wall, 60u);
     }

@@ -206,6 +206,34 @@ TEST(Kinds, EndsHereIsFlatOrRoundInsteadOfGoingOn) {
             }
 }
 
+// Voxel centres in the plane of a flat end are as good as on the surface.
+TEST(Kinds, AFlatEndKeepsTheSliceItWasDrawnIn) {
+    for (const auto& [bottom, top] : {std::pair{20.0, 20.0}, {12.0, 24.0}, {24.0, 12.0}}) {
+        const auto radius = [&, b = bottom, t = top](double z) { return b + (t - b) * (z + 20) / 40; };
+        ContourSet drawn;
+        for (const double z : {-20.0, -10.0, 0.0, 10.0, 20.0})
+            drawn.contours.push_back(test::circle(make_plane({0, 0, z}, {0, 0, 1}), radius(z), 60));
+        drawn.contours.front().end = drawn.contours.back().end = ContourEnd::flat;
+        Grid grid{{61, 61, 51}, {}};
+        grid.index_to_mm.translation = {-30, -30, -25};
+        const Mask mask = segment(drawn, grid).mask;
+        std::size_t wrong = 0, inside = 0, beyond = 0;
+        for (std::int64_t k = 0; k < grid.size.k; ++k)
+            for (std::int64_t j = 0; j < grid.size.j; ++j)
+                for (std::int64_t i = 0; i < grid.size.i; ++i) {
+                    const Vec3 at = grid.center_mm(i, j, k);
+                    const bool set = mask.values[grid.offset(i, j, k)] != 0;
+                    if (std::abs(at.z) > 20) beyond += set;
+                    if (std::abs(at.z) != 20) continue;
+                    const bool drawn_there = std::hypot(at.x, at.y) < radius(at.z);
+                    inside += drawn_there;
+                    wrong += set != drawn_there;
+                }
+        EXPECT_LT(static_cast<double>(wrong), 0.03 * static_cast<double>(inside)) << bottom;
+        EXPECT_EQ(beyond, 0u) << bottom;
+    }
+}
+
 TEST(Kinds, ThinPlatesStayWhole) {
     for (const auto& [half, least] : {std::pair{1.0, 0.95}, {2.0, 0.975}}) {
         const Body plate = test::ellipsoid({}, {24, 20, half});

@@ -32,7 +32,8 @@ Section region_of(const ContourSet& set, const Section& section, std::size_t con
 /// How the rest of the drawing continues a region on one side of its plane.
 struct Continuation {
     bool carried_on = false;
-    std::optional<double> spacing;  ///< mm to the next parallel plane
+    std::optional<double> spacing{};  ///< mm to the next parallel plane
+    const Section* next = nullptr;    ///< what is drawn in it
 };
 
 Continuation continuation(const DrawnPlanes& planes, const Section& region, const std::vector<Probe>& inside, double sign) {
@@ -48,6 +49,7 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
     }
     if (const auto next = planes.next(region.plane, sign)) {
         result.spacing = next->distance_mm;
+        result.next = next->section;
         const Section& there = *next->section;
         for (const Probe& probe : inside) {
             const Vec3 at = region.plane.from_uv(probe.at) + sign * next->distance_mm * region.plane.normal;
@@ -57,34 +59,48 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
     return result;
 }
 
-/// Two copies of the contour: one below the rim, which says that the wall stands upright there, and one inside of it on the
-/// lid. Without them a smooth function, which has no edge, bulges on both sides of the rim.
-void append_rim(const Contour& contour, std::int32_t index, const Section& region, const Vec3& up, double distance,
-                Ends& ends) {
+/// By how much a wall at a place of a flat end's rim moves outwards per mm below it: straight to the outline of the next
+/// parallel plane; upright where there is none of its kind (outer or of a hole).
+double flare(const Continuation& below, const Contour& contour, const Vec3& rim) {
+    constexpr double kMostFlare = 1;
+    if (!below.next) return 0;
+    const Point2 at = below.next->plane.to_uv(rim);
+    const Section::Nearest there = below.next->nearest(at);
+    if (below.next->layer(there.outline) != (contour.hole ? -1 : 1)) return 0;
+    return std::clamp((below.next->contains(at) ? 1 : -1) * there.distance / *below.spacing, -kMostFlare, kMostFlare);
+}
+
+/// Two copies of the contour: one below the rim, which says how the wall goes on there, and one inside of it on the lid.
+/// Without them a smooth function, which has no edge, bulges on both sides of the rim.
+void append_rim(const Contour& contour, std::int32_t index, const Section& region, const Continuation& below, const Vec3& up,
+                double distance, const Vec3& beyond, Ends& ends) {
     constexpr int kLeastSegments = 48;
     const Contour rim = refine(contour, kLeastSegments);
     const ContourOrientation orientation = orient(rim);
     // One ring after the other, each a line of its own: points that alternate between them cannot be thinned along their
     // way.
     for (std::size_t i = 0; i < rim.points.size(); ++i)
-        ends.lids.push_back({rim.points[i] - distance * up, orientation.normals[i], rim.plane.normal, index});
+        ends.lids.push_back({rim.points[i] + distance * (flare(below, contour, rim.points[i]) * orientation.normals[i] - up),
+                             orientation.normals[i], rim.plane.normal, index});
     for (std::size_t i = 0; i < rim.points.size(); ++i) {
         const Vec3 inside = rim.points[i] - distance * orientation.normals[i];
         const Point2 on_lid = region.plane.to_uv(inside);
         if (region.contains(on_lid) && region.clearance(on_lid) > 0.9 * distance)
-            ends.lids.push_back({.position = inside, .inplane_normal = up, .contour = index});
+            ends.lids.push_back({.position = inside + beyond, .inplane_normal = up, .contour = index});
     }
 }
 
-void append_flat(const ContourSet& set, const Section& region, const std::vector<Probe>& inside, double sign, Ends& ends) {
-    constexpr double kEdge = 0.1;  // of the inscribed radius
+void append_flat(const ContourSet& set, const Section& region, const Continuation& below, const std::vector<Probe>& inside,
+                 double sign, Ends& ends) {
+    constexpr double kEdge = 0.1, kBeyond = 0.005;  // of the inscribed radius
+    const Vec3 up = sign * region.plane.normal, beyond = kBeyond * deepest(inside) * up;
     for (const std::size_t c : region.contours)
-        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, sign * region.plane.normal,
-                   kEdge * deepest(inside), ends);
+        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond,
+                   ends);
     const auto contour = static_cast<std::int32_t>(region.contours.front());
     for (const Probe& probe : inside)
         ends.lids.push_back(
-            {.position = region.plane.from_uv(probe.at), .inplane_normal = sign * region.plane.normal, .contour = contour});
+            {.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour});
 }
 
 void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {
@@ -120,13 +136,13 @@ Ends find_ends(const DrawnPlanes& planes) {
                 continue;
             }
             const double sign = above.carried_on ? -1 : 1;
+            const Continuation& rest = above.carried_on ? above : below;
             if (set.contours[c].end == ContourEnd::flat) {
-                append_flat(set, region, inside, sign, ends);
+                append_flat(set, region, rest, inside, sign, ends);
                 continue;
             }
-            const std::optional<double> spacing = (above.carried_on ? above : below).spacing;
             const double widest = deepest(inside);
-            append_dome(region, inside, sign, std::min(spacing.value_or(widest) / 2, widest), ends);
+            append_dome(region, inside, sign, std::min(rest.spacing.value_or(widest) / 2, widest), ends);
         }
     return ends;
 }

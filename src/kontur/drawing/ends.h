@@ -18,8 +18,9 @@ struct Ends {
     std::vector<std::string> notes;   ///< ends that could not be followed, a sentence each, contours counted from 1
 };
 
-/// A flat end closes the object in the plane of its contour by a lattice of points whose normal is the plane's, and takes
-/// the wall to stand upright for the last tenth of the contour's inscribed radius; a round one by a dome, as high as half
+/// A flat end closes the object by a lattice of points whose normal is the plane's, 0.005 of the contour's inscribed
+/// radius beyond its plane, so that what was drawn there belongs to the object; for the last tenth of that radius the wall
+/// goes straight to the next parallel plane's outline (upright without one). A round end is a dome, as high as half
 /// the distance to the parallel plane before it and no higher than half the width of the contour (half its inscribed radius
 /// where there is no such plane). It ends on the side where neither the next parallel plane nor contours of other directions
 /// carry the contour's region on. Holes inside of the contour stay open.

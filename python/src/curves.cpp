@@ -46,6 +46,8 @@ void bind_types(py::module_& m) {
     changes.def_readonly("holes", &FillChanges::holes, "int: contours that became holes.");
     changes.def_readonly("removed", &FillChanges::removed, "int: contours taken out.");
     changes.def_readonly("crossings", &FillChanges::crossings, "list of (int, int): pairs that overlap in part.");
+    changes.def_readonly("thin_rings", &FillChanges::thin_rings,
+                         "list of (int, int): what became a hole and the contour with little more area around it.");
 
     py::class_<SelfContact> contact(m, "SelfContact", "A place where two parts of a closed polygon meet.");
     contact.def_property_readonly(

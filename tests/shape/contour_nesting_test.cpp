@@ -85,6 +85,18 @@ TEST(ApplyFillRule, EveryOtherLayerIsAHoleUnlessDeclaredOtherwise) {
     EXPECT_EQ(declared.contours[0].points, set.contours[0].points);
 }
 
+TEST(ApplyFillRule, NamesRingsSoThinThatALineMayHaveBeenDrawnTwice) {
+    ContourSet set;
+    set.contours = {circle(19.5, 0.2, 0), circle(20, 0, 0), circle(40, 0, 0)};  // the second is a hole of the third
+    EXPECT_TRUE(apply_fill_rule(set, FillRule::even_odd).thin_rings.empty());
+    set.contours.pop_back();
+    set.contours[1].hole = false;
+    EXPECT_EQ(apply_fill_rule(set, FillRule::even_odd).thin_rings,
+              (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}}));
+    set.contours = {circle(18, 0, 0), circle(20, 0, 0)};
+    EXPECT_TRUE(apply_fill_rule(set, FillRule::even_odd).thin_rings.empty());
+}
+
 TEST(FindNesting, NamesContoursThatOverlapInPart) {
     const Nesting nesting = find_nesting({circle(9, 0, 0), circle(3, 30, 0), circle(9, 10, 0)}, 0.01);
     EXPECT_EQ(nesting.crossings, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}}));

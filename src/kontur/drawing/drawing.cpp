@@ -12,6 +12,11 @@ namespace {
 
 void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
     if (changes.holes > 0) notes.push_back(fmt::format("{} contours inside others became holes", changes.holes));
+    if (!changes.thin_rings.empty())
+        notes.push_back(fmt::format(
+            "{} holes leave less than a tenth of the contour around them, the first of them contour {} "
+            "inside contour {}; where it is the same line drawn again, remove one of the two",
+            changes.thin_rings.size(), changes.thin_rings.front().first + 1, changes.thin_rings.front().second + 1));
     if (changes.removed > 0)
         notes.push_back(fmt::format("{} contours inside the object were left out: they are not holes", changes.removed));
     if (!changes.stray_holes.empty())

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "kontur/shape/box_tree.h"
 #include "kontur/shape/section.h"
@@ -75,6 +76,24 @@ void nest(const std::vector<std::size_t>& in_plane, const std::vector<Contour>& 
     }
 }
 
+double area(const Contour& contour) {
+    Vec3 sum;
+    for (std::size_t i = 1; i + 1 < contour.points.size(); ++i)
+        sum += cross(contour.points[i] - contour.points[0], contour.points[i + 1] - contour.points[0]);
+    return norm(sum) / 2;
+}
+
+/// The smallest contour around a nested one, if what lies between them is a small part of it.
+std::optional<std::size_t> thin_ring_around(const std::vector<Contour>& contours, std::size_t nested,
+                                            const std::vector<std::size_t>& enclosing) {
+    constexpr double kThin = 0.1;
+    const auto around = *std::min_element(enclosing.begin(), enclosing.end(), [&](std::size_t a, std::size_t b) {
+        return area(contours[a]) < area(contours[b]);
+    });
+    if (area(contours[nested]) < (1 - kThin) * area(contours[around])) return std::nullopt;
+    return around;
+}
+
 }  // namespace
 
 std::string_view name(FillRule rule) noexcept { return rule == FillRule::even_odd ? "even-odd" : "declared"; }
@@ -91,6 +110,8 @@ FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
             if (!nested || contours[i].hole) continue;
             contours[i].hole = true;
             ++changes.holes;
+            if (const auto around = thin_ring_around(contours, i, nesting.enclosing[i]))
+                changes.thin_rings.emplace_back(i, *around);
         }
         return changes;
     }

@@ -43,6 +43,8 @@ struct FillChanges {
     std::size_t holes = 0;    ///< contours that became holes because of where they lie
     std::size_t removed = 0;  ///< contours taken out because they lie inside the object (FillRule::declared)
     std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< as Nesting's, indices before any was taken out
+    /// What became a hole and the contour around it that has little more area: perhaps one line, drawn twice.
+    std::vector<std::pair<std::size_t, std::size_t>> thin_rings;
     std::vector<std::size_t> stray_holes;  ///< declared as holes where their plane shows no object, indices likewise
 };
 

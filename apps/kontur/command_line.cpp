@@ -282,6 +282,29 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+void add_fill(CLI::App& app, Invocation& invocation) {
+    Binder<FillCommand> bind(app, invocation, "fill", "Fill a label map between its painted slices",
+                             "kontur fill sparse.nii.gz --output full.nii.gz");
+    FillCommand& c = *bind.command;
+    bind.word("SPARSE", c.labels.path, "Label map of which some slices are painted (NIfTI, NRRD, MetaImage, DICOM SEG)");
+    bind.option("-o,--output", c.output, "FILE",
+                "Label map to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz or, with --image, .dcm (SEG)")
+        ->required();
+    bind.option("--image", c.image, "DIR", "DICOM folder of the images that a SEG (.dcm) refers to");
+    bind.option("--label", c.options.labels, "N", "Fill only this label; again for more [all]")->allow_extra_args(false);
+    add_choice<FillEnds>(*bind.sub, "--ends", c.options.ends,
+                         {{"closed", FillEnds::closed}, {"half", FillEnds::half}, {"open", FillEnds::open}},
+                         "How far beyond the first and last of parallel slices: not at all, half of a gap, or as far as the "
+                         "fit says");
+    bind.defaulted("--smoothing-voxels", c.options.smoothing_voxels, "VOXELS",
+                   "Smoothing of the painted outlines, standard deviation");
+    bind.option("--report", c.report, "FILE", "Report to write: .json");
+    add_threads(*bind.sub, c.options.threads);
+    add_read_options(*bind.sub, c.labels.options);
+    add_series_options(*bind.sub, c.labels.options.dicom);
+    bind.quiet();
+}
+
 void add_compare(CLI::App& app, Invocation& invocation) {
     Binder<CompareCommand> bind(app, invocation, "compare",
                                 "Overlap, surface distances in mm and volumes in ml of two masks",
@@ -383,6 +406,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_slicer(app, invocation);
     add_batch(app, invocation);
     add_trace(app, invocation);
+    add_fill(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);
     add_convert(app, invocation);

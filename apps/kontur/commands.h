@@ -11,6 +11,7 @@
 #include "console.h"
 #include "files.h"
 #include "kontur/extract/trace.h"
+#include "kontur/fill_labels.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
@@ -86,6 +87,15 @@ struct TraceCommand {
     TraceOptions options;
 };
 void run(const TraceCommand& command, Console& console);
+
+/// Fills what was left out between the painted slices of a label map.
+struct FillCommand {
+    ImageInput labels;
+    std::filesystem::path image;  ///< DICOM series that a SEG refers to; empty: not needed
+    std::filesystem::path output, report;
+    FillOptions options;
+};
+void run(const FillCommand& command, Console& console);
 
 /// A synthetic CT with exact truth masks and contours drawn on them.
 struct PhantomCommand {

@@ -21,6 +21,7 @@ void bind_extraction(py::module_& m);
 void bind_segment(py::module_& m);
 void bind_crossings(py::module_& m);
 void bind_curves(py::module_& m);
+void bind_labels(py::module_& m);
 void bind_editor(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_findings(py::module_& m);

@@ -56,6 +56,7 @@ PYBIND11_MODULE(_core, m) {
     bind_fitting(m);
     bind_extraction(m);
     bind_segment(m);
+    bind_labels(m);
     bind_editor(m);
     bind_measures(m);
     bind_findings(m);

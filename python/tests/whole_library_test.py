@@ -15,7 +15,7 @@ SAME = {
     "make_plane": "Plane", "make_affine": "Grid", "select_mask": "Mask", "drop_duplicate_points": "without_duplicate_points", "read_contour": "read_contours",
     "gradient": "ImplicitFunction", "contains": "EdgeMap", "volume_ml": "Mask", "point_count": "ContourSet", "bounding_box": "ContourSet",
     "smallest_ball": "ContourSet", "diameter_mm": "ContourSet", "Ball3": "ContourSet",
-    "sample": "Image", "Result": "Segmentation", "DicomSeg": "read_dicom_seg", "DicomAlgorithm": "write_dicom_seg", "LabelName": "write_image",
+    "sample": "Image", "Result": "Segmentation", "Filling": "fill_labels", "DicomSeg": "read_dicom_seg", "DicomAlgorithm": "write_dicom_seg", "LabelName": "write_image",
     "ReadContours": "read_contours", "PictureFact": "make_picture", "RgbImage": "write_png", "Pixel": "EdgeMap", "PixelPosition": "EdgeMap",
     "DenseLiver": "dense_liver_case", "ErrorKind": "Error", "Severity": "Finding", "FindingKind": "Finding", "UnitFrame": "ImplicitFunction",
     "BoundaryPoint": "PreparedContours", "Progress": "segment", "Affine3": "Grid", "Vec3": "Contour", "Index3": "Grid", "Box3": "grid_around",

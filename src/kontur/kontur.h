@@ -69,6 +69,7 @@
 
 // All of it at once.
 #include "kontur/editor.h"
+#include "kontur/fill_labels.h"
 #include "kontur/live_editor.h"
 #include "kontur/report.h"
 #include "kontur/segment.h"

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import kontur
+import numpy
 
 CASE = kontur.phantom_case("liver_orthogonal14")
 GRID = kontur.grid_around(CASE.contours.bounding_box, [4, 4, 4], 16)
@@ -48,6 +49,9 @@ def write_material(folder):
     for name in ("truth.nii.gz", "demo/liver_truth_liver.nii.gz"):
         kontur.write_mask(folder / name, truth)
     kontur.write_mask(folder / "organs.nii.gz", truth, label_value=3)
+    painted = truth.values.copy()
+    painted[numpy.arange(len(painted)) % 5 != 2] = 0
+    kontur.write_mask(folder / "sparse.nii.gz", kontur.Mask(painted, GRID), label_value=3)
     for name in ("contours.json", "planes.json", "demo/liver_orthogonal14.json", "P001/liver.json"):
         kontur.write_contours(folder / name, CASE.contours)
     kontur.write_contours(folder / "curves.mrk.json", CASE.contours)

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/fill_labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "commands.h"
+#include "dicom_output.h"
+#include "facts.h"
+#include "input_digests.h"
+#include "kontur/base/error.h"
+#include "kontur/base/machine_memory.h"
+#include "kontur/io/atomic_file.h"
+#include "outputs.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Provenance provenance_of(const FillCommand& command, const Progress& progress) {
+    const FillOptions& o = command.options;
+    std::string options = fmt::format("ends={} smoothing_voxels={}", name(o.ends), o.smoothing_voxels);
+    for (const std::int64_t label : o.labels) options += fmt::format(" label={}", label);
+    return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, progress);
+}
+
+/// Whatever can be refused before any work is done.
+void check(const FillCommand& command) {
+    std::vector<fs::path> inputs{command.labels.path};
+    if (!command.image.empty()) inputs.push_back(command.image);
+    check_outputs(std::array{command.output, command.report}, inputs);
+    check_output_kind(command.output, FileKind::image);
+    check_dicom_images(command.output, command.image);
+    if (!command.report.empty() && !has_extension(command.report, ".json"))
+        throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", command.report.string()));
+    if (!command.image.empty() && !is_dicom_name(command.output))
+        throw Error(ErrorKind::invalid_input, "--image is for DICOM (.dcm), which refers to images");
+}
+
+Facts report_of(const FillReport& report, const Provenance& made) {
+    Facts labels = Facts::array(), provenance = Facts::object(), seconds = Facts::object();
+    for (const FilledLabel& one : report.labels)
+        labels.push_back({{"label", one.label},
+                          {"slices", one.slices},
+                          {"painted_voxels", one.painted_voxels},
+                          {"added_voxels", one.added_voxels},
+                          {"warnings", one.warnings}});
+    for (const auto& [name, value] : made) provenance[name] = value;
+    for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
+    return {{"version", KONTUR_VERSION},
+            {"provenance", provenance},
+            {"labels", labels},
+            {"contested_voxels", report.contested_voxels},
+            {"seconds", seconds},
+            {"peak_memory_mb", peak_memory_mb()}};
+}
+
+std::string slices_of(const FilledLabel& one) {
+    std::string text;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (one.slices[axis] > 0)
+            text += fmt::format("{}{} across {}", text.empty() ? "" : ", ", one.slices[axis], "ijk"[axis]);
+    return text;
+}
+
+}  // namespace
+
+void run(const FillCommand& command, Console& console) {
+    check(command);
+    const Progress progress = console.progress();
+    const ImageInput input{command.labels.path, console.noting(command.labels.options)};
+    const ImageInput images{command.image, console.noting(command.labels.options)};
+    if (is_dicom_name(command.output))
+        for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(input.path), images)) console.warn(note);
+    const Filling filling = [&] {
+        Image labels = read_labels(input, {}, progress);
+        try {
+            return fill_labels(std::move(labels), command.options, progress);
+        } catch (const Error& error) {
+            throw error.with_context(input.path.string());
+        }
+    }();
+    const Provenance made = provenance_of(command, progress);
+    Outputs outputs;
+    outputs.write(command.output, [&](const fs::path& path) {
+        console.note(write_image(path, filling.labels, input, images, made, progress));
+    });
+    if (!command.report.empty())
+        outputs.write(command.report, [&](const fs::path& path) {
+            write_file_atomically(path, to_json_text(report_of(filling.report, made)));
+        });
+    outputs.commit();
+
+    std::string text = fmt::format("{}: {} label{}\n", command.output.string(), filling.report.labels.size(),
+                                   filling.report.labels.size() == 1 ? "" : "s");
+    for (const FilledLabel& one : filling.report.labels) {
+        for (const std::string& warning : one.warnings) console.warn(fmt::format("label {}: {}", one.label, warning));
+        text += fmt::format("label {}: {} slices painted; {} voxels painted, {} added\n", one.label, slices_of(one),
+                            one.painted_voxels, one.added_voxels);
+    }
+    console.print(text);
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kontur/base/progress.h"
+#include "kontur/shape/volume.h"
+
+namespace kontur {
+
+/// How far an object that was painted on parallel slices goes on beyond the first and the last of them.
+enum class FillEnds {
+    closed,  ///< not at all
+    half,    ///< half of the way to where the next slice would be, as far as the fit says so
+    open,    ///< as far as the fit says
+};
+std::string_view name(FillEnds ends) noexcept;
+
+struct FillOptions {
+    FillEnds ends = FillEnds::closed;
+    double smoothing_voxels = 0.7;                ///< of the painted outlines, see SectionContourOptions
+    std::vector<std::int64_t> labels{};           ///< only these; empty: all
+    int threads = 0;                              ///< 0: the machine's
+    std::optional<double> max_memory_mb{};        ///< as SegmentOptions'
+};
+
+/// What became of one label.
+struct FilledLabel {
+    std::int64_t label = 0;
+    std::array<std::int64_t, 3> slices{};  ///< painted ones across the grid's axes i, j and k
+    std::int64_t painted_voxels = 0;
+    std::int64_t added_voxels = 0;
+    std::vector<std::string> warnings;  ///< one sentence each
+};
+
+struct FillReport {
+    std::vector<FilledLabel> labels;                      ///< in increasing order
+    std::int64_t contested_voxels = 0;                    ///< claimed by more than one label
+    std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
+};
+
+struct Filling {
+    Image labels;
+    FillReport report;
+};
+
+/// Fills what was left out of a label map: each label was painted on some slices, across any axis of the grid or several
+/// (see find_painted_slices); between them its body is fitted to their outlines as `segment` does. What was painted stays
+/// as it is, voxel for voxel, and a slice that was painted as a whole gets nothing more. Where several labels claim a voxel,
+/// it goes to the one that it lies deepest in, f / |grad f|. A label painted on one slice alone, and one of whose slices
+/// none was left out, stay as they are. Throws Error(invalid_input) for an image that is no label map (see count_labels), one
+/// without labels, a label to fill that is not in it and a smoothing below 0; Error(too_large) as `segment` does.
+/// Works within the labels' boxes. The same bytes for any number of threads.
+Filling fill_labels(Image labels, const FillOptions& options = {}, const Progress& progress = {});
+
+}  // namespace kontur

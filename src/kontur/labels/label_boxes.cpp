@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/labels/label_boxes.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+namespace kontur {
+namespace {
+
+void extend(LabelBox& found, std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) {
+    if (found.voxels == 0) found.box = {{first, j, k}, {last, j, k}};
+    found.box.low = {std::min(found.box.low.i, first), std::min(found.box.low.j, j), std::min(found.box.low.k, k)};
+    found.box.high = {std::max(found.box.high.i, last), std::max(found.box.high.j, j), std::max(found.box.high.k, k)};
+    found.voxels += last - first + 1;
+}
+
+}  // namespace
+
+bool IndexBox::contains(const Index3& at) const {
+    for (int axis = 0; axis < 3; ++axis)
+        if (at[axis] < low[axis] || at[axis] > high[axis]) return false;
+    return true;
+}
+
+IndexBox IndexBox::padded(const Index3& margin, const Index3& size) const {
+    IndexBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::max<std::int64_t>(low[axis] - margin[axis], 0);
+        box.high[axis] = std::min<std::int64_t>(high[axis] + margin[axis], size[axis] - 1);
+    }
+    return box;
+}
+
+std::map<std::int64_t, LabelBox> label_boxes(const Image& labels, std::size_t max_labels) {
+    check_image(labels);
+    const Index3 size = labels.grid.size;
+    std::map<std::int64_t, LabelBox> found;
+    const auto look = [&](const auto& samples) {
+        using Sample = typename std::decay_t<decltype(samples)>::value_type;
+        const Sample* row = samples.data();
+        for (std::int64_t k = 0; k < size.k; ++k)
+            for (std::int64_t j = 0; j < size.j; ++j, row += size.i)
+                for (std::int64_t i = 0; i < size.i;) {
+                    const std::int64_t first = i;
+                    const Sample value = row[i];
+                    while (i < size.i && row[i] == value) ++i;
+                    if (value == Sample{}) continue;
+                    if constexpr (std::is_floating_point_v<Sample>) {
+                        if (!(std::trunc(value) == value && std::abs(value) < 9e15F)) return false;
+                    }
+                    extend(found[static_cast<std::int64_t>(value)], first, i - 1, j, k);
+                    if (found.size() > max_labels) return false;
+                }
+        return true;
+    };
+    if (!std::visit(look, labels.samples)) count_labels(labels, max_labels);  // says what is wrong
+    return found;
+}
+
+Grid grid_of(const Grid& grid, const IndexBox& box) {
+    Grid part{box.size(), grid.index_to_mm};
+    part.index_to_mm.translation = grid.center_mm(box.low.i, box.low.j, box.low.k);
+    return part;
+}
+
+Mask label_mask(const Image& labels, std::int64_t label, const IndexBox& box) {
+    Mask mask{grid_of(labels.grid, box), {}};
+    mask.values.reserve(static_cast<std::size_t>(mask.grid.voxel_count()));
+    std::visit(
+        [&](const auto& samples) {
+            for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
+                for (std::int64_t j = box.low.j; j <= box.high.j; ++j) {
+                    const auto* const row = samples.data() + labels.grid.offset(0, j, k);
+                    for (std::int64_t i = box.low.i; i <= box.high.i; ++i)
+                        mask.values.push_back(static_cast<std::int64_t>(row[i]) == label);
+                }
+        },
+        labels.samples);
+    return mask;
+}
+
+}  // namespace kontur

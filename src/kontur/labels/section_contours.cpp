@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/labels/section_contours.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/extract/isolines.h"
+
+namespace kontur {
+namespace {
+
+/// What a voxel beside the outline keeps at least of its side, so that smoothing moves no centre to the other one.
+constexpr double kLeastLevel = 0.05;
+
+/// A slice as a lattice of voxel centres. Its axes are the grid's steps, so that (u, v) are voxel indices.
+PlaneLattice lattice_of(const Grid& grid, const PaintedSlice& slice) {
+    const auto [a, b] = slice_axes(slice.axis);
+    const Vec3 u = grid.index_to_mm.column(a), v = grid.index_to_mm.column(b);
+    Index3 origin;
+    origin[slice.axis] = slice.index;
+    PlaneLattice lattice;
+    lattice.plane = {grid.center_mm(origin.i, origin.j, origin.k), normalized(cross(u, v)), u, v};
+    lattice.columns = grid.size[a];
+    lattice.rows = grid.size[b];
+    return lattice;
+}
+
+Plane orthonormal(Plane plane) {
+    plane.u = normalized(plane.u);
+    plane.v = cross(plane.normal, plane.u);
+    return plane;
+}
+
+std::vector<double> gaussian(double sigma) {
+    const auto radius = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma));
+    std::vector<double> weights;
+    double sum = 0;
+    for (std::ptrdiff_t n = -radius; n <= radius; ++n) {
+        const double x = static_cast<double>(n) / sigma;
+        weights.push_back(std::exp(-x * x / 2));
+        sum += weights.back();
+    }
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+/// Averages along rows (stride 1) or columns. Beyond the lattice the outermost value goes on.
+std::vector<double> smoothed(const std::vector<double>& values, std::int64_t count, std::int64_t stride,
+                             const std::vector<double>& weights) {
+    const auto radius = static_cast<std::int64_t>(weights.size() / 2);
+    std::vector<double> result(values.size());
+    for (std::int64_t n = 0; n < static_cast<std::int64_t>(values.size()); ++n) {
+        const std::int64_t at = n / stride % count;
+        double sum = 0;
+        for (std::int64_t m = -radius; m <= radius; ++m) {
+            const std::int64_t other = std::clamp<std::int64_t>(at + m, 0, count - 1);
+            sum += weights[static_cast<std::size_t>(m + radius)] * values[static_cast<std::size_t>(n + (other - at) * stride)];
+        }
+        result[static_cast<std::size_t>(n)] = sum;
+    }
+    return result;
+}
+
+/// Above 0 where the section is.
+std::vector<double> levels_of(const PaintedSlice& slice, const PlaneLattice& lattice, double sigma) {
+    std::vector<double> levels(slice.section.begin(), slice.section.end());
+    if (sigma > 0) {
+        const std::vector<double> weights = gaussian(sigma);
+        levels = smoothed(levels, lattice.columns, 1, weights);
+        levels = smoothed(levels, lattice.rows, lattice.columns, weights);
+    }
+    for (std::size_t n = 0; n < levels.size(); ++n) {
+        levels[n] -= 0.5;
+        levels[n] = slice.section[n] ? std::max(levels[n], kLeastLevel) : std::min(levels[n], -kLeastLevel);
+    }
+    return levels;
+}
+
+}  // namespace
+
+std::vector<Contour> section_contours(const Grid& grid, const PaintedSlice& slice, const SectionContourOptions& options) {
+    const PlaneLattice lattice = lattice_of(grid, slice);
+    const Plane plane = orthonormal(lattice.plane);
+    ContourSet set;
+    for (const Isoline& line : isolines(lattice, levels_of(slice, lattice, options.smoothing_voxels))) {
+        Contour& contour = set.contours.emplace_back(Contour{.plane = plane, .points = {}, .hole = line.hole});
+        for (const auto& [u, v] : line.points) contour.points.push_back(lattice.plane.from_uv(u, v));
+    }
+    drop_duplicate_points(set);
+    return std::move(set.contours);
+}
+
+}  // namespace kontur

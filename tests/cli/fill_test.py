@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur fill: a ball painted on some slices becomes a ball; what cannot be filled is refused in one sentence."""
+import json
+
+import nibabel
+import numpy
+import pytest
+from support import ball_array, kontur, names, succeed, write_nifti
+
+
+def painted(step=4, axis=2):
+    """The ball on every step-th slice across an axis, as label 5."""
+    array = ball_array() * 5
+    keep = numpy.arange(array.shape[axis]) % step == 1
+    shape = [1, 1, 1]
+    shape[axis] = -1
+    return array * keep.reshape(shape).astype(array.dtype)
+
+
+def read(path):
+    return numpy.asarray(nibabel.load(path).dataobj)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_ball_is_filled_and_what_was_painted_stays(tmp_path, axis):
+    sparse = painted(axis=axis)
+    file = write_nifti(tmp_path / "sparse.nii.gz", sparse)
+    text = succeed("fill", file, "--output", tmp_path / "full.nii.gz", "--report", tmp_path / "fill.json")
+    full = read(tmp_path / "full.nii.gz")
+    assert set(numpy.unique(full)) == {0, 5}
+    assert (full[sparse > 0] == 5).all()
+    between = numpy.flatnonzero(sparse.any(axis=tuple({0, 1, 2} - {axis})))
+    inner = numpy.arange(between[0], between[-1] + 1)
+    a, b = full.take(inner, axis) > 0, ball_array().take(inner, axis) > 0
+    assert 2 * (a & b).sum() / (a.sum() + b.sum()) > 0.98
+    report = json.loads((tmp_path / "fill.json").read_text())
+    [label] = report["labels"]
+    assert label["slices"][axis] == len(between) and sum(label["slices"]) == len(between)
+    assert label["painted_voxels"] + label["added_voxels"] == (full == 5).sum()
+    assert f"across {'ijk'[axis]}" in text
+    assert report["provenance"]["command"] == "fill"
+
+
+def test_the_same_input_gives_the_same_bytes(tmp_path):
+    file = write_nifti(tmp_path / "sparse.nii.gz", painted())
+    for name, threads in (("a.nii", 1), ("b.nii", 2)):
+        succeed("fill", file, "--output", tmp_path / name, "--threads", threads)
+    assert (tmp_path / "a.nii").read_bytes() == (tmp_path / "b.nii").read_bytes()
+
+
+def test_segments_keep_names(tmp_path):
+    file = write_nifti(tmp_path / "sparse.nii.gz", painted())
+    succeed("convert", file, tmp_path / "sparse.seg.nrrd")
+    succeed("fill", tmp_path / "sparse.seg.nrrd", "--output", tmp_path / "full.seg.nrrd")
+    before, after = ((tmp_path / name).read_bytes().split(b"\n\n")[0] for name in ("sparse.seg.nrrd", "full.seg.nrrd"))
+    name = [line for line in before.split(b"\n") if line.startswith(b"Segment0_Name")]
+    assert len(name) == 1 and name[0] in after
+
+
+@pytest.mark.parametrize("words, code, sentence", [
+    (("--label", "9"), 65, "the label 9 is to be filled, but no voxel has it"),
+    (("--smoothing-voxels", "-1"), 65, "the smoothing of the painted outlines"),
+    (("--ends", "flat"), 64, "closed|half|open, not flat"),
+    (("--report", "fill.txt"), 69, "fill.txt does not end with .json"),
+])
+def test_words_that_cannot_be_followed(tmp_path, words, code, sentence):
+    file = write_nifti(tmp_path / "sparse.nii.gz", painted())
+    result = kontur("fill", file, "--output", tmp_path / "full.nii.gz", *words)
+    assert result.returncode == code and sentence in result.stderr and result.stderr.count("\n") == 1, result
+    assert names(tmp_path) == ["sparse.nii.gz"]
+
+
+def test_maps_that_cannot_be_filled(tmp_path):
+    for array, sentence in ((painted() * 0, "nothing is painted"), (painted() * 0.5, "is no label map")):
+        file = write_nifti(tmp_path / "sparse.nii.gz", array)
+        result = kontur("fill", file, "--output", tmp_path / "full.nii.gz")
+        assert result.returncode == 65 and sentence in result.stderr and "sparse.nii.gz" in result.stderr, result
+        assert names(tmp_path) == ["sparse.nii.gz"]
+
+
+def test_nothing_left_out_is_said(tmp_path):
+    file = write_nifti(tmp_path / "sparse.nii.gz", ball_array())
+    result = kontur("fill", file, "--output", tmp_path / "full.nii.gz")
+    assert result.returncode == 0 and "label 1: no slice was left out" in result.stderr
+    assert (read(tmp_path / "full.nii.gz") == ball_array()).all()

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/fill_labels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "kontur/labels/label_boxes.h"
+#include "support/expect_error.h"
+#include "support/label_maps.h"
+
+namespace kontur {
+namespace {
+
+using test::bytes_of_labels;
+using test::index_grid;
+using test::is_in_ball;
+using test::label_map;
+
+const Vec3 kCenter{22, 21, 20};
+
+/// What is left of a label map when only some voxels are painted.
+Image sparse_of(const Image& full, const std::function<bool(const Index3&)>& painted) {
+    std::size_t n = 0;
+    return label_map(full.grid, [&](const Index3& at) {
+        const int label = bytes_of_labels(full)[n++];
+        return painted(at) ? label : 0;
+    });
+}
+
+/// Of the slices from the first to the last voxel of `a` along an axis; -1 for all slices.
+double dice(const Image& a, const Image& b, int label, int axis = -1) {
+    const LabelBox found = label_boxes(a).at(label);
+    std::int64_t both = 0, sum = 0;
+    for (std::size_t n = 0; n < bytes_of_labels(a).size(); ++n) {
+        const auto m = static_cast<std::int64_t>(n);
+        const Index3& size = a.grid.size;
+        const Index3 at{m % size.i, m / size.i % size.j, m / (size.i * size.j)};
+        if (axis >= 0 && (at[axis] < found.box.low[axis] || at[axis] > found.box.high[axis])) continue;
+        const bool in_a = bytes_of_labels(a)[n] == label, in_b = bytes_of_labels(b)[n] == label;
+        both += in_a && in_b;
+        sum += in_a + in_b;
+    }
+    return 2.0 * static_cast<double>(both) / static_cast<double>(sum);
+}
+
+Image ball(const Grid& grid = index_grid({44, 43, 42})) {
+    return label_map(grid, [](const Index3& at) { return is_in_ball(at, kCenter, 15.4) ? 3 : 0; });
+}
+
+TEST(FillLabels, ABallComesBackFromSlicesAcrossEachAxis) {
+    const Image full = ball();
+    for (int axis = 0; axis < 3; ++axis) {
+        const Filling filled = fill_labels(sparse_of(full, [&](const Index3& at) { return at[axis] % 5 == 2; }));
+        ASSERT_EQ(filled.report.labels.size(), 1U);
+        EXPECT_EQ(filled.report.labels[0].slices[static_cast<std::size_t>(axis)], axis == 0 ? 7 : 6);
+        EXPECT_GT(dice(filled.labels, full, 3, axis), 0.985) << axis;
+    }
+}
+
+TEST(FillLabels, EndsGoAsFarAsAsked) {
+    const Image full = ball();
+    const Image sparse = sparse_of(full, [](const Index3& at) { return at.k % 6 == 2; });  // 8, 14, 20, 26, 32
+    const auto extent = [&](FillEnds ends) {
+        const Filling filled = fill_labels(sparse, {.ends = ends});
+        std::pair<std::int64_t, std::int64_t> range{100, -1};
+        for (std::size_t n = 0; n < bytes_of_labels(filled.labels).size(); ++n)
+            if (bytes_of_labels(filled.labels)[n]) {
+                const std::int64_t k = static_cast<std::int64_t>(n) / (44 * 43);
+                range = {std::min(range.first, k), std::max(range.second, k)};
+            }
+        return range;
+    };
+    EXPECT_EQ(extent(FillEnds::closed), (std::pair<std::int64_t, std::int64_t>{8, 32}));
+    const auto half = extent(FillEnds::half), open = extent(FillEnds::open);
+    EXPECT_GE(half.first, 5);
+    EXPECT_LT(half.first, 8);
+    EXPECT_LE(open.first, half.first);
+    EXPECT_GE(open.second, half.second);
+    EXPECT_GT(dice(fill_labels(sparse, {.ends = FillEnds::open}).labels, full, 3), 0.98);
+}
+
+TEST(FillLabels, SingleSlicesOfThreeDirectionsMakeABody) {
+    const Image full = ball();
+    const Filling filled =
+        fill_labels(sparse_of(full, [](const Index3& at) { return at.i == 21 || at.j == 21 || at.k == 21; }));
+    EXPECT_EQ(filled.report.labels[0].slices, (std::array<std::int64_t, 3>{1, 1, 1}));
+    EXPECT_GT(dice(filled.labels, full, 3), 0.97);
+}
+
+/// Two lobes side by side and a hole in one of them.
+Image organs(const Grid& grid) {
+    return label_map(grid, [](const Index3& at) {
+        if (is_in_ball(at, {15, 21, 20}, 5)) return 7;
+        if (is_in_ball(at, {15, 21, 20}, 11)) return 1;
+        return is_in_ball(at, {29, 21, 20}, 12) ? 2 : 0;
+    });
+}
+
+TEST(FillLabels, WhatWasPaintedStaysVoxelForVoxelAndPaintedSlicesGetNothingMore) {
+    const Image full = organs(index_grid({44, 43, 42}, {1, 1.2, 2.5}));
+    for (const std::int64_t step : {2, 3, 4}) {
+        const Image sparse = sparse_of(full, [&](const Index3& at) { return at.k % step == 0; });
+        const Filling filled = fill_labels(sparse);
+        std::size_t n = 0, in_slices = 0;
+        for (std::int64_t k = 0; k < 42; ++k)
+            for (std::int64_t m = 0; m < 44 * 43; ++m, ++n) {
+                const bool changed = bytes_of_labels(filled.labels)[n] != bytes_of_labels(sparse)[n];
+                ASSERT_FALSE(changed && bytes_of_labels(sparse)[n]) << k;
+                in_slices += k % step == 0 && changed;
+            }
+        EXPECT_EQ(in_slices, 0U) << step;
+        for (const int label : {1, 2, 7}) EXPECT_GT(dice(filled.labels, full, label, 2), 0.95) << "label " << label << ", every " << step;
+    }
+}
+
+TEST(FillLabels, TheReportCountsWhatTheMapHolds) {
+    const Image sparse = sparse_of(organs(index_grid({44, 43, 42})), [](const Index3& at) { return at.k % 4 == 0; });
+    const Filling filled = fill_labels(sparse);
+    const auto before = count_labels(sparse), after = count_labels(filled.labels);
+    ASSERT_EQ(filled.report.labels.size(), 3U);
+    for (const FilledLabel& one : filled.report.labels) {
+        EXPECT_EQ(one.painted_voxels, before.at(one.label));
+        EXPECT_EQ(one.painted_voxels + one.added_voxels, after.at(one.label));
+        EXPECT_GT(one.added_voxels, 0);
+    }
+}
+
+TEST(FillLabels, OnlyChosenLabelsAreFilled) {
+    const Image sparse = sparse_of(organs(index_grid({44, 43, 42})), [](const Index3& at) { return at.k % 4 == 0; });
+    const auto before = count_labels(sparse), after = count_labels(fill_labels(sparse, {.labels = {2}}).labels);
+    EXPECT_EQ(after.at(1), before.at(1));
+    EXPECT_EQ(after.at(7), before.at(7));
+    EXPECT_GT(after.at(2), before.at(2));
+}
+
+TEST(FillLabels, SameBytesForAnyNumberOfThreads) {
+    const Image sparse = sparse_of(organs(index_grid({44, 43, 42})), [](const Index3& at) { return at.k % 3 == 0; });
+    const auto once = bytes_of_labels(fill_labels(sparse, {.threads = 1}).labels);
+    EXPECT_EQ(bytes_of_labels(fill_labels(sparse, {.threads = 3}).labels), once);
+}
+
+TEST(FillLabels, NothingLeftOutStaysAsItIs) {
+    const Image full = organs(index_grid({44, 43, 42}));
+    const Filling filled = fill_labels(full);
+    EXPECT_EQ(bytes_of_labels(filled.labels), bytes_of_labels(full));
+    const Image one = sparse_of(full, [](const Index3& at) { return at.k == 20; });
+    EXPECT_EQ(bytes_of_labels(fill_labels(one).labels), bytes_of_labels(one));
+}
+
+TEST(FillLabels, KeepsTheSampleType) {
+    const Grid grid = index_grid({30, 30, 21});
+    std::vector<std::int32_t> samples;
+    for (std::int64_t k = 0; k < 21; ++k)
+        for (std::int64_t m = 0; m < 900; ++m)
+            samples.push_back(k % 4 == 0 && is_in_ball({m % 30, m / 30, k}, {14, 15, 10}, 9) ? 100000 : 0);
+    const Filling filled = fill_labels({grid, samples});
+    const auto& result = std::get<std::vector<std::int32_t>>(filled.labels.samples);
+    EXPECT_EQ(std::count(result.begin(), result.end(), 100000), filled.report.labels[0].painted_voxels + filled.report.labels[0].added_voxels);
+    EXPECT_GT(filled.report.labels[0].added_voxels, 0);
+}
+
+TEST(FillLabels, RefusesWhatCannotBeFilled) {
+    const Image map = ball();
+    EXPECT_KONTUR_ERROR(fill_labels(map, {.labels = {3, 9}}), ErrorKind::invalid_input, "the label 9 is to be filled, but no voxel has it");
+    EXPECT_KONTUR_ERROR(fill_labels(map, {.smoothing_voxels = -1}), ErrorKind::invalid_input, "smoothing of the painted outlines");
+    EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<float>{0, 0.5F}}), ErrorKind::invalid_input, "no label map");
+    EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<std::uint8_t>{0, 0}}), ErrorKind::invalid_input, "nothing is painted");
+}
+
+}  // namespace
+}  // namespace kontur

@@ -16,6 +16,7 @@ _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
 _Corners = Literal["rounded", "faithful"]
 _Conflicts = Literal["reconcile", "newest-wins", "exact"]
 _FillRule = Literal["even-odd", "declared"]
+_FillEnds = Literal["closed", "half", "open"]
 _Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
 
 class _Stop(Protocol):
@@ -387,6 +388,26 @@ class Finding:
     def position(self) -> NDArray[numpy.float64] | None: ...
     @property
     def value_mm(self) -> float | None: ...
+
+class FillReport:
+    @property
+    def contested_voxels(self) -> int: ...
+    @property
+    def labels(self) -> list[FilledLabel]: ...
+    @property
+    def seconds(self) -> dict[str, float]: ...
+
+class FilledLabel:
+    @property
+    def added_voxels(self) -> int: ...
+    @property
+    def label(self) -> int: ...
+    @property
+    def painted_voxels(self) -> int: ...
+    @property
+    def slices(self) -> list[int]: ...
+    @property
+    def warnings(self) -> list[str]: ...
 
 class FittedFunction:
     @property
@@ -838,6 +859,62 @@ def files_sha256(
 
 def fill(surface: SurfaceLattice, threads: int = 0) -> Mask: ...
 
+@overload
+def fill_labels(
+    labels: Image,
+    spacing: None = None,
+    *,
+    return_report: Literal[False] = False,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    ends: _FillEnds = "closed",
+    smoothing_voxels: float = 0.7,
+    only: Sequence[int] = [],
+    threads: int = 0,
+    max_memory_mb: float | None = None,
+) -> Image: ...
+@overload
+def fill_labels(
+    labels: Image,
+    spacing: None = None,
+    *,
+    return_report: Literal[True],
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    ends: _FillEnds = "closed",
+    smoothing_voxels: float = 0.7,
+    only: Sequence[int] = [],
+    threads: int = 0,
+    max_memory_mb: float | None = None,
+) -> tuple[Image, FillReport]: ...
+@overload
+def fill_labels(
+    labels: ArrayLike,
+    spacing: Sequence[float],
+    *,
+    return_report: Literal[False] = False,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    ends: _FillEnds = "closed",
+    smoothing_voxels: float = 0.7,
+    only: Sequence[int] = [],
+    threads: int = 0,
+    max_memory_mb: float | None = None,
+) -> NDArray[Any]: ...
+@overload
+def fill_labels(
+    labels: ArrayLike,
+    spacing: Sequence[float],
+    *,
+    return_report: Literal[True],
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    ends: _FillEnds = "closed",
+    smoothing_voxels: float = 0.7,
+    only: Sequence[int] = [],
+    threads: int = 0,
+    max_memory_mb: float | None = None,
+) -> tuple[NDArray[Any], FillReport]: ...
 def find_crossings(contours: ContourSet) -> list[Crossing]: ...
 
 def find_nesting(contours: ContourSet, tolerance_mm: float) -> Nesting: ...

@@ -31,7 +31,7 @@ Keywords<FillOptions> fill_keywords() {
     return Keywords<FillOptions>()
         .field("ends", &FillOptions::ends, "How far beyond the first and the last of parallel slices: not at all, half of a gap, or as far as the fit says.")
         .field("smoothing_voxels", &FillOptions::smoothing_voxels, "Of the painted outlines, standard deviation in voxels.")
-        .field("labels", &FillOptions::labels, "Only these; empty: all.")
+        .field("only", &FillOptions::labels, "Only these labels; empty: all.")
         .field("threads", &FillOptions::threads, "0: the machine's. The result does not depend on it.")
         .field("max_memory_mb", &FillOptions::max_memory_mb,
                "Refuse a run of which the process would hold more; None: the machine's memory.");
@@ -108,9 +108,9 @@ TooLargeError, CancelledError
 
 Examples
 --------
->>> z, y, x = numpy.mgrid[:41, :40, :40]
+>>> z, y, x = np.mgrid[:41, :40, :40]
 >>> ball = ((z - 20) ** 2 + (y - 20) ** 2 + (x - 20) ** 2 < 15**2).astype("uint8")
->>> sparse = numpy.where(z % 5 == 0, ball, 0)
+>>> sparse = np.where(z % 5 == 0, ball, 0)
 >>> full = kontur.fill_labels(sparse, (1, 1, 1))
 >>> bool(2 * (full & ball).sum() / (full.sum() + ball.sum()) > 0.99)
 True

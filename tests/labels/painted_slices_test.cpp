@@ -119,6 +119,23 @@ TEST(PaintedSlices, AThinTubeAlongTheStackIsCutAcross) {
     for (const PaintedSlice& slice : slices) EXPECT_EQ(slice.axis, 2);
 }
 
+TEST(PaintedSlices, ASolidIsCutAcrossOneAxis) {
+    const auto slices = find_painted_slices(ball_where([](const Index3&) { return true; }));
+    std::set<int> axes;
+    for (const PaintedSlice& slice : slices) {
+        axes.insert(slice.axis);
+        EXPECT_TRUE(slice.whole);
+    }
+    EXPECT_EQ(axes.size(), 1U);
+    EXPECT_EQ(slices.size(), 31U);
+}
+
+TEST(PaintedSlices, ASolidAmongSlicesIsCutAsTheyAre) {
+    const auto slices = find_painted_slices(ball_where([](const Index3& at) { return at.j % 6 == 0 || (at.j > 14 && at.j < 20); }));
+    for (const PaintedSlice& slice : slices) EXPECT_EQ(slice.axis, 1);
+    EXPECT_EQ(slices.size(), 9U);
+}
+
 TEST(PaintedSlices, EveryPaintedVoxelLiesInASection) {
     for (const std::uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
         std::uint32_t state = seed * 2654435761U;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -13,9 +14,12 @@ namespace {
 using Length = std::uint16_t;  // of runs; longer ones count as this long
 constexpr Length kLongest = std::numeric_limits<Length>::max();
 
-// What is known of a voxel: bit a is set where its run along axis a is the shortest, and another when it is explained.
-constexpr std::uint8_t kExplained = 8;
+// What is known of a voxel: bit a is set where its run along axis a is the shortest, others when it is explained and where
+// all its runs are long, as they are within a solid.
 constexpr std::uint8_t kShortest = 7;
+constexpr std::uint8_t kExplained = 8;
+constexpr std::uint8_t kSolid = 16;
+constexpr Length kLeastOfSolid = 3;
 
 Length one_more(Length length) { return length == kLongest ? length : static_cast<Length>(length + 1); }
 
@@ -52,7 +56,7 @@ std::vector<Length> runs_across_planes(const Mask& mask) {
 
 std::uint8_t shortest(Length i, Length j, Length k) {
     const Length least = std::min({i, j, k});
-    return static_cast<std::uint8_t>((i == least) | (j == least) << 1 | (k == least) << 2);
+    return static_cast<std::uint8_t>((i == least) | (j == least) << 1 | (k == least) << 2 | (least >= kLeastOfSolid ? kSolid : 0));
 }
 
 class Painted {
@@ -75,7 +79,8 @@ public:
 
     std::vector<PaintedSlice> slices() {
         count_votes();
-        take_slices();
+        if (is_mostly_solid()) main_axis_alone();
+        else take_slices();
         take_what_is_left();
         std::vector<PaintedSlice> slices;
         for (auto& [key, slice] : taken_) {
@@ -118,8 +123,10 @@ private:
         return painted;
     }
 
-    /// The axis for which a voxel counts; -1 for none: it isn't painted, or several are as short.
-    static int vote(std::uint8_t known) {
+    /// The axis for which a voxel counts; -1 for none: it isn't painted, or several are as short. Solids may be cut along any
+    /// axis: along the one of the label's other slices.
+    int vote(std::uint8_t known) const {
+        if (known & kSolid && main_axis_ >= 0) return main_axis_;
         switch (known & kShortest) {
             case 1:
                 return 0;
@@ -133,6 +140,16 @@ private:
     }
 
     void count_votes() {
+        count_all();
+        std::array<std::int64_t, 3> sums{};
+        for (std::size_t axis = 0; axis < 3; ++axis) sums[axis] = std::accumulate(votes_[axis].begin(), votes_[axis].end(), std::int64_t{0});
+        main_axis_ = 2;
+        for (const int axis : {1, 0})
+            if (sums[static_cast<std::size_t>(axis)] > sums[static_cast<std::size_t>(main_axis_)]) main_axis_ = axis;
+        count_all();
+    }
+
+    void count_all() {
         for (int axis = 0; axis < 3; ++axis) votes_[axis].assign(static_cast<std::size_t>(size_[axis]), 0);
         for (std::int64_t k = 0, n = 0; k < size_.k; ++k)
             for (std::int64_t j = 0; j < size_.j; ++j)
@@ -142,6 +159,17 @@ private:
     void count(std::int64_t n, const Index3& at, int by) {
         if (const int axis = vote(known_[static_cast<std::size_t>(n)]); axis >= 0)
             votes_[axis][static_cast<std::size_t>(at[axis])] += by;
+    }
+
+    bool is_mostly_solid() const {
+        const auto painted = std::count_if(known_.begin(), known_.end(), [](std::uint8_t known) { return known != 0; });
+        return 2 * std::count_if(known_.begin(), known_.end(), [](std::uint8_t known) { return known & kSolid; }) > painted;
+    }
+
+    /// Where most is solid, thin ends of it are no slices of other directions.
+    void main_axis_alone() {
+        for (std::uint8_t& known : known_)
+            if (known) known = static_cast<std::uint8_t>(1 << main_axis_);
     }
 
     void take_slices() {
@@ -241,24 +269,30 @@ private:
         });
     }
 
-    /// Voxels whose runs are equally short and that no slice has reached, such as single ones, go to the axis across which
-    /// most was painted.
+    /// Voxels whose runs are equally short and that no slice has reached, such as single ones, go to the main axis if they
+    /// may, or if they lie beside a slice across it.
     void take_what_is_left() {
-        std::array<std::int64_t, 3> area{};
-        for (const auto& [key, slice] : taken_)
-            area[static_cast<std::size_t>(slice.axis)] += std::count(slice.section.begin(), slice.section.end(), 1);
-        std::array<int, 3> order{2, 1, 0};
-        std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-            return area[static_cast<std::size_t>(a)] > area[static_cast<std::size_t>(b)];
-        });
+        const int a = main_axis_;
+        const std::array<int, 3> order{a, a == 2 ? 1 : 2, a == 0 ? 1 : 0};
         for (std::int64_t k = 0, n = 0; k < size_.k; ++k)
             for (std::int64_t j = 0; j < size_.j; ++j)
                 for (std::int64_t i = 0; i < size_.i; ++i, ++n) {
                     const std::uint8_t known = known_[static_cast<std::size_t>(n)];
                     if (known == 0 || known & kExplained) continue;
-                    const int axis = *std::find_if(order.begin(), order.end(), [&](int a) { return known >> a & 1; });
-                    add_voxel(axis, {i, j, k});
+                    const Index3 at{i, j, k};
+                    const bool beside = is_in_section(at, -1) || is_in_section(at, 1);
+                    add_voxel(beside ? main_axis_
+                                     : *std::find_if(order.begin(), order.end(), [&](int axis) { return known >> axis & 1; }),
+                              at);
                 }
+    }
+
+    /// Whether the voxel so many steps along the main axis lies in the section of a slice across it.
+    bool is_in_section(Index3 at, std::int64_t steps) const {
+        at[main_axis_] += steps;
+        const auto slice = taken_.find({main_axis_, at[main_axis_]});
+        const auto [u, v] = slice_axes(main_axis_);
+        return slice != taken_.end() && slice->second.section[static_cast<std::size_t>(at[u] + size_[u] * at[v])];
     }
 
     void add_voxel(int axis, const Index3& at) {
@@ -271,6 +305,7 @@ private:
 
     Index3 size_;
     std::vector<std::uint8_t> known_;
+    int main_axis_ = -1;  ///< for which most voxels count
     std::array<std::vector<std::int64_t>, 3> votes_;
     std::map<std::pair<int, std::int64_t>, PaintedSlice> taken_;
 };

@@ -26,7 +26,8 @@ std::array<int, 2> slice_axes(int axis);
 /// A slice is short across and long within. Each voxel counts for the axis along which its run of painted voxels is the
 /// shortest. Slices are taken in the order of how many voxels count for them that no slice explains so far; a slice explains
 /// what is connected with these in it, hardly farther away than its own thickness. So the traces that slices of other
-/// directions leave in it do not belong to its section. (The morphological interpolation of Zukic et al., 2016, asks each
+/// directions leave in it do not belong to its section. Within solids, three voxels thick along all axes, voxels count for
+/// the axis for which most others do. (The morphological interpolation of Zukic et al., 2016, asks each
 /// voxel alone whether its neighbours across are empty and those within are not, and so misses slices side by side.)
 /// Time is linear in the grid's voxels; takes a byte for each of them and two for each painted one.
 std::vector<PaintedSlice> find_painted_slices(const Mask& mask);

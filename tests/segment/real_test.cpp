@@ -9,6 +9,7 @@
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/segment.h"
+#include "kontur/shape/section.h"
 #include "support/coarse_grid.h"
 #include "support/test_data.h"
 
@@ -84,6 +85,47 @@ TEST(RealBranches, ALungKeepsTheHolesOfItsVessels) {
     const Segmentation result = of_a_quarter(contours, grid);
     EXPECT_GT(test::dice(result.mask.values, truth.values), 0.98);
     EXPECT_LT(result.report.iterations, 30 * result.report.solves);
+}
+
+/// The voxels of drawn slices that are on the wrong side of what was drawn there, and how far from the line the farthest is
+/// of those that are missing.
+struct WrongVoxels {
+    std::int64_t drawn = 0, wrong = 0;
+    double farthest_missing_mm = 0;
+};
+
+WrongVoxels wrong_on_drawn_slices(const ContourSet& contours, const Mask& mask) {
+    const Mask drawn = rasterize(contours, mask.grid);
+    const Affine3 to_index = mask.grid.index_to_mm.inverse();
+    WrongVoxels result;
+    for (const Section& section : sections_of(contours, 0.01)) {
+        const std::int64_t k = std::lround(to_index.apply(section.plane.origin).z);
+        for (std::int64_t j = 0; j < mask.grid.size.j; ++j)
+            for (std::int64_t i = 0; i < mask.grid.size.i; ++i) {
+                const std::size_t at = mask.grid.offset(i, j, k);
+                result.drawn += drawn.values[at] != 0;
+                if ((drawn.values[at] != 0) == (mask.values[at] != 0)) continue;
+                ++result.wrong;
+                const double off = section.clearance(section.plane.to_uv(mask.grid.center_mm(i, j, k)));
+                if (drawn.values[at] != 0) result.farthest_missing_mm = std::max(result.farthest_missing_mm, off);
+            }
+    }
+    return result;
+}
+
+// Where contours do not contradict each other, every slice that was given comes back, but for voxels that the tolerance
+// decides.
+TEST(RealBranches, GivenSlicesOfStructureSetsComeBackToTheVoxel) {
+    for (const char* patient : {"03_sarcoma_STS_002", "05_sarcoma_STS_008"}) {
+        KONTUR_REQUIRE_DATA(patient);
+        const std::filesystem::path folder = test::data_dir() / patient / "CT";
+        const ContourSet contours = select_roi(read_rtstruct(folder / "RTSTRUCT_RS.dcm")).contours;
+        const Mask mask = segment(contours, read_mask(folder / "CT_mask.nii.gz").grid).mask;
+        const WrongVoxels found = wrong_on_drawn_slices(contours, mask);
+        EXPECT_GT(found.drawn, 8000) << patient;
+        EXPECT_LE(found.wrong, found.drawn / 2000) << patient;
+        EXPECT_LT(found.farthest_missing_mm, 0.2) << patient;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(, RealContours, testing::ValuesIn(kSets),

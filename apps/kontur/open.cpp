@@ -19,6 +19,7 @@
 #include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/io/dicom_seg.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
 #include "viewer/page.h"
@@ -73,6 +74,17 @@ Image phantom_image(const Progress& progress) {
     return make_phantom_image(scan->grid, {}, progress);
 }
 
+/// Whose image it is, and what files that are made of it refer to.
+void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
+    opened.frame_of_reference_uid = frame_of_reference_of(input);
+    if (!looks_like_dicom(input.path) || is_dicom_seg(input.path)) return;
+    opened.series = read_dicom_grid(input.path, input.options.dicom).series;
+    opened.identity = dicom_identity(opened.series->files.front());
+    const auto& [patient, description] = std::pair(opened.identity.patient_name, opened.identity.series_description);
+    if (!description.empty()) opened.title = description;
+    if (!patient.empty()) opened.title = patient + ", " + opened.title;
+}
+
 viewer::OpenedImage open_image(const ImageInput& input, Console& console) {
     viewer::OpenedImage opened;
     if (input.path == kPhantom) {
@@ -90,7 +102,7 @@ viewer::OpenedImage open_image(const ImageInput& input, Console& console) {
         std::move(warnings.begin(), warnings.end(), std::back_inserter(opened.notes));
         opened.title = fs::absolute(input.path).lexically_normal().filename().string();
         opened.reference.path = fs::absolute(input.path).lexically_normal().string();
-        opened.frame_of_reference_uid = frame_of_reference_of(input);
+        tell_series(input, opened);
     }
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);
     return opened;

@@ -173,6 +173,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
         if (!id) return not_found();
         return binary(session_.mesh(*id));
     }
+    if (get && target.path == "/api/statistics") return {200, "application/json", session_.statistics(stop), {}};
     if (get && below("/api/export/")) return exported(target, stop);
     if (!get && below("/api/import/")) return import(request, stop);
     return not_found();

@@ -133,6 +133,17 @@ json corners_json(const Grid& grid) {
     return corners;
 }
 
+json identity_json(const DicomIdentity& identity) {
+    return {{"patient_name", identity.patient_name},
+            {"patient_id", identity.patient_id},
+            {"birth_date", identity.birth_date},
+            {"study_date", identity.study_date},
+            {"study_description", identity.study_description},
+            {"series_number", identity.series_number},
+            {"series_description", identity.series_description},
+            {"modality", identity.modality}};
+}
+
 /// Whether both ask the same of the surface.
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
     return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure;
@@ -174,6 +185,8 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       title_(std::move(opened.title)),
       notes_(std::move(opened.notes)),
       frame_of_reference_uid_(std::move(opened.frame_of_reference_uid)),
+      series_(std::move(opened.series)),
+      identity_(std::move(opened.identity)),
       mm_to_index_(image_->grid.index_to_mm.inverse()),
       presets_(window_presets(*image_)),
       window_(suggest_window(*image_)),
@@ -237,9 +250,11 @@ std::string Session::greeting() {
                       {"spacing_mm", to_json(grid.spacing_mm())},
                       {"corners", corners_json(grid)},
                       {"center", to_json(grid.bounds_mm().center())},
-                      {"unit", looks_like_ct(*image_) ? "HU" : ""},
+                      {"unit", unit()},
                       {"range", {range_.first, range_.second}},
                       {"notes", notes_}}},
+                    {"identity", identity_json(identity_)},
+                    {"has_dicom", series_.has_value()},
                     {"window", {{"center", window_.center}, {"width", window_.width}}},
                     {"presets", presets},
                     {"views", views_json(grid)},
@@ -249,6 +264,11 @@ std::string Session::greeting() {
                     {"history", history()},
                     {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
                     {"page", page_state()}});
+}
+
+std::string Session::unit() const {
+    if (!identity_.modality.empty()) return identity_.unit;
+    return looks_like_ct(*image_) ? "HU" : "";
 }
 
 /// A project may come from anywhere: what `page.save` would have refused is not given back.

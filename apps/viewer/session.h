@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kontur/io/dicom_identity.h"
+#include "kontur/io/dicom_series.h"
 #include "kontur/shape/volume.h"
 #include "kontur/view/reslice.h"
 #include "viewer/imports.h"
@@ -33,6 +35,8 @@ struct OpenedImage {
     ImageReference reference;
     std::vector<std::string> notes;        ///< what had to be decided on reading
     std::string frame_of_reference_uid{};  ///< of DICOM images; "" when none is named
+    std::optional<DicomSeries> series{};   ///< what DICOM files that are made of the project refer to
+    DicomIdentity identity{};              ///< whose image it is; of other files all is empty
 };
 
 /// What an import came to: structures, or why the contours may not belong to the image, and then nothing has changed.
@@ -76,6 +80,8 @@ public:
     /// Without triangles, and at the stage "none", where there is no surface: it may go while it is asked for.
     std::string mesh(Id structure);
     Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {});
+    /// Of all structures with contours, as JSON.
+    std::string statistics(const std::stop_token& stop = {});
     ImportReply import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {});
 
     /// One structure for each set, as one step of the history.
@@ -143,6 +149,8 @@ private:
     void follow(Id structure) { surfaces_.follow(surface_task(structure)); }
     void clear_draft();
     nlohmann::json history();
+    /// Of the image's values; "" where the file names none.
+    std::string unit() const;
     nlohmann::json page_state();
     nlohmann::json surface_event(const Surface& surface) const;
     void tell(const nlohmann::json& event);
@@ -154,6 +162,8 @@ private:
     const std::string title_;
     const std::vector<std::string> notes_;
     const std::string frame_of_reference_uid_;
+    const std::optional<DicomSeries> series_;
+    const DicomIdentity identity_;
     const Affine3 mm_to_index_;
     const std::vector<WindowPreset> presets_;
     const Window window_;

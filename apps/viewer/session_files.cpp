@@ -13,8 +13,12 @@
 #include "kontur/io/png.h"
 #include "kontur/segment.h"
 #include "kontur/view/picture.h"
+#include "viewer/file_names.h"
 #include "viewer/import_doubts.h"
+#include "viewer/model_json.h"
 #include "viewer/session.h"
+#include "viewer/statistics.h"
+#include "viewer/structure_exports.h"
 #include "viewer/temporary_files.h"
 
 // What leaves the session as files and comes in as files.
@@ -33,21 +37,9 @@ bool is_one_of(const std::string& name, const Names& names) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::array<double, 3> rgb(const std::string& color) {
-    std::array<double, 3> parts{};
-    for (std::size_t i = 0; i < 3; ++i) parts[i] = std::stoi(color.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
-    return parts;
-}
-
-/// A file name without what any system or header would stumble over.
+/// "liver.nii.gz" for a mask of the liver.
 std::string file_name(const std::string& structure, const std::string& kind) {
-    std::string name;
-    for (const char c : structure) {
-        const bool plain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-        name += plain ? c : '_';
-    }
-    return (name.empty() ? "structure" : name) + kind.substr(kind.find('.'));
+    return plain_name(structure) + kind.substr(kind.find('.'));
 }
 
 void write_mask_file(const fs::path& path, const ContourSet& set, const Structure& structure, const Grid& grid,
@@ -124,6 +116,10 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         const std::scoped_lock lock(mutex_);
         project_.copy_to(path);
         download.file_name = file_name(project_.path().stem().string(), name);
+    } else if (is_export_of_all(name)) {
+        const auto all = fit_structures(state(), image_->grid, name.ends_with(".zip"), line.progress(stop));
+        for (const std::string& note : write_structures(path, name, all, series_, line.progress(stop))) notice("info", note);
+        download.file_name = plain_name(project_path().stem().string()) + "_" + name;
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
         const auto [now, image] = [&] {
@@ -141,6 +137,27 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
     }
     download.bytes = read_bytes(path);
     return download;
+}
+
+std::string Session::statistics(const std::stop_token& stop) {
+    const StatusLine line(*this, "Measuring");
+    nlohmann::json rows = nlohmann::json::array();
+    for (const FittedStructure& one : fit_structures(state(), image_->grid, true, line.progress(stop))) {
+        const Statistics found = viewer::statistics(*one.made.mesh, one.made.mask, *image_);
+        rows.push_back({{"structure", one.structure.id},
+                        {"name", one.structure.name},
+                        {"contours", one.set.contours.size()},
+                        {"volume_ml", found.volume_ml},
+                        {"surface_cm2", found.surface_cm2},
+                        {"diameter_mm", found.diameter_mm},
+                        {"diameter", {to_json(found.from), to_json(found.to)}},
+                        {"extent_mm", to_json(found.extent_mm)},
+                        {"voxels", found.voxels},
+                        {"mean", found.mean},
+                        {"deviation", found.deviation},
+                        {"range", {found.least, found.most}}});
+    }
+    return to_text({{"unit", unit()}, {"structures", std::move(rows)}});
 }
 
 ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {

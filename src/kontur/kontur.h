@@ -31,6 +31,7 @@
 #include "kontur/io/contour_json.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom_identity.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"

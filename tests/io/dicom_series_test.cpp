@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom_series.h"
 
+#include "kontur/io/dicom_identity.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,6 +34,16 @@ TEST_F(DicomSeriesTest, OrdersSlicesByPositionWhateverTheirNamesAndNumbers) {
     EXPECT_TRUE(volume.notes.empty());
     EXPECT_EQ(volume.series.modality, "CT");
     EXPECT_EQ(volume.series.files.size(), 9u);
+}
+
+TEST_F(DicomSeriesTest, SaysWhoseImageItIs) {
+    const fs::path folder = make("axial");
+    const DicomIdentity identity = dicom_identity(list_dicom_series(folder).front().files.front());
+    EXPECT_EQ(identity.patient_name, "Phantom, One");
+    EXPECT_EQ(identity.patient_id, "P1");
+    EXPECT_EQ(identity.modality, "CT");
+    EXPECT_EQ(identity.unit, "HU");
+    EXPECT_EQ(identity.birth_date, "");
 }
 
 TEST_F(DicomSeriesTest, PlacesObliqueAndCoronalSlices) {

@@ -18,8 +18,10 @@ import { hintFor } from "./ui/hints";
 import { el } from "./ui/dom";
 import { firstHint, openExport } from "./ui/dialogs";
 import { openHelp } from "./ui/help";
+import { IdentityCard } from "./ui/identity";
 import { importFile, openImport } from "./ui/imports";
 import { crosshairOnto, Panel, viewAlong } from "./ui/panel";
+import { openStatistics } from "./ui/statistics";
 import { Notices, StatusBar } from "./ui/status";
 import { Toolbar } from "./ui/toolbar";
 import { SliceView } from "./view/slice_view";
@@ -49,6 +51,7 @@ export class App {
   private readonly socket: Socket;
   private readonly status = new StatusBar();
   private readonly notices = new Notices();
+  private readonly identity = new IdentityCard();
   private readonly stage = el("main", { class: "stage" });
   private readonly surface: SurfaceView;
   private readonly toolbar: Toolbar;
@@ -93,13 +96,15 @@ export class App {
       ...shared,
       undo: () => this.undo(),
       redo: () => this.redo(),
-      openExport: () => openExport(shared),
+      openExport: () => openExport({ ...shared, hasDicom: () => this.session?.has_dicom ?? false }),
       openImport: () => openImport(this.importServices()),
       openHelp: () => openHelp(this.session?.version ?? ""),
     });
     const panel = new Panel({
       ...shared,
       call: (name, args = {}) => this.editor.edits.make(name, args),
+      identity: this.identity.element,
+      openStatistics: () => openStatistics(this.http, (p) => this.goTo(p)),
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),
@@ -205,6 +210,7 @@ export class App {
     document.title = `${session.title} · kontur`;
     this.status.start(session.project);
     this.tellSaved();
+    this.identity.start(session);
     this.toolbar.start(session.title, session.presets);
     // After a reconnect the user stays where he is.
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());

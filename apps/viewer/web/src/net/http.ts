@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BinaryReply } from "./binary";
-import type { SliceHeader, SliceRequest } from "./protocol";
+import type { SliceHeader, SliceRequest, Statistics } from "./protocol";
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
@@ -49,6 +49,10 @@ export class Http {
     const reply = await this.request(`export/${name}` + (structure === null ? "" : `?structure=${structure}`), { signal: signal ?? null });
     const proposed = /filename="([^"]+)"/.exec(reply.headers.get("Content-Disposition") ?? "");
     return { blob: await reply.blob(), name: proposed?.[1] ?? name };
+  }
+
+  async statistics(signal: AbortSignal): Promise<Statistics> {
+    return (await (await this.request("statistics", { signal })).json()) as Statistics;
   }
 
   async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<ImportReply> {

@@ -83,12 +83,46 @@ export interface ImageInfo {
   notes: string[];
 }
 
+/** Whose image it is; of images that are no DICOM all is "". Dates as YYYY-MM-DD. */
+export interface Identity {
+  patient_name: string;
+  patient_id: string;
+  birth_date: string;
+  study_date: string;
+  study_description: string;
+  series_number: string;
+  series_description: string;
+  modality: string;
+}
+
+export interface StructureStatistics {
+  structure: number;
+  name: string;
+  contours: number;
+  volume_ml: number;
+  surface_cm2: number;
+  diameter_mm: number;
+  diameter: [Vec3, Vec3];
+  extent_mm: [number, number, number];
+  voxels: number;
+  mean: number;
+  deviation: number;
+  range: [number, number];
+}
+
+export interface Statistics {
+  unit: string;
+  structures: StructureStatistics[];
+}
+
 export interface Session {
   event: "session";
   version: string;
   title: string;
   project: string;
   image: ImageInfo;
+  identity: Identity;
+  has_dicom: boolean;
   window: Window;
   presets: Preset[];
   views: Record<ViewName, ViewGeometry>;

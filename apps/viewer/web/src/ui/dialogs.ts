@@ -3,6 +3,7 @@ import type { Http } from "../net/http";
 import type { Project } from "../model/project";
 import type { Editor } from "../tools/editor";
 import { button, el } from "./dom";
+import { download } from "./download";
 import { ICONS } from "./icons";
 
 /** A modal window; Esc and a click beside it close it. */
@@ -52,8 +53,22 @@ const EXPORTS: [string, [string, string, string][]][] = [
   ["Picture", [["picture.png", "PNG", ".png"]]],
 ];
 
+/** One file with all structures, or one archive. Those of DICOM refer to the images. */
+const OF_ALL: [string, string, string][] = [
+  ["labels.nii.gz", "Label map, NIfTI", ".nii.gz"],
+  ["labels.seg.nrrd", "3D Slicer segmentation", ".seg.nrrd"],
+  ["meshes.stl.zip", "Surfaces, STL", ".zip"],
+  ["meshes.ply.zip", "Surfaces, PLY", ".zip"],
+];
+const OF_ALL_IN_DICOM: [string, string, string][] = [
+  ["seg.dcm", "DICOM SEG", ".dcm"],
+  ["rtstruct.dcm", "DICOM RTSTRUCT", ".dcm"],
+];
+
 export interface ExportServices {
   http: Http;
+  /** Whether the image is a DICOM series, to which other objects can refer. */
+  hasDicom(): boolean;
   project: Project;
   editor: Editor;
 }
@@ -67,7 +82,7 @@ function missing({ drawing }: Editor): HTMLElement[] {
   return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];
 }
 
-export function openExport({ http, project, editor }: ExportServices): void {
+export function openExport({ http, project, editor, hasDicom }: ExportServices): void {
   const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
   for (const { id, name } of project.structures.values())
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
@@ -98,22 +113,21 @@ export function openExport({ http, project, editor }: ExportServices): void {
   const groups = EXPORTS.map(([title, files]) =>
     el("div", { class: "export-group" }, el("h3", {}, title), el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, chosen)))),
   );
+  const files = [...OF_ALL, ...(hasDicom() ? OF_ALL_IN_DICOM : [])];
+  const all = el(
+    "div",
+    { class: "export-group" },
+    el("h3", {}, "All structures at once"),
+    el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, () => null))),
+  );
   const whole = el(
     "div",
     { class: "export-group" },
     el("h3", {}, "Project with its history"),
     el("div", { class: "choices" }, entry("project.kontur", "kontur project", ".kontur", () => null)),
   );
-  const dialog = openDialog("Export", "export-dialog", ...missing(editor), el("label", { class: "field" }, "Structure", structure), ...groups, whole, status);
+  const dialog = openDialog("Export", "export-dialog", ...missing(editor), all, el("label", { class: "field" }, "One structure", structure), ...groups, whole, status);
   dialog.addEventListener("close", () => running?.abort());
-}
-
-function download(blob: Blob, name: string): void {
-  const link = el("a", { href: URL.createObjectURL(blob), download: name });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
 /** Shown once per project. */

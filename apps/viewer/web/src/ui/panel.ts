@@ -17,6 +17,9 @@ export interface PanelServices {
   project: Project;
   editor: Editor;
   call(name: string, args?: Record<string, unknown>): void;
+  /** Whose image it is. */
+  identity: HTMLElement;
+  openStatistics(): void;
   addStructure(): void;
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
@@ -39,11 +42,13 @@ export class Panel {
   constructor(private readonly services: PanelServices) {
     const { project } = services;
     const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", click: services.addStructure });
+    const measure = button({ icon: ICONS.statistics, title: "Statistics: volume, surface, diameters, values of all structures", class: "icon-button small", test: "statistics-open", click: services.openStatistics });
     this.element.append(
+      services.identity,
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
       this.list,
       this.actions,
-      el("div", { class: "panel-title" }, el("span", {}, "Surface")),
+      el("div", { class: "panel-title" }, el("span", {}, "Surface"), measure),
       this.quality,
     );
     project.on(["structures", "contours", "selection", "surfaces", "stages"], () => this.update());

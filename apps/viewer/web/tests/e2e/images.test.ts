@@ -2,10 +2,11 @@
 // What can be opened: any grid, a DICOM folder, nothing at all.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, launch, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, launch, run, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 let browser: Browser;
@@ -60,7 +61,8 @@ describe("kontur open", () => {
     const { status, stderr } = spawnSync(python, [script, "tilt", join(folder.path, "series")], { encoding: "utf8" });
     assert.equal(status, 0, stderr);
     await visit([join(folder.path, "series", "dicom")], async (viewer) => {
-      assert.equal(await viewer.page.locator(".file-title").textContent(), "dicom");
+      const identity = await viewer.page.locator("[data-test=identity]").innerText();
+      for (const words of ["Phantom, One", "ID P1", "CT", "values in HU"]) assert.ok(identity.includes(words), identity);
       const { page } = viewer;
       await page.mouse.move(...(await viewer.at("axial", 4, 4)));
       await page.waitForFunction(() => /HU$/.test(document.querySelector("[data-test=cursor]")!.textContent ?? ""));
@@ -69,6 +71,13 @@ describe("kontur open", () => {
       await viewer.waitForContours(1);
       await viewer.surfaceShown();
       assert.equal((await viewer.export("mask.nii.gz")).bytes.readUInt16BE(0), 0x1f8b);
+      for (const name of ["rtstruct.dcm", "seg.dcm"]) {
+        const file = await viewer.export(name);
+        assert.equal(file.bytes.subarray(128, 132).toString(), "DICM");
+        const kept = join(folder.path, name);
+        writeFileSync(kept, file.bytes);
+        run("inspect", kept);
+      }
     });
   });
 

@@ -34,6 +34,7 @@ export function session(changes: Partial<Session> = {}): Session {
   return {
     event: "session", version: "1", title: "image", project: "image.kontur",
     image: { size: [100, 80, 51], spacing_mm: [2, 2, 2], corners, center: [0, 0, 0], unit: "HU", range: [-1000, 1000], notes: [] },
+    identity: { patient_name: "", patient_id: "", birth_date: "", study_date: "", study_description: "", series_number: "", series_description: "", modality: "" }, has_dicom: false,
     window: { center: 40, width: 400 }, presets: [],
     views: { axial: view(AXIAL, [-50, 50]), sagittal: view(SAGITTAL, [-100, 100]), coronal: view(CORONAL, [-80, 80]), oblique: view(SKEW, [-90, 90]) },
     structures: [{ id: 1, name: "Liver", color: "#e8b04a", visible: true }], contours: [], surfaces: [],

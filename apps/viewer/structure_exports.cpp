@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/structure_exports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "kontur/base/error.h"
+#include "kontur/extract/slice_contours.h"
+#include "kontur/io/atomic_file.h"
+#include "kontur/io/dicom_seg.h"
+#include "kontur/io/image.h"
+#include "kontur/io/mesh.h"
+#include "kontur/io/rtstruct.h"
+#include "viewer/file_names.h"
+#include "viewer/temporary_files.h"
+#include "viewer/zip.h"
+
+namespace kontur::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using All = std::vector<FittedStructure>;
+
+std::array<std::uint8_t, 3> rgb8(const std::string& color) {
+    std::array<std::uint8_t, 3> levels{};
+    for (std::size_t i = 0; i < 3; ++i) levels[i] = static_cast<std::uint8_t>(std::lround(255 * rgb(color)[i]));
+    return levels;
+}
+
+std::int64_t voxels_of(const Mask& mask) { return std::accumulate(mask.values.begin(), mask.values.end(), std::int64_t{0}); }
+
+/// From the largest to the smallest, by place in the list.
+std::vector<std::size_t> by_size(const All& all) {
+    std::vector<std::int64_t> voxels;
+    for (const FittedStructure& one : all) voxels.push_back(voxels_of(one.made.mask));
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return voxels[a] > voxels[b]; });
+    return order;
+}
+
+/// How the structures were made; what differs has the label's number behind its name.
+Provenance together(const All& all) {
+    Provenance made;
+    for (std::size_t n = 0; n < all.size(); ++n)
+        for (const auto& [name, value] : provenance(all[n].set, all[n].made.mask.grid, all[n].made.report)) {
+            const std::pair entry{name, value};
+            if (n == 0 && std::all_of(all.begin(), all.end(), [&](const FittedStructure& one) {
+                    const Provenance its = provenance(one.set, one.made.mask.grid, one.made.report);
+                    return std::find(its.begin(), its.end(), entry) != its.end();
+                }))
+                made.push_back(entry);
+            else if (std::find(made.begin(), made.end(), entry) == made.end())
+                made.emplace_back(fmt::format("{}_{}", name, n + 1), value);
+        }
+    return made;
+}
+
+std::vector<std::string> write_labels(const fs::path& path, const All& all) {
+    std::vector<std::uint16_t> labels(all.front().made.mask.values.size());
+    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;  // of the larger and the smaller structure
+    for (const std::size_t n : by_size(all)) {
+        const std::vector<std::uint8_t>& inside = all[n].made.mask.values;
+        for (std::size_t v = 0; v < labels.size(); ++v) {
+            if (inside[v] == 0) continue;
+            if (labels[v] != 0) ++shared[{labels[v] - 1u, n}];
+            labels[v] = static_cast<std::uint16_t>(n + 1);
+        }
+    }
+    WriteImageOptions options;
+    options.provenance = together(all);
+    for (std::size_t n = 0; n < all.size(); ++n)
+        options.names.push_back({static_cast<std::int64_t>(n + 1), all[n].structure.name, rgb(all[n].structure.color)});
+    Image image{all.front().made.mask.grid, labels};
+    if (all.size() <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
+    write_image(path, image, options);
+    std::vector<std::string> notes;
+    for (const auto& [pair, voxels] : shared)
+        notes.push_back(fmt::format("{} voxels lie in {} and in {}: in the label map they belong to {}, the smaller one",
+                                    voxels, all[pair.first].structure.name, all[pair.second].structure.name,
+                                    all[pair.second].structure.name));
+    return notes;
+}
+
+std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images,
+                                   const Progress& progress) {
+    std::vector<Mask> masks;
+    std::vector<DicomSegment> segments;
+    for (const FittedStructure& one : all) {
+        masks.push_back(one.made.mask);
+        segments.push_back({.number = static_cast<std::int64_t>(segments.size() + 1),
+                            .label = one.structure.name,
+                            .algorithm_name = "kontur",
+                            .color = rgb8(one.structure.color)});
+    }
+    return write_dicom_seg_masks(
+        path, masks, segments, images,
+        {.algorithm = {"kontur variational interpolation", KONTUR_VERSION, ""}, .provenance = together(all)}, progress);
+}
+
+std::vector<std::string> write_regions(const fs::path& path, const All& all, const DicomSeries& images,
+                                       const Progress& progress) {
+    StructureSet set{"kontur", {}};
+    for (const FittedStructure& one : all) {
+        Roi roi;
+        roi.name = one.structure.name;
+        roi.color = rgb8(one.structure.color);
+        roi.generation_algorithm = "SEMIAUTOMATIC";
+        roi.contours = slice_contours(one.made.mask, one.made.function, 0, progress);
+        roi.contours.name = one.structure.name;
+        set.rois.push_back(std::move(roi));
+    }
+    WriteRtstructOptions options;
+    options.provenance = together(all);
+    return write_rtstruct(path, set, images, options);
+}
+
+/// "meshes.stl.zip": one .stl for each structure, by its name; those of one name get a number.
+void write_meshes(const fs::path& path, std::string_view name, const All& all) {
+    const std::string ending(name.substr(name.find('.'), name.rfind('.') - name.find('.')));
+    const TemporaryFolder folder;
+    std::vector<ZipEntry> entries;
+    for (const FittedStructure& one : all) {
+        std::string stem = plain_name(one.structure.name);
+        const auto is_taken = [&](const std::string& file) {
+            return std::any_of(entries.begin(), entries.end(), [&](const ZipEntry& e) { return e.name == file; });
+        };
+        for (int number = 2; is_taken(stem + ending); ++number)
+            stem = fmt::format("{}_{}", plain_name(one.structure.name), number);
+        const fs::path file = folder.path() / (stem + ending);
+        write_mesh(file, *one.made.mesh, provenance(one.set, one.made.mask.grid, one.made.report));
+        entries.push_back({stem + ending, read_bytes(file)});
+    }
+    write_file_atomically(path, zip(entries));
+}
+
+const DicomSeries& series_of(const std::optional<DicomSeries>& images, std::string_view name) {
+    if (images) return *images;
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("{} would refer to the DICOM images it was made on, and this image is none", name));
+}
+
+}  // namespace
+
+bool is_export_of_all(std::string_view name) {
+    return std::find(kExportsOfAll.begin(), kExportsOfAll.end(), name) != kExportsOfAll.end();
+}
+
+std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Progress& progress) {
+    std::vector<FittedStructure> all;
+    for (const auto& [id, structure] : state.structures) {
+        ContourSet set = contour_set(state, id);
+        if (set.contours.empty()) continue;
+        SegmentOptions options;
+        options.mesh = with_mesh;
+        try {
+            Segmentation made = segment(set, grid, options, progress);
+            all.push_back({structure, std::move(set), std::move(made)});
+        } catch (const Error& error) {
+            throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
+        }
+    }
+    if (all.empty()) throw Error(ErrorKind::invalid_input, "no structure has contours");
+    return all;
+}
+
+std::vector<std::string> write_structures(const fs::path& path, std::string_view name, const All& all,
+                                          const std::optional<DicomSeries>& images, const Progress& progress) {
+    if (name == "seg.dcm") return write_seg(path, all, series_of(images, name), progress);
+    if (name == "rtstruct.dcm") return write_regions(path, all, series_of(images, name), progress);
+    if (name.ends_with(".zip")) return write_meshes(path, name, all), std::vector<std::string>{};
+    return write_labels(path, all);
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kontur/base/progress.h"
+#include "kontur/io/dicom_series.h"
+#include "kontur/segment.h"
+#include "viewer/model.h"
+
+// Files with all structures of a project at once.
+
+namespace kontur::viewer {
+
+/// Their names, which say the format: label maps on the image's grid, DICOM objects that refer to the images, and surfaces,
+/// one file for each structure in an archive.
+inline constexpr std::array kExportsOfAll{"labels.nii.gz", "labels.nrrd",  "labels.seg.nrrd", "labels.mha",
+                                          "seg.dcm",       "rtstruct.dcm", "meshes.stl.zip",  "meshes.ply.zip"};
+bool is_export_of_all(std::string_view name);
+
+/// A structure as `segment` makes it of its contours.
+struct FittedStructure {
+    Structure structure;
+    ContourSet set;
+    Segmentation made;
+};
+
+/// All structures that have contours, in the order they were made, hidden ones too; with their surfaces if wished. Throws
+/// Error(invalid_input) where there is none, and what `segment` throws, with the structure's name.
+std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Progress& progress);
+
+/// Writes the file of this name, one of `kExportsOfAll`. Labels count from 1 in the order of the structures; a voxel in
+/// several of them belongs to the smallest, so that a lesion in an organ is not lost; in DICOM objects it belongs to all.
+/// Returns what the user should know, one sentence each. Throws Error(invalid_input) for a DICOM object without DICOM
+/// images.
+std::vector<std::string> write_structures(const std::filesystem::path& path, std::string_view name,
+                                          const std::vector<FittedStructure>& all, const std::optional<DicomSeries>& images,
+                                          const Progress& progress);
+
+}  // namespace kontur::viewer

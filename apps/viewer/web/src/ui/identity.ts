@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Identity, Session } from "../net/protocol";
+import { el } from "./dom";
+
+/** Whose image it is and what it shows, line by line: what no reader may have to guess. */
+export function identityLines({ identity, title, image }: Pick<Session, "identity" | "title" | "image">): string[] {
+  const size = `${image.size.join(" × ")}, ${image.spacing_mm.map((mm) => Number(mm.toPrecision(3))).join(" × ")} mm`;
+  const values = image.unit === "" ? "values without a unit" : `values in ${image.unit}`;
+  if (identity.modality === "") return [title, `${values} · ${size}`];
+  return [patientLine(identity), studyLine(identity), seriesLine(identity), `${values} · ${size}`].filter((line) => line !== "");
+}
+
+function patientLine({ patient_name, patient_id, birth_date }: Identity): string {
+  return [patient_name || "Patient without a name", patient_id && `ID ${patient_id}`, birth_date && `born ${birth_date}`].filter(Boolean).join(" · ");
+}
+
+const studyLine = ({ study_date, study_description }: Identity): string => [study_date, study_description].filter(Boolean).join(" · ");
+
+function seriesLine({ modality, series_number, series_description }: Identity): string {
+  return [modality, series_number && `series ${series_number}`, series_description].filter(Boolean).join(" · ");
+}
+
+/** Stays in sight at every width of the page. */
+export class IdentityCard {
+  readonly element = el("section", { class: "identity", "aria-label": "Image", "data-test": "identity" });
+
+  start(session: Session): void {
+    const [first = "", ...others] = identityLines(session);
+    this.element.replaceChildren(el("strong", { title: first }, first), ...others.map((line) => el("span", { title: line }, line)));
+  }
+}

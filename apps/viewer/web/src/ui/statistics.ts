@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Vec3 } from "../geometry/vec";
+import type { Http } from "../net/http";
+import type { Statistics, StructureStatistics } from "../net/protocol";
+import { openDialog } from "./dialogs";
+import { button, el } from "./dom";
+import { download } from "./download";
+
+const rounded = (value: number, digits = 3): string => (Math.abs(value) >= 10 ** digits ? value.toFixed(0) : String(Number(value.toPrecision(digits))));
+
+interface Column {
+  head: string;
+  value(row: StructureStatistics): number | string;
+}
+
+/** The unit stands once, in the head. */
+export function columns(unit: string): Column[] {
+  const of = unit === "" ? "" : `, ${unit}`;
+  return [
+    { head: "Structure", value: ({ name }) => name },
+    { head: "Contours", value: ({ contours }) => contours },
+    { head: "Volume, ml", value: ({ volume_ml }) => volume_ml },
+    { head: "Surface, cm²", value: ({ surface_cm2 }) => surface_cm2 },
+    { head: "Largest diameter, mm", value: ({ diameter_mm }) => diameter_mm },
+    { head: "Extent R-L, mm", value: ({ extent_mm }) => extent_mm[0] },
+    { head: "Extent A-P, mm", value: ({ extent_mm }) => extent_mm[1] },
+    { head: "Extent S-I, mm", value: ({ extent_mm }) => extent_mm[2] },
+    { head: `Mean${of}`, value: ({ mean }) => mean },
+    { head: `Deviation${of}`, value: ({ deviation }) => deviation },
+    { head: `Least${of}`, value: ({ range }) => range[0] },
+    { head: `Most${of}`, value: ({ range }) => range[1] },
+    { head: "Voxels", value: ({ voxels }) => voxels },
+  ];
+}
+
+/** As RFC 4180 has it. */
+export function asCsv({ unit, structures }: Statistics): string {
+  const field = (value: string | number) => (typeof value === "number" ? String(value) : /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
+  const shown = columns(unit);
+  return [shown.map(({ head }) => field(head)), ...structures.map((row) => shown.map(({ value }) => field(value(row))))].map((line) => line.join(",") + "\r\n").join("");
+}
+
+/** Measures all structures anew, as `kontur segment` makes them. */
+export function openStatistics(http: Http, goTo: (p: Vec3) => void): void {
+  const abort = new AbortController();
+  const status = el("p", { class: "dialog-status", role: "status" }, "Measuring …");
+  const content = el("div", { class: "statistics" });
+  const dialog = openDialog("Statistics", "statistics-dialog", content, status);
+  dialog.addEventListener("close", () => abort.abort());
+  http.statistics(abort.signal).then(
+    (found) => {
+      status.textContent = "Volume, area and lengths are the surface's; values those of the voxels whose centres lie inside. A click on a diameter shows where it ends.";
+      content.replaceChildren(table(found, (p) => (dialog.close(), goTo(p))));
+      const save = button({ label: "Save as CSV", title: "Save the table as CSV", class: "choice", test: "statistics-csv", click: () => download(new Blob([asCsv(found)], { type: "text/csv" }), "statistics.csv") });
+      dialog.append(el("div", { class: "dialog-buttons" }, save));
+    },
+    (error: unknown) => void (status.textContent = error instanceof Error ? error.message : String(error)),
+  );
+}
+
+/** Structures side by side: what is compared stands in one row. */
+function table({ unit, structures }: Statistics, goTo: (p: Vec3) => void): HTMLTableElement {
+  const rows = columns(unit).map(({ head, value }) => {
+    const cells = structures.map((row) => {
+      const shown = value(row);
+      const text = typeof shown === "number" ? (Number.isInteger(shown) ? String(shown) : rounded(shown)) : shown;
+      if (head === "Structure") return el("th", { scope: "col" }, text);
+      const isDiameter = head.startsWith("Largest diameter");
+      const content = isDiameter ? button({ label: text, title: "Go to one end of it", class: "place", click: () => goTo(row.diameter[0]) }) : text;
+      return el("td", {}, content);
+    });
+    return el("tr", {}, el("th", { scope: "row" }, head), ...cells);
+  });
+  return el("table", { "data-test": "statistics" }, ...rows);
+}

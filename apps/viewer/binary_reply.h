@@ -16,8 +16,11 @@ public:
 
     template <class Number>
     void add(const char* name, std::span<const Number> numbers) {
-        static_assert(sizeof(Number) == 1 || sizeof(Number) == 4);
-        const char* type = std::is_same_v<Number, float> ? "f32" : sizeof(Number) == 4 ? "u32" : "u8";
+        static_assert(std::is_same_v<Number, float> || std::is_unsigned_v<Number>);
+        const char* type = std::is_same_v<Number, float> ? "f32"
+                           : sizeof(Number) == 4         ? "u32"
+                           : sizeof(Number) == 2         ? "u16"
+                                                         : "u8";
         head_["arrays"][name] = {{"type", type}, {"offset", arrays_.size()}, {"count", numbers.size()}};
         arrays_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
         arrays_.resize((arrays_.size() + 3) / 4 * 4);

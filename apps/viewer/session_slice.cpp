@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
@@ -30,8 +31,14 @@ struct SliceRequest {  // NOLINT(bugprone-exception-escape)
     json plane;
     Reslice raster;
     Window window;
-    bool pixels, outlines;
+    enum class Pixels { none, shades, values } pixels;
+    bool outlines;
 };
+
+SliceRequest::Pixels pixels_from(const Members& m) {
+    if (m.has("pixels") && m.at("pixels") == "values") return SliceRequest::Pixels::values;
+    return m.flag_or("pixels", true) ? SliceRequest::Pixels::shades : SliceRequest::Pixels::none;
+}
 
 SliceRequest parse(std::string_view text) {
     const json document = parsed(text);
@@ -47,9 +54,9 @@ SliceRequest parse(std::string_view text) {
                     fmt::format("'mm_per_pixel' is {:g}; it must lie between 0.0001 and 10000", request.raster.pixel_mm));
     request.raster.width = static_cast<int>(m.integer("width", 1, kMostPixelsOnASide));
     request.raster.height = static_cast<int>(m.integer("height", 1, kMostPixelsOnASide));
-    request.pixels = m.flag_or("pixels", true);
+    request.pixels = pixels_from(m);
     request.outlines = m.flag_or("outlines", true);
-    if (request.pixels) {
+    if (request.pixels == SliceRequest::Pixels::shades) {
         const Members window(m.at("window"));
         request.window = {window.number("center"), window.number("width")};
         if (!(request.window.width > 0)) throw Error(ErrorKind::invalid_input, "the window's width is not greater than 0");
@@ -69,6 +76,31 @@ std::vector<std::uint8_t> shades(const Image& image, const SliceRequest& request
         return static_cast<std::uint8_t>(shade > 0 ? std::min(shade, 255.f) : 0.f);  // NaN is black
     });
     return pixels;
+}
+
+/// The image's values on a slice, in equal steps from its least to its largest: `first + step * (code - 1)`; 0 is outside of
+/// the image, and what is not finite.
+struct CodedValues {
+    double first = 0, step = 0;
+    std::vector<std::uint16_t> codes;
+};
+
+CodedValues coded_values(const Image& image, const Reslice& raster) {
+    constexpr double kLargestCode = 65'535;
+    const std::vector<float> values = reslice(image, raster, std::numeric_limits<float>::quiet_NaN());
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const float value : values)
+        if (std::isfinite(value)) least = std::min<double>(least, value), most = std::max<double>(most, value);
+    CodedValues coded;
+    coded.codes.resize(values.size());
+    if (!(least <= most)) return coded;
+    coded.first = least;
+    coded.step = (most - least) / (kLargestCode - 1);
+    const double scale = coded.step > 0 ? 1 / coded.step : 0;
+    std::transform(values.begin(), values.end(), coded.codes.begin(), [&](float value) {
+        return static_cast<std::uint16_t>(std::isfinite(value) ? 1 + std::lround((value - least) * scale) : 0);
+    });
+    return coded;
 }
 
 /// Runs of points in pixels, column and row alternating.
@@ -172,10 +204,16 @@ std::string Session::slice(std::string_view text) {
     if (request.outlines)
         add_outlines(state(), surfaces_.all(), request.raster, slice_step_mm(image_->grid, request.raster.plane.normal),
                      head, lines, dots);
+    CodedValues coded;
+    if (request.pixels == SliceRequest::Pixels::values) {
+        coded = coded_values(*image_, request.raster);
+        head["values"] = {{"first", coded.first}, {"step", coded.step}};
+    }
     BinaryReply reply(std::move(head));
     reply.add("outline_points", lines.numbers());
     reply.add("crossing_points", dots.numbers());
-    if (request.pixels) reply.add<std::uint8_t>("pixels", shades(*image_, request));
+    if (request.pixels == SliceRequest::Pixels::values) reply.add<std::uint16_t>("values", coded.codes);
+    if (request.pixels == SliceRequest::Pixels::shades) reply.add<std::uint8_t>("pixels", shades(*image_, request));
     return reply.bytes();
 }
 

@@ -2,6 +2,7 @@
 import { type Vec3 } from "./geometry/vec";
 import type { Screen } from "./geometry/screen";
 import { Appearance, type SavedAppearance } from "./model/appearance";
+import type { Measurement } from "./model/measurements";
 import { Navigation, type PaneName, type SavedNavigation } from "./model/navigation";
 import { Project } from "./model/project";
 import { Http, ServerError } from "./net/http";
@@ -31,6 +32,7 @@ interface SavedPage {
   structure: number;
   hintSeen: boolean;
   appearance?: SavedAppearance;
+  measurements?: Measurement[];
   sketch?: SavedSketch;
   unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
 }
@@ -151,6 +153,8 @@ export class App {
     this.appearance.on(["changed"], () => this.savePageSoon());
     editor.on(["tool", "hover"], each((view) => view.paint()));
     editor.on(["tool", "hover"], () => this.tellHint());
+    editor.measuring.measurements.on(["changed"], each((view) => view.paint()));
+    editor.measuring.measurements.on(["changed"], () => this.savePageSoon());
     editor.drawing.on(["sketch"], each((view) => view.paint()));
     editor.drawing.on(["sketch"], () => this.tellHint());
     editor.proposals.on(["proposal"], each((view) => view.paint()));
@@ -218,6 +222,7 @@ export class App {
     this.surface.forgetRevisions();
     this.project.start(session);
     if (isFirst && page?.appearance) this.appearance.set(page.appearance);
+    if (isFirst && page?.measurements) this.editor.measuring.measurements.restore(page.measurements);
     if (isFirst && page?.structure) this.project.activate(page.structure);
     if (isFirst) this.editor.drawing.outbox.restore(page?.sketch, page?.unsaved ?? []);
     void this.surface.start(session.image);
@@ -387,7 +392,7 @@ export class App {
   private leave(): void {
     if (this.inputs.some((input) => input.cancel())) return;
     if (this.editor.drawing.sketch) return this.editor.drawing.leave();
-    if (this.editor.proposals.drop()) return;
+    if (this.editor.proposals.drop() || this.editor.leaveBegun()) return;
     if (this.editor.tool.id !== "edit") return this.editor.choose("edit");
     this.project.select(null);
   }
@@ -449,7 +454,7 @@ export class App {
     if (!this.session) return;
     window.clearTimeout(this.saveTimer);
     this.saveTimer = 0;
-    const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen, appearance: this.appearance.saved() };
+    const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen, appearance: this.appearance.saved(), measurements: this.editor.measuring.measurements.saved() };
     let room = LONGEST_SAVED_SKETCHES;
     const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
     const { drawing } = this.editor;

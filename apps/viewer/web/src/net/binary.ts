@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-const TYPES = { u8: Uint8Array, u32: Uint32Array, f32: Float32Array } as const;
+const TYPES = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array } as const;
 
 interface ArrayEntry {
   type: keyof typeof TYPES;
@@ -31,6 +31,10 @@ export class BinaryReply<Header> {
     return this.array(name, "u8") as Uint8Array;
   }
 
+  u16(name: string): Uint16Array {
+    return this.array(name, "u16") as Uint16Array;
+  }
+
   u32(name: string): Uint32Array {
     return this.array(name, "u32") as Uint32Array;
   }
@@ -39,7 +43,7 @@ export class BinaryReply<Header> {
     return this.array(name, "f32") as Float32Array;
   }
 
-  private array(name: string, type: keyof typeof TYPES): Uint8Array | Uint32Array | Float32Array {
+  private array(name: string, type: keyof typeof TYPES): Uint8Array | Uint16Array | Uint32Array | Float32Array {
     const entry = this.entries[name];
     if (!entry) return new TYPES[type](0);
     if (entry.type !== type) throw new Error(`the server's array "${name}" holds ${entry.type}, not ${type}`);

@@ -180,13 +180,22 @@ export interface PathResult {
   control: ControlPoint[];
 }
 
+/** What of the image is asked for: nothing, its shades in the window, or its values. */
+export type Pixels = boolean | "values";
+
+/** The values that codes from 1 on stand for; 0 is outside of the image. */
+export interface Coding {
+  first: number;
+  step: number;
+}
+
 export interface SliceRequest {
   view: string;
   plane: PixelPlane;
   width: number;
   height: number;
   window: Window;
-  pixels: boolean;
+  pixels: Pixels;
   outlines: boolean;
 }
 
@@ -197,4 +206,5 @@ export interface SliceHeader {
   outlines: { structure: number; revision: number; lines: { first: number; count: number; closed: boolean }[] }[];
   crossings: { contour: number; first: number; count: number }[];
   contours: number[];
+  values?: Coding;
 }

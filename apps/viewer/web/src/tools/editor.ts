@@ -10,6 +10,7 @@ import { Drafts } from "./drafts";
 import { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import { hitContour } from "./hit";
+import { Measuring } from "./measuring";
 import { OutlineEdits } from "./outline_edits";
 import type { Place } from "./place";
 import { PlaneLines } from "./plane_lines";
@@ -32,6 +33,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly planeLines: PlaneLines;
   readonly pushing: Pushing;
   readonly proposals: Proposals;
+  readonly measuring = new Measuring();
 
   constructor(
     readonly navigation: Navigation,
@@ -51,6 +53,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
 
   choose(id: ToolName): void {
     if (id === this.tool.id) return;
+    this.tool.leave?.(this);
     this.tool = toolNamed(id);
     const { drawing } = this;
     if (this.tool.stretch) drawing.sketch?.setKind(this.tool.stretch);
@@ -111,6 +114,19 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.tool.wheel(this, factor);
     this.emit("hover");
     return true;
+  }
+
+  /** Del and Backspace. */
+  remove(): void {
+    if (!this.tool.remove?.(this)) this.edits.deleteSelected();
+    this.emit("hover");
+  }
+
+  /** Esc while nothing is drawn: what the tool has begun; false where that is nothing. */
+  leaveBegun(): boolean {
+    const left = this.tool.leave?.(this) ?? false;
+    if (left) this.emit("hover");
+    return left;
   }
 
   doubleClick(): void {

@@ -8,6 +8,7 @@ import type { ContourEdits } from "./contour_edits";
 import type { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import type { ContourHit, LineHit } from "./hit";
+import type { Measuring } from "./measuring";
 import type { OutlineEdits, OutlineHit } from "./outline_edits";
 import type { Place } from "./place";
 import type { PlaneLines } from "./plane_lines";
@@ -23,10 +24,11 @@ export interface ToolContext {
   outlines: OutlineEdits;
   planeLines: PlaneLines;
   pushing: Pushing;
+  measuring: Measuring;
 }
 
 /** What the pointer would take. */
-export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { brush: Point2; view: ViewName } | null;
+export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { brush: Point2; view: ViewName } | { measure: boolean; at: Point2; view: ViewName } | null;
 
 export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D"] as const;
 export type HelpSection = (typeof HELP_SECTIONS)[number];
@@ -60,6 +62,10 @@ export interface Tool<Id extends string = string> {
   hover(context: ToolContext, place: Place): Hover;
   /** The wheel with Ctrl, where it does not zoom; above 1: larger. */
   wheel?(context: ToolContext, factor: number): void;
+  /** Del and Backspace, where they mean something to the tool; false where they do not. */
+  remove?(context: ToolContext): boolean;
+  /** Esc, and another tool: gives up what was begun; false where nothing was. */
+  leave?(context: ToolContext): boolean;
   /** The pointer is gone from the view. */
   left?(context: ToolContext): void;
   cursor(hover: Hover): string;
@@ -68,7 +74,7 @@ export interface Tool<Id extends string = string> {
 }
 
 export function usualCursor(hover: Hover): string {
-  if (!hover || "brush" in hover) return "crosshair";
+  if (!hover || "brush" in hover || "measure" in hover) return "crosshair";
   if ("outline" in hover) return "grab";
   if ("contour" in hover) return hover.contour.on === "point" ? "grab" : "pointer";
   return hover.line.on === "turn" ? "alias" : "move";

@@ -77,11 +77,11 @@ export const COMMANDS: readonly Command[] = [
   {
     keys: ["Backspace"],
     help: ["Draw", "Backspace", "remove the last point"],
-    run: ({ editor: { drawing, edits } }) => (drawing.sketch ? drawing.removeLastPoint() : edits.deleteSelected()),
+    run: ({ editor }) => (editor.drawing.sketch ? editor.drawing.removeLastPoint() : editor.remove()),
   },
   { keys: ["Escape"], help: ["Draw", "Esc", "leave the contour or the tool"], run: ({ leave }) => leave() },
   { keys: ["F2"], help: ["Edit", "F2, double click on a name", "rename the structure"], run: ({ rename }) => rename() },
-  { keys: ["Delete"], help: ["Edit", "Del", "delete the selected point, or the contour"], run: ({ editor }) => editor.edits.deleteSelected() },
+  { keys: ["Delete"], help: ["Edit", "Del", "delete the selected point, or the contour"], run: ({ editor }) => editor.remove() },
   {
     keys: ["c"],
     help: ["Edit", "C, Shift + C", "propose the outline on the next, previous slice; Enter accepts, Esc drops it"],

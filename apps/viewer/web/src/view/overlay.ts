@@ -11,6 +11,7 @@ import { PLANE_COLORS, tinted, withAlpha } from "./palette";
 
 const SHADE = "rgba(8, 10, 13, 0.8)";
 const INK = "#e8edf2";
+const MEASURED = "#f0e442";
 
 const USUAL_FONT_PIXELS = 13;
 
@@ -106,6 +107,17 @@ export class OverlayPainter {
     }
     const [x, y] = lines.flat().map((p) => toScreen(this.screen, p)).reduce((top, p) => (p[1] < top[1] ? p : top));
     this.text("Enter accepts, Esc drops", [x, Math.max(y - 8, 52)], "center", "bottom", `${this.fontPixels}px system-ui, sans-serif`);
+  }
+
+  /** A distance, or the legs of an angle. */
+  measurement(points: readonly Vec3[], text: string, selected: boolean): void {
+    const seen = points.map((p) => toScreen(this.screen, p));
+    this.ctx.lineJoin = "round";
+    this.stroke(this.path(points, false), SHADE, 4);
+    this.stroke(this.path(points, false), selected ? "#ffffff" : MEASURED, 1.6);
+    for (const p of seen) this.ring(p, 3.5, selected ? "#ffffff" : MEASURED, 1.6);
+    const [x, y] = seen[Math.min(1, seen.length - 1)]!;
+    if (text) this.text(text, [x + 9, y - 9], "left", "bottom");
   }
 
   brush(at: Point2, radius: number): void {

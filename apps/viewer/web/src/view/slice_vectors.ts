@@ -3,6 +3,7 @@ import { areParallel, coincide, type PixelPlane } from "../geometry/plane";
 import { depthBelow, planeOf, toScreen, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
+import { measured } from "../model/measurements";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { SliceHeader, ViewName } from "../net/protocol";
@@ -46,6 +47,7 @@ export class SliceVectors {
     this.paintRings(painter, screen);
     this.paintProposal(painter, screen);
     this.paintSketch(painter, screen);
+    this.paintMeasurements(painter, screen);
     this.services.editor.paint(painter, this.name);
   }
 
@@ -95,6 +97,14 @@ export class SliceVectors {
         hoveredPoint: hovered && hover.on === "point" ? hover.index : null,
       });
     }
+  }
+
+  private paintMeasurements(painter: OverlayPainter, screen: Screen): void {
+    const { navigation, editor } = this.services;
+    const { measurements, begun } = editor.measuring;
+    const step = navigation.step(this.name);
+    for (const one of measurements.lyingIn(planeOf(screen), step)) painter.measurement(one.points, measured(one), one === measurements.selected);
+    if (begun && coincide(begun.plane, planeOf(screen), step / 2)) painter.measurement(begun.points, measured(begun), true);
   }
 
   private paintProposal(painter: OverlayPainter, screen: Screen): void {

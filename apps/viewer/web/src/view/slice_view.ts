@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { PixelPlane } from "../geometry/plane";
 import { isSamePlane } from "../geometry/plane";
-import { slicePlane, toWorld, type Point2, type Screen } from "../geometry/screen";
+import { planeOf, slicePlane, toWorld, type Point2, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
+import { measured } from "../model/measurements";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
+import type { BinaryReply } from "../net/binary";
 import { Latest } from "../net/latest";
-import type { ViewName } from "../net/protocol";
+import type { Coding, Pixels, SliceHeader, ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import type { ShownOutlines } from "../tools/free_outlines";
 import { inView } from "../tools/hit";
@@ -20,6 +22,7 @@ import { newestOutlines, toldOutline } from "./outlines";
 import { PLANE_COLORS, VIEW_TITLES } from "./palette";
 import { SliceImage } from "./slice_image";
 import { SliceSlider } from "./slice_slider";
+import { canShow } from "./windowing";
 import { SliceVectors, type ShownSlice } from "./slice_vectors";
 
 const MOST_PIXELS = 4096; // of a slice, along a side
@@ -45,7 +48,10 @@ export class SliceView {
   private readonly position = el("span", { class: "slice-number" });
   private slice: ShownSlice | null = null;
   private readonly vectors: SliceVectors;
-  private readonly requests: Latest<{ pixels: boolean }>;
+  private readonly requests: Latest<{ pixels: Pixels }>;
+  private askedPlane = "";
+  private valuesComing = ""; // of which plane
+  private coding: { plane: string; coding: Coding } | null = null; // how finely values came of the plane that was asked for last
   private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
   private paintQueued = false;
   private showsDraft = false;
@@ -63,7 +69,7 @@ export class SliceView {
     this.vectors = new SliceVectors(name, services);
     this.requests = new Latest(
       (request) => this.ask(request.pixels),
-      (old, next) => ({ pixels: old.pixels || next.pixels }),
+      (old, next) => ({ pixels: next.pixels || old.pixels }),
     );
     this.header = el("div", { class: "pane-header" });
     const reset = button({
@@ -98,14 +104,19 @@ export class SliceView {
 
   /** Asks for a slice where plane, size or window have changed; without `pixels` for the outlines on it in any case. */
   refresh(pixels: boolean): void {
-    if (!this.screen()) return void (this.asked = ""); // when it is shown again all may be different
+    if (!this.screen()) return void (this.asked = this.askedPlane = ""); // when it is shown again all may be different
     this.updateSlider();
     this.paint();
     const wanted = this.pixelKey();
     const needsPixels = this.image.isEmpty || wanted !== this.asked;
     if (pixels && !needsPixels) return;
-    if (needsPixels) this.asked = wanted;
-    this.requests.send({ pixels: needsPixels });
+    const isOtherWindow = needsPixels && !this.image.isEmpty && this.planeKey() === this.askedPlane;
+    if (needsPixels) [this.asked, this.askedPlane] = [wanted, this.planeKey()];
+    if (isOtherWindow && this.valuesComing === this.askedPlane) return; // shown in the window that there is then
+    if (isOtherWindow && !this.requests.busy && this.image.window(this.services.navigation.window)) return;
+    const wantsValues = isOtherWindow && !this.isTooCoarse();
+    if (needsPixels) this.valuesComing = wantsValues ? this.askedPlane : "";
+    this.requests.send({ pixels: wantsValues ? "values" : needsPixels });
     this.element.dataset["pending"] = "true";
     window.clearTimeout(this.crossingsTimer);
     this.crossingsTimer = 0;
@@ -199,18 +210,26 @@ export class SliceView {
     this.refresh(true);
   }
 
-  private pixelKey(): string {
+  private planeKey(): string {
     const { origin, u, v, mm_per_pixel } = slicePlane(this.screen()!, this.ratio());
+    return [...origin, ...u, ...v, mm_per_pixel, this.width, this.height].map((value) => value.toFixed(6)).join();
+  }
+
+  private pixelKey(): string {
     const { center, width } = this.services.navigation.window;
-    const numbers = [...origin, ...u, ...v, mm_per_pixel, center, width, this.width, this.height];
-    return numbers.map((value) => value.toFixed(6)).join();
+    return [this.planeKey(), center.toFixed(6), width.toFixed(6)].join();
+  }
+
+  /** The plane's values come in steps that the window would show: then only the server can show it. */
+  private isTooCoarse(): boolean {
+    return this.coding?.plane === this.askedPlane && !canShow(this.coding.coding, this.services.navigation.window);
   }
 
   private ratio(): number {
     return Math.min(window.devicePixelRatio || 1, MOST_PIXELS / Math.max(this.width, this.height, 1));
   }
 
-  private async ask(pixels: boolean): Promise<void> {
+  private async ask(pixels: Pixels): Promise<void> {
     const screen = this.screen();
     if (!screen) return;
     const ratio = this.ratio();
@@ -218,6 +237,7 @@ export class SliceView {
     const width = Math.max(1, Math.round(screen.width * ratio));
     const height = Math.max(1, Math.round(screen.height * ratio));
     const { window } = this.services.navigation;
+    const key = this.planeKey();
     try {
       const reply = await this.services.http.slice({ view: this.name, plane, width, height, window, pixels, outlines: true });
       this.slice = {
@@ -226,19 +246,30 @@ export class SliceView {
         outlines: newestOutlines(reply.header.outlines, reply.f32("outline_points"), this.slice && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null),
         crossingPoints: reply.f32("crossing_points"),
       };
-      if (pixels) this.image.keep(reply.u8("pixels"), width, height, plane);
+      if (pixels) this.keepPixels(reply, width, height, key);
       this.paintNow();
     } catch (error) {
       if (error instanceof ServerError && error.kind === "cancelled") return this.askAgain(pixels);
-      if (pixels) this.asked = "";
+      if (pixels) this.asked = this.askedPlane = this.valuesComing = "";
       this.services.failed(error);
     }
     this.tellState();
     this.element.dataset["slices"] = String(Number(this.element.dataset["slices"] ?? 0) + 1);
   }
 
+  /** The window may have changed since values were asked for. */
+  private keepPixels(reply: BinaryReply<SliceHeader>, width: number, height: number, key: string): void {
+    const { plane } = this.slice!;
+    const { values } = reply.header;
+    if (!values) return this.image.keep(reply.u8("pixels"), width, height, plane);
+    this.coding = { plane: key, coding: values };
+    this.valuesComing = "";
+    this.image.keepValues(reply.u16("values"), values, this.services.navigation.window, width, height, plane);
+    if (this.isTooCoarse()) this.requests.send({ pixels: true });
+  }
+
   /** A request that another one overtook is not answered, and what it asked for is still wanted. */
-  private async askAgain(pixels: boolean): Promise<void> {
+  private async askAgain(pixels: Pixels): Promise<void> {
     if (!this.requests.hasNext) await new Promise((resolve) => void setTimeout(resolve, ASK_AGAIN_MS));
     this.requests.send({ pixels });
   }
@@ -275,6 +306,16 @@ export class SliceView {
     context.clearRect(0, 0, this.width, this.height);
     this.vectors.paint(new OverlayPainter(context, screen, this.services.appearance, this.fontPixels), screen, this.slice);
     this.overlay.style.cursor = this.services.editor.cursor();
+    this.tellMeasured(screen);
+  }
+
+  /** A canvas says nothing to those who do not see it. */
+  private tellMeasured(screen: Screen): void {
+    const { editor, navigation } = this.services;
+    const texts = editor.measuring.measurements.lyingIn(planeOf(screen), navigation.step(this.name)).map(measured).join("; ");
+    if (this.element.dataset["measured"] === texts) return;
+    this.element.dataset["measured"] = texts;
+    this.overlay.setAttribute("aria-label", [`${VIEW_TITLES[this.name]} slice`, texts].filter(Boolean).join(": "));
   }
 
   /** The point of the plane under the pointer. */

@@ -391,6 +391,8 @@ class Finding:
 
 class FillReport:
     @property
+    def closed_voxels(self) -> int: ...
+    @property
     def contested_voxels(self) -> int: ...
     @property
     def labels(self) -> list[FilledLabel]: ...
@@ -868,6 +870,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -882,6 +886,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -896,6 +902,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -910,6 +918,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,

@@ -70,15 +70,20 @@ PaintedSlice united(const std::vector<ContourSet>& sections, const Grid& grid, d
     PaintedSlice all;
     all.section.assign(static_cast<std::size_t>(grid.voxel_count()), 0);
     std::vector<std::uint8_t> near(all.section.size());
+    PaintedSlice grown = all;
     for (const ContourSet& section : sections) {
         PaintedSlice own;
         own.section = rasterize(section, grid).values;
         for (std::size_t n = 0; n < own.section.size(); ++n) all.section[n] |= own.section[n];
         if (!(close_mm > 0)) continue;
         const std::vector<double> distances = section_distances(grid, own);
-        for (std::size_t n = 0; n < near.size(); ++n) near[n] = static_cast<std::uint8_t>(std::min(2, near[n] + (distances[n] > -close_mm)));
+        for (std::size_t n = 0; n < near.size(); ++n)
+            if (distances[n] > -close_mm) near[n] = static_cast<std::uint8_t>(std::min(2, near[n] + 1)), grown.section[n] = 1;
     }
-    for (std::size_t n = 0; n < near.size(); ++n) all.section[n] |= near[n] > 1;
+    if (!(close_mm > 0)) return all;
+    // Shrunk again, so that nothing stands out where two structures meet at the rim.
+    const std::vector<double> depths = section_distances(grid, grown);
+    for (std::size_t n = 0; n < near.size(); ++n) all.section[n] |= near[n] > 1 && depths[n] > close_mm - grid.spacing_mm().x;
     return all;
 }
 

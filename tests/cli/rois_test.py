@@ -180,7 +180,7 @@ def test_together_no_voxel_has_two_structures_that_exclude_each_other(tmp_path, 
 
 @pytest.mark.parametrize("words, code, sentence", [
     (("--together", "--roi", "PTV"), 65, "--together is for several ROIs"),
-    (("--all-rois", "--roi", "PTV"), 64, "--all-rois excludes --roi"),
+    (("--all-rois", "--roi", "PTV"), 64, "--roi excludes --all-rois"),
     (("--all-rois", "--mesh", "out.stl"), 65, "--mesh has room for one structure"),
 ])
 def test_words_about_all_rois_that_make_no_sense(tmp_path, structures, images, words, code, sentence):

@@ -210,17 +210,18 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
         ->allow_extra_args(false);
-    bind.flag("--all-rois", c.all_rois, "All structures of the RTSTRUCT that have contours, in its order")->excludes(bind.sub->get_option("--roi"));
-    bind.flag("--together", c.together,
-              "Of several structures those that exclude each other share no voxel and leave no gap where they touch");
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
     add_segment_method(*bind.sub, c.options);
+    add_choice<UseImage>(*bind.sub, "--use-image", c.options.use_image,
+                         {{"auto", UseImage::automatic}, {"off", UseImage::off}},
+                         "Let the image tell how the surface runs between the contours: where it is shown, at contours left "
+                         "out, that this helps; or never");
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
-    for (const char* name : {"--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
+    for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
         bind.sub->get_option(name)->needs(image);
     bind.quiet();
 }
@@ -299,10 +300,6 @@ void add_fill(CLI::App& app, Invocation& invocation) {
                          {{"closed", FillEnds::closed}, {"half", FillEnds::half}, {"open", FillEnds::open}},
                          "How far beyond the first and last of parallel slices: not at all, half of a gap, or as far as the "
                          "fit says");
-    bind.sub->add_flag_callback(
-        "--alone", [&c] { c.options.jointly = false; }, "Each label for itself: no fit of touching labels together");
-    bind.defaulted("--shape-weight", c.options.shape_weight, "W",
-                   "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone");
     bind.defaulted("--smoothing-voxels", c.options.smoothing_voxels, "VOXELS",
                    "Smoothing of the painted outlines, standard deviation");
     bind.option("--report", c.report, "FILE", "Report to write: .json");

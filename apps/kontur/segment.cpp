@@ -45,7 +45,7 @@ void check_files(const SegmentCommand& command) {
 struct Inputs {
     ContourSet contours;
     Grid grid;
-    std::optional<Image> image;  ///< only for the picture
+    std::optional<Image> image;  ///< only where its voxels matter
     std::vector<std::string> notes;
 };
 
@@ -80,7 +80,7 @@ Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
     if (!command.name.empty()) inputs.contours.name = command.name;
     if (command.image.path.empty()) {
         inputs.grid = grid_around_contours(command, inputs.contours);
-    } else if (command.picture.empty()) {
+    } else if (command.picture.empty() && command.options.use_image == UseImage::off) {
         inputs.grid = read_grid(command.image.path, read, progress);
     } else {
         inputs.image = read_image(command.image.path, read, progress);
@@ -141,6 +141,7 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
     text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,
                         r.points, r.centres, r.residual.max_mm, r.residual.rms_mm);
     if (!r.crossings.empty()) text += crossings_line(r.crossings);
+    if (r.image.use != ImageUse::none) text += sentence(r.image) + "\n";
     console.print(text + fmt::format("{:.2f} s, {:.0f} MB\n", seconds, peak_memory_mb()));
 }
 
@@ -163,8 +164,7 @@ void check_words(const SegmentCommand& command) {
     check_label_value(command.mask.label_value);
     check_utf8(command.name, "the name");
     if (command.date) utc_date();  // which may be set to what is no date
-    if (has_several(command)) check_roi_words(command);
-    else if (command.together) throw Error(ErrorKind::invalid_input, "--together is for several ROIs; name them by --roi, or --all-rois");
+    if (command.rois.size() > 1) check_roi_words(command);
 }
 
 void run(const SegmentCommand& words, Console& console) {
@@ -172,7 +172,7 @@ void run(const SegmentCommand& words, Console& console) {
     if (command.rois.size() == 1) command.read.roi = command.rois.front();
     check_words(command);
     check_files(command);
-    if (has_several(command)) return segment_rois(command, console);
+    if (command.rois.size() > 1) return segment_rois(command, console);
     const Progress progress = console.progress();
     Laps laps;
     const Inputs inputs = read_inputs(command, progress);
@@ -184,7 +184,7 @@ void run(const SegmentCommand& words, Console& console) {
 
     SegmentOptions options = command.options;
     options.mesh = !command.mesh.empty() || !command.picture.empty();
-    Segmentation result = segment(inputs.contours, inputs.grid, options, progress);
+    Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, progress);
     SegmentReport& report = result.report;
     report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
     report.seconds.insert(report.seconds.begin(), {"read", read_seconds});

@@ -14,6 +14,7 @@ _Kernel = Literal["screened", "triharmonic", "biharmonic"]
 _Normals = Literal["surface", "in-plane"]
 _Solver = Literal["automatic", "iterative", "cholesky", "dense"]
 _Corners = Literal["rounded", "faithful"]
+_UseImage = Literal["off", "auto"]
 _Conflicts = Literal["reconcile", "newest-wins", "exact"]
 _FillRule = Literal["even-odd", "declared"]
 _FillEnds = Literal["closed", "half", "open"]
@@ -391,8 +392,6 @@ class Finding:
 
 class FillReport:
     @property
-    def closed_voxels(self) -> int: ...
-    @property
     def contested_voxels(self) -> int: ...
     @property
     def labels(self) -> list[FilledLabel]: ...
@@ -619,6 +618,22 @@ class PreparedContours:
     @property
     def coplanar(self) -> bool: ...
 
+class RefineReport:
+    @property
+    def use(self) -> str: ...
+    @property
+    def planes_left_out(self) -> int: ...
+    @property
+    def error_without_mm(self) -> float: ...
+    @property
+    def error_with_mm(self) -> float: ...
+    @property
+    def largest_move_mm(self) -> float: ...
+    @property
+    def intensities(self) -> int: ...
+    @property
+    def on_contours_mm(self) -> float: ...
+
 class Residual:
     @property
     def max_mm(self) -> float: ...
@@ -691,6 +706,10 @@ class SegmentReport:
     def solver(self) -> str: ...
     @property
     def voxelizer(self) -> str: ...
+    @property
+    def use_image(self) -> str: ...
+    @property
+    def image(self) -> RefineReport: ...
     @property
     def solves(self) -> int: ...
     @property
@@ -870,8 +889,6 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
-    jointly: bool = True,
-    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -886,8 +903,6 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
-    jointly: bool = True,
-    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -902,8 +917,6 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
-    jointly: bool = True,
-    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -918,8 +931,6 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
-    jointly: bool = True,
-    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -1189,6 +1200,7 @@ def segment(
     contours: ContourSet,
     grid: Grid,
     *,
+    image: Image | None = None,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     kernel: _Kernel = "screened",
@@ -1202,6 +1214,7 @@ def segment(
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,
     voxelizer: _Voxelizer = "adaptive",
+    use_image: _UseImage = "off",
     mesh: Literal[True],
     threads: int = 0,
     max_memory_mb: float | None = None,
@@ -1211,6 +1224,7 @@ def segment(
     contours: ContourSet,
     grid: Grid,
     *,
+    image: Image | None = None,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     kernel: _Kernel = "screened",
@@ -1224,6 +1238,7 @@ def segment(
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,
     voxelizer: _Voxelizer = "adaptive",
+    use_image: _UseImage = "off",
     mesh: bool = False,
     threads: int = 0,
     max_memory_mb: float | None = None,

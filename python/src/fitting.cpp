@@ -201,8 +201,8 @@ Contour
         },
         py::arg("contour"), py::arg("quality") = ReduceOptions{}.quality,
         py::arg("min_points") = ReduceOptions{}.min_points);
-    define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.", &refine,
-           py::arg("contour"), py::arg("least_segments") = 0);
+    define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.",
+           static_cast<Contour (*)(const Contour&, int)>(&refine), py::arg("contour"), py::arg("least_segments") = 0);
     const auto preparing = prepare_keywords();
     define(
         m, "prepare", R"(Reduces, refines and orients every contour.

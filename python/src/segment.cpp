@@ -32,6 +32,9 @@ Keywords<SegmentOptions> segment_keywords() {
         .field("voxelizer", &SegmentOptions::voxelizer,
                "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
                "all voxels.")
+        .field("use_image", &SegmentOptions::use_image,
+               "'auto': where an image is given, let it tell how the surface runs between the contours, if it is shown, at "
+               "contours left out, that this helps.")
         .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
         .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.")
         .field("max_memory_mb", &SegmentOptions::max_memory_mb,
@@ -85,6 +88,22 @@ py::object mesh_of(const py::object& self) {
     return py::cast(&*mesh, py::return_value_policy::reference_internal, self);
 }
 
+void bind_refine_report(py::module_& m) {
+    py::class_<RefineReport> type(m, "RefineReport", "What became of the image between the contours.");
+    Fields(type)
+        .field("use", &RefineReport::use,
+               "str: 'none' (no image, or not asked for), 'unknown' (too few planes to tell), 'no_help' (not used) or 'used'.")
+        .field("planes_left_out", &RefineReport::planes_left_out, "int: one after another, to see whether the image helps.")
+        .field("error_without_mm", &RefineReport::error_without_mm,
+               "float: mean distance of contours left out from the surface through the others.")
+        .field("error_with_mm", &RefineReport::error_with_mm, "float: the same with the image.")
+        .field("largest_move_mm", &RefineReport::largest_move_mm, "float: of the surface.")
+        .field("intensities", &RefineReport::intensities, "int: read from the image.")
+        .field("on_contours_mm", &RefineReport::on_contours_mm, "float: the largest change of f at any drawn point.")
+        .picklable();
+    type.def("__str__", [](const RefineReport& report) { return sentence(report); });
+}
+
 void bind_report(py::module_& m) {
     using Report = SegmentReport;
     py::class_<Report> type(m, "SegmentReport", "What `segment` did, and how well the surface fits.");
@@ -106,6 +125,8 @@ void bind_report(py::module_& m) {
         .field("quality", &Report::quality, "float")
         .field("solver", &Report::solver, "str: the one that ran.")
         .field("voxelizer", &Report::voxelizer, "str")
+        .field("use_image", &Report::use_image, "str")
+        .field("image", &Report::image, "RefineReport: what became of the image between the contours.")
         .field("solves", &Report::solves, "int")
         .field("iterations", &Report::iterations, "int: over all solves; 0 for direct solvers.")
         .field("residual", &Report::residual, "Residual: at all drawn points.")
@@ -155,6 +176,7 @@ void bind_segmentation(py::module_& m) {
 }  // namespace
 
 void bind_segment(py::module_& m) {
+    bind_refine_report(m);
     bind_report(m);
     bind_segmentation(m);
 
@@ -169,6 +191,8 @@ Parameters
 contours : ContourSet
 grid : Grid
     Such as `image.grid`.
+image : Image, optional
+    What was drawn on, for `use_image`.
 progress : callable, optional
     Called now and then on this thread with the stage's name and its done fraction from 0 to 1. An exception that it raises
     stops the work and is raised from here.
@@ -197,12 +221,12 @@ True
 >>> kidney.report.residual.max_mm < 0.5
 True
 )",
-        [keywords](const ContourSet& contours, const Grid& grid, const py::object& progress, const py::object& stop,
+        [keywords](const ContourSet& contours, const Grid& grid, const Image* image, const py::object& progress, const py::object& stop,
                    const py::kwargs& given) {
             const SegmentOptions options = keywords.parse("segment", given);
-            return run({progress, stop}, [&](const Progress& p) { return segment(contours, grid, options, p); });
+            return run({progress, stop}, [&](const Progress& p) { return segment(contours, grid, image, options, p); });
         },
-        py::arg("contours"), py::arg("grid"), py::kw_only(), kProgress, kStop, KeywordText(keywords));
+        py::arg("contours"), py::arg("grid"), py::kw_only(), py::arg("image") = py::none(), kProgress, kStop, KeywordText(keywords));
     define(
         m, "provenance", R"(What determines a result, for `write_mask` and `write_mesh`.
 

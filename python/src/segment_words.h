@@ -4,6 +4,7 @@
 #include "casters.h"
 #include "kontur/drawing/corners.h"
 #include "kontur/drawing/reconcile.h"
+#include "kontur/refine/refine.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur::python {
@@ -23,9 +24,25 @@ struct Words<FillRule> {
     static constexpr std::array values{FillRule::even_odd, FillRule::declared};
 };
 
+template <>
+struct Words<UseImage> {
+    static constexpr std::array values{UseImage::off, UseImage::automatic};
+};
+
+template <>
+struct Words<ImageUse> {
+    static constexpr std::array values{ImageUse::none, ImageUse::unknown, ImageUse::no_help, ImageUse::used};
+};
+
 }  // namespace kontur::python
 
 namespace pybind11::detail {
+
+template <>
+struct type_caster<kontur::UseImage> : word_caster<kontur::UseImage> {};
+
+template <>
+struct type_caster<kontur::ImageUse> : word_caster<kontur::ImageUse> {};
 
 template <>
 struct type_caster<kontur::Conflicts> : word_caster<kontur::Conflicts> {};

@@ -110,13 +110,15 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
 }  // namespace
 
 SegmentReport describe(const StageResults& results, const SegmentOptions& options) {
-    const auto& [drawing, stages, prepared, fitted, surface, mask] = results;
+    const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
     const ContourSet& contours = drawing.contours;
     SegmentReport report;
     report.contours = contours.contours.size();
     report.points = point_count(contours);
     report.quality = options.quality;
     report.voxelizer = options.voxelizer;
+    report.use_image = options.use_image;
+    report.image = image;
     report.fill_rule = options.fill_rule;
     report.conflicts = stages.reconcile.conflicts;
     report.corners = stages.prepare.corners;
@@ -137,10 +139,10 @@ Provenance provenance(const ContourSet& contours, const Grid& grid, const Segmen
         {"grid_sha256", grid_sha256(grid)},
         {"version", KONTUR_VERSION},
         {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} "
-                                "quality={} solver={} tolerance_mm={} voxelizer={}",
+                                "quality={} solver={} tolerance_mm={} voxelizer={} image={}",
                                 name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
                                 name(report.corners), report.normal_offset_mm, report.smoothing, report.quality,
-                                name(report.solver), report.tolerance_mm, name(report.voxelizer))},
+                                name(report.solver), report.tolerance_mm, name(report.voxelizer), name(report.image.use))},
     };
 }
 

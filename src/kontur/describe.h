@@ -14,6 +14,7 @@ struct StageResults {
     const StageOptions& options;
     const PreparedContours& prepared;
     const FittedFunction& fitted;
+    const RefineReport& image;
     const SurfaceLattice& surface;
     const Mask& mask;
 };

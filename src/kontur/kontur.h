@@ -57,6 +57,9 @@
 #include "kontur/solve/constraint_set.h"
 #include "kontur/solve/solve.h"
 
+// The image between the contours.
+#include "kontur/refine/refine.h"
+
 // The function becomes voxels or triangles; a mask becomes contours.
 #include "kontur/extract/adaptive.h"
 #include "kontur/extract/polygonize.h"
@@ -76,7 +79,6 @@
 #include "kontur/segment.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
-#include "kontur/segment_together.h"
 
 // Judging and showing the result.
 #include "kontur/measure/compare.h"

@@ -50,6 +50,20 @@ Facts mask_json(const SegmentReport& report) {
     return {{"voxels", report.mask_voxels}, {"volume_ml", report.mask_volume_ml}, {"components", report.mask_components}};
 }
 
+/// What the image said between the contours; only its use where it was not asked.
+Facts image_json(const SegmentReport& report) {
+    const RefineReport& image = report.image;
+    if (image.use == ImageUse::none) return {{"use", name(image.use)}};
+    return {{"use", name(image.use)},
+            {"sentence", sentence(image)},
+            {"planes_left_out", image.planes_left_out},
+            {"error_without_mm", image.error_without_mm},
+            {"error_with_mm", image.error_with_mm},
+            {"largest_move_mm", image.largest_move_mm},
+            {"intensities", image.intensities},
+            {"on_contours_mm", image.on_contours_mm}};
+}
+
 Facts report_json(const SegmentReport& report, const Provenance& made) {
     return {
         {"version", KONTUR_VERSION},
@@ -77,6 +91,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"voxelizer", name(report.voxelizer)},
         {"evaluations", report.evaluations},
         {"surface_voxels", report.surface_voxels},
+        {"image", image_json(report)},
         {"seconds", seconds_json(report)},
         {"peak_memory_mb", peak_memory_mb()},
         {"estimated_memory_mb", report.estimated_memory_mb},

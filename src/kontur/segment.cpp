@@ -13,6 +13,11 @@
 namespace kontur {
 
 Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOptions& options, const Progress& progress) {
+    return segment(drawn, grid, nullptr, options, progress);
+}
+
+Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* image, const SegmentOptions& options,
+                     const Progress& progress) {
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
     Drawing drawing = read_drawing(drawn, options.fill_rule);
@@ -24,8 +29,10 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
     check_memory(memory_mb, options);
     watch.lap("prepare");
 
-    const FittedFunction fitted = fit(prepared, stages.fit, progress);
+    const FittedFunction by_contours = fit(prepared, stages.fit, progress);
     watch.lap("fit");
+    const auto [fitted, image_report] = refine(drawing, prepared, by_contours, image, options.use_image, stages, progress);
+    if (image_report.use != ImageUse::none) watch.lap("refine");
 
     const std::vector<Vec3> starts =
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
@@ -40,7 +47,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOpt
         watch.lap("polygonize");
     }
 
-    result.report = describe({drawing, stages, prepared, fitted, surface, result.mask}, options);
+    result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask}, options);
     watch.lap("measure");
     result.report.estimated_memory_mb = memory_mb;
     result.report.seconds = std::move(seconds);

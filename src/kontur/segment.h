@@ -21,9 +21,12 @@ struct Segmentation {
     SegmentReport report;
 };
 
-/// Contours to mask (and mesh) on a grid. Throws Error as check_contours, check_contours_inside, solve and check_grid do,
+/// Contours to mask (and mesh) on a grid. With `use_image` the image tells, where it helps, how the surface runs between the
+/// contours; without one they do alone. Throws Error as check_contours, check_contours_inside, solve and check_grid do,
 /// and Error(too_large) with the estimate for a run beyond `max_memory_mb`. The same bytes for any number of threads.
 Segmentation segment(const ContourSet& contours, const Grid& grid, const SegmentOptions& options = {},
+                     const Progress& progress = {});
+Segmentation segment(const ContourSet& contours, const Grid& grid, const Image* image, const SegmentOptions& options = {},
                      const Progress& progress = {});
 
 }  // namespace kontur

@@ -7,6 +7,7 @@
 #include "kontur/drawing/reconcile.h"
 #include "kontur/extract/voxelize.h"
 #include "kontur/fit/fit.h"
+#include "kontur/refine/refine.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
@@ -26,6 +27,7 @@ struct SegmentOptions {
     Solver solver = Solver::automatic;
     std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 1.5e-5 of the diameter
     Voxelizer voxelizer = Voxelizer::adaptive;
+    UseImage use_image = UseImage::off;  ///< between the contours; where an image is given
     bool mesh = false;  ///< also make the surface
     int threads = 0;    ///< 0: the machine's
     /// A run of which the process would hold more is refused before it begins to solve; unset: the machine's memory.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kontur/fit/residual.h"
+#include "kontur/refine/refine.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
@@ -35,6 +36,8 @@ struct SegmentReport {
     double quality = 1;
     Solver solver = Solver::automatic;
     Voxelizer voxelizer = Voxelizer::adaptive;
+    UseImage use_image = UseImage::off;
+    RefineReport image;  ///< what became of the image between the contours
     int solves = 0;
     int iterations = 0;               ///< over all solves; 0 for direct solvers
     Residual residual;                ///< at all drawn points

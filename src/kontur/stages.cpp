@@ -20,6 +20,7 @@ constexpr double kSlopeNoise = 0.21;               // what the tilt of an organ'
 constexpr double kMergeFraction = 6e-4;
 constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
+constexpr std::size_t kCoarsePoints = 500;  // of contours from which others are left out
 
 FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     FitOptions fit;
@@ -99,6 +100,23 @@ PreparedContours prepare(const Drawing& drawing, const StageOptions& options) {
     PreparedContours prepared = prepare(drawing, options.prepare);
     reconcile(prepared.points, drawing.crossings, options.reconcile);
     return prepared;
+}
+
+ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options) {
+    const Drawing drawing = read_drawing(part, FillRule::declared);
+    StageOptions coarse = options;
+    coarse.fit.most_points = coarse.fit.tilt_points = kCoarsePoints;
+    coarse.fit.most_solves = 1;
+    coarse.fit.solve.threads = coarse.prepare.threads = 1;
+    coarse.fit.solve.tolerance_mm *= coarse.fit.early_tolerance_factor;
+    return fit(prepare(drawing, coarse), coarse.fit).function;
+}
+
+RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
+                       const Image* image, UseImage use, const StageOptions& options, const Progress& progress) {
+    if (!image || use == UseImage::off) return {fitted, {}};
+    const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options); };
+    return refine(drawing, prepared, fitted, *image, fit_part, {.fit = options.fit}, progress);
 }
 
 std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,

@@ -199,6 +199,28 @@ def test_an_interrupt_leaves_everything_as_it_was(folder, stop):
     assert (folder / "out.nii.gz").read_text() == "old"
 
 
+def test_the_image_is_asked_between_the_contours_only_where_told_to(folder):
+    segment(folder, *FROM_IMAGE, "--report", "report.json")
+    assert json.loads((folder / "report.json").read_text())["image"] == {"use": "none"}
+    said = segment(folder, *FROM_IMAGE, "--report", "report.json", "--use-image", "auto")
+    image = json.loads((folder / "report.json").read_text())["image"]
+    assert image["use"] in ("used", "no_help") and image["planes_left_out"] == 9
+    assert image["sentence"] in said
+    alone = kontur("segment", "ball.json", "--spacing-mm", "1", "--output", "out.nii.gz", "--use-image", "auto", cwd=folder)
+    assert alone.returncode != 0 and "--image" in alone.stderr
+
+
+def test_the_image_brings_ventricles_nearer_to_the_truth(tmp_path):
+    contours = real_data("derived_nonparallel/lateral_ventricles/ortho3x3.json")
+    brain = real_data("06_mr_brain_MRIcrop")
+    truth = read_nifti(brain / "MRIcrop-seg.nii.gz") == 1
+    found = {}
+    for use in ("off", "auto"):
+        segment(tmp_path, contours, "--image", brain / "MRIcrop-orig.nii.gz", "--output", f"{use}.nii.gz", "--use-image", use)
+        found[use] = dice(read_nifti(tmp_path / f"{use}.nii.gz") > 0, truth)
+    assert found["auto"] > found["off"] + 0.03
+
+
 @pytest.mark.parametrize("structure", ["vertebral_body_L5label", "kidney_right_5mm"])
 def test_a_real_structure_from_radial_planes(tmp_path, structure):
     data = real_data("derived_nonparallel") / structure

@@ -61,6 +61,7 @@ public:
         std::vector<PointConstraint> single_points;
         bounds_.append_to(single_points);
         result_.bounded = single_points.size();
+        result_.held = single_points;
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
         SolveOptions in_ball = solving;
         if (solving.kernel == Kernel::screened && !solving.ball) in_ball.ball = ball_;

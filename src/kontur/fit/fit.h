@@ -42,6 +42,7 @@ struct FittedFunction {
     std::size_t constraints = 0;     ///< kept
     double tilt_change_degrees = 0;  ///< mean change of the tilts in the last round
     std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
+    std::vector<PointConstraint> held;  ///< the bounds at which f is held, as they took part in the last solve
 };
 
 /// Throws Error(invalid_input) for counts below 0, factors and lengths that are not finite or make no sense, slopes outside

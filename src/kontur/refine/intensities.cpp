@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/refine/intensities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kontur {
+namespace {
+
+constexpr std::size_t kQuantiles = 65;
+
+/// Of sorted values, between them linearly.
+double quantile(const std::vector<double>& sorted, double fraction) {
+    const double at = fraction * static_cast<double>(sorted.size() - 1);
+    const auto first = std::min(static_cast<std::size_t>(at), sorted.size() - 1);
+    const std::size_t second = std::min(first + 1, sorted.size() - 1);
+    return std::lerp(sorted[first], sorted[second], at - static_cast<double>(first));
+}
+
+}  // namespace
+
+Intensities::Intensities(const Image& image) : image_(&image), mm_to_index_(image.grid.index_to_mm.inverse()) {
+    const Vec3 spacing = image.grid.spacing_mm();
+    voxel_mm_ = std::min({spacing.x, spacing.y, spacing.z});
+    step_mm_ = 0.5 * std::min(std::cbrt(image.grid.voxel_volume_mm3()), 2 * voxel_mm_);
+}
+
+double Intensities::at(const Vec3& point_mm) const {
+    return interpolate(*image_, mm_to_index_, point_mm, std::numeric_limits<double>::quiet_NaN());
+}
+
+IntensityScale::IntensityScale(std::vector<double> values) {
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });
+    if (values.empty()) return;
+    std::sort(values.begin(), values.end());
+    if (!(values.back() > values.front())) return;
+    low_ = quantile(values, 0.01);
+    high_ = quantile(values, 0.99);
+    for (std::size_t q = 0; q < kQuantiles; ++q)
+        quantiles_.push_back(quantile(values, static_cast<double>(q) / (kQuantiles - 1)));
+}
+
+double IntensityScale::operator()(double value) const {
+    if (quantiles_.empty()) return 0.5;
+    // Of equal quantiles the middle one counts, so that an inverted image has the mirrored ranks.
+    const auto [first, last] = std::equal_range(quantiles_.begin(), quantiles_.end(), value);
+    const double before = static_cast<double>(first - quantiles_.begin()), after = static_cast<double>(last - quantiles_.begin());
+    double rank = (before + after - 1) / 2;
+    if (first == last) {
+        if (first == quantiles_.begin()) rank = 0;
+        else if (first == quantiles_.end()) rank = kQuantiles - 1;
+        else rank = before - 1 + (value - *(first - 1)) / (*first - *(first - 1));
+    }
+    const double line = high_ > low_ ? std::clamp((value - low_) / (high_ - low_), 0.0, 1.0) : 0.5;
+    return 0.5 * rank / (kQuantiles - 1) + 0.5 * line;
+}
+
+}  // namespace kontur

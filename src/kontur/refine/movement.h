@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "kontur/drawing/drawing.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/refine/intensities.h"
+#include "kontur/refine/offsets.h"
+#include "kontur/refine/walls.h"
+
+namespace kontur {
+
+/// A drawing as the image is asked about it.
+struct DrawnOnImage {
+    DrawnOnImage(const Drawing& drawing, const Image& image);
+
+    Intensities image;
+    std::vector<Vec3> points;    ///< along the contours, close together: how far a place is from them
+    std::vector<Vec3> examples;  ///< fewer of them: what the border looks like
+    Walls walls;
+};
+
+/// What is known of the offsets before the image is looked at, and how far it is trusted.
+struct Beliefs {
+    std::function<double(double distance_mm)> prior_mm;         ///< standard deviation of an offset
+    std::function<double(const MovingPoint& point)> image_mm{};  ///< how wrong the image is; unset: not known
+};
+
+/// Points of a surface and how far the image moves them.
+struct Movement {
+    std::vector<MovingPoint> points;
+    OffsetPrior prior;
+    Offsets offsets;
+    std::int64_t intensities = 0;  ///< read from the image
+};
+
+/// Asks the image how far the surface of f at some points of it (mm) is off. Points less than three quarters of a voxel from
+/// a contour are left out; none where fewer than 10 remain.
+Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& function, std::span<const Vec3> points,
+                       const Beliefs& beliefs, int threads);
+
+}  // namespace kontur

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "kontur/base/progress.h"
+#include "kontur/drawing/drawing.h"
+#include "kontur/drawing/prepare.h"
+#include "kontur/fit/fit.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/shape/volume.h"
+
+namespace kontur {
+
+/// Fits f to a part of the contours; coarsely will do.
+using FitContours = std::function<ImplicitFunction(const ContourSet& part)>;
+
+/// Whether the image is asked where the surface runs between the contours.
+enum class UseImage {
+    off,        ///< the contours alone
+    automatic,  ///< where it is shown, at contours left out, that the image helps
+};
+std::string_view name(UseImage use) noexcept;
+
+struct RefineOptions {
+    FitOptions fit;             ///< as the contours were fitted
+    bool gate = true;           ///< false: the image is used without having shown that it helps
+    int rounds = 2;             ///< how often the image is asked, each time from the surface before
+    std::size_t samples = 450;  ///< points of the surface at which it is asked
+};
+
+/// What became of the image.
+enum class ImageUse {
+    none,        ///< there was none, or it was not to be used
+    unknown,     ///< too few planes were drawn to tell whether it helps; not used
+    no_help,     ///< it does not help at contours left out; not used
+    used,
+};
+std::string_view name(ImageUse use) noexcept;
+
+struct RefineReport {
+    ImageUse use = ImageUse::none;
+    std::size_t planes_left_out = 0;
+    double error_without_mm = 0;  ///< mean distance of contours left out from the surface through the others
+    double error_with_mm = 0;     ///< the same with the image
+    double largest_move_mm = 0;   ///< of the surface, at the points asked
+    std::int64_t intensities = 0;  ///< read from the image
+    double on_contours_mm = 0;    ///< the largest change of f at any drawn point
+};
+
+/// One sentence for people.
+std::string sentence(const RefineReport& report);
+
+struct RefinedFunction {
+    FittedFunction fitted;  ///< as it came, where the image is not used
+    RefineReport report;
+};
+
+/// Moves the surface between the contours to where the image shows the border, and leaves it where they were drawn. What the
+/// border looks like is learnt along the contours (appearance.h); how far the contours alone are off and how far the image is,
+/// is measured by leaving out one drawn plane after another (leave_out.h), and where the image does not help, nothing is
+/// changed. f stays one function: the moved points are more data with noise, beside those of the fit, of one more solve. An
+/// image that says nothing changes nothing. `fit_contours` fits a part of the drawing. The same bytes for any number of
+/// threads, on one type of processor. Throws Error as `solve` does, Error(invalid_input) as `check_image` does.
+RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
+                       const Image& image, const FitContours& fit_contours, const RefineOptions& options,
+                       const Progress& progress = {});
+
+}  // namespace kontur

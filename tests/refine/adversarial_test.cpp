@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images that mislead, or that lie oddly: what they have to say is used where it holds, and nothing else.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "refine/lobed_body.h"
+
+namespace kontur {
+namespace {
+
+using namespace test;
+
+/// Largest difference of two functions on a lattice about the body.
+double largest_difference(const ImplicitFunction& a, const ImplicitFunction& b) {
+    double largest = 0;
+    for (int x = -3; x <= 3; ++x)
+        for (int y = -3; y <= 3; ++y)
+            for (int z = -3; z <= 3; ++z) {
+                const Vec3 p{11.0 * x, 11.0 * y, 11.0 * z};
+                largest = std::max(largest, std::abs(a.value(p) - b.value(p)));
+            }
+    return largest;
+}
+
+TEST(RefineAdversarial, ConstantImageChangesNothing) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Image image = image_of(cube_grid(2), [](const Vec3&) { return 7.0; });
+    const Refinement gated = refine_drawing(contours, image);
+    EXPECT_EQ(gated.refined.report.use, ImageUse::no_help);
+    EXPECT_NEAR(gated.refined.report.error_with_mm, gated.refined.report.error_without_mm, 1e-9);
+    const Refinement forced = refine_drawing(contours, image, 0, false);
+    EXPECT_LT(forced.refined.report.largest_move_mm, 1e-6);
+    EXPECT_LT(largest_difference(forced.refined.fitted.function, forced.plain.function), 0.02);
+}
+
+TEST(RefineAdversarial, NoiseAloneIsNotFollowed) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(2), [](const Vec3&) { return 0.0; }, 10));
+    EXPECT_EQ(r.refined.report.use, ImageUse::no_help);
+    EXPECT_TRUE(std::ranges::equal(r.refined.fitted.function.weights(), r.plain.function.weights()));
+}
+
+TEST(RefineAdversarial, ImageShiftedDifferentlyAtEachPlaneIsNotFollowed) {
+    const ContourSet contours = drawn_on(stacked_planes());
+    // Every drawn plane's neighbourhood is shifted by another 6 mm.
+    const Look shifted = [](const Vec3& p) {
+        const double slab = std::floor((p.z + 26) / 10.3);
+        return body_look(p + 6.0 * Vec3{std::cos(2.4 * slab), std::sin(2.4 * slab), 0});
+    };
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), shifted, 8));
+    if (r.refined.report.use == ImageUse::used)
+        EXPECT_LT(surface_error(r.refined.fitted.function, contours), 1.05 * surface_error(r.plain.function, contours));
+    else
+        EXPECT_EQ(r.refined.report.use, ImageUse::no_help);
+}
+
+TEST(RefineAdversarial, InvertedAndScaledIntensitiesSayTheSame) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Image image = image_of(cube_grid(2), body_look, 8);
+    const auto changed = [&](double factor, double offset) {
+        Image other = image;
+        for (float& v : std::get<std::vector<float>>(other.samples)) v = static_cast<float>(factor * v + offset);
+        return refine_drawing(contours, other);
+    };
+    const Refinement as_is = refine_drawing(contours, image);
+    ASSERT_EQ(as_is.refined.report.use, ImageUse::used);
+    for (const auto& [factor, offset] : {std::pair{-1.0, 0.0}, {1000.0, 0.0}, {0.5, -300.0}}) {
+        const Refinement other = changed(factor, offset);
+        EXPECT_NEAR(other.refined.report.error_with_mm, as_is.refined.report.error_with_mm, 1e-3);
+        EXPECT_LT(largest_difference(other.refined.fitted.function, as_is.refined.fitted.function), 0.02) << factor;
+    }
+}
+
+TEST(RefineAdversarial, ImageThatEndsInsideTheObjectHelpsAsFarAsItGoes) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Grid half = grid_around({{-48, -48, -48}, {48, 48, 4}}, {1.5, 1.5, 1.5}, 0);
+    const Refinement r = refine_drawing(contours, image_of(half, body_look, 8));
+    const double without = surface_error(r.plain.function, contours), with = surface_error(r.refined.fitted.function, contours);
+    EXPECT_LT(with, 0.95 * without);
+}
+
+TEST(RefineAdversarial, VoxelsThatHoldNoNumberSayNothing) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Look holes = [](const Vec3& p) {
+        return p.x > 20 ? std::numeric_limits<double>::quiet_NaN() : norm(p) > 44 ? std::numeric_limits<double>::infinity() : body_look(p);
+    };
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), holes, 8));
+    ASSERT_EQ(r.refined.report.use, ImageUse::used);
+    EXPECT_TRUE(std::isfinite(r.refined.fitted.function.value({0, 0, 0})));
+    EXPECT_LT(surface_error(r.refined.fitted.function, contours), 0.8 * surface_error(r.plain.function, contours));
+}
+
+TEST(RefineAdversarial, StreaksDoNotPullTheSurfaceAway) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Look streaks = [](const Vec3& p) {
+        const double angle = std::atan2(p.y - 3, p.x + 5);
+        return body_look(p) + 150 * std::pow(std::max(std::cos(6 * angle), 0.0), 20);
+    };
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), streaks, 8));
+    EXPECT_LT(surface_error(r.refined.fitted.function, contours), surface_error(r.plain.function, contours));
+}
+
+TEST(RefineAdversarial, VoxelsTenTimesAsThickAsWideStillHelp) {
+    const ContourSet contours = drawn_on(stacked_planes());
+    const Grid thick = grid_around({{-48, -48, -48}, {48, 48, 48}}, {0.8, 0.8, 8}, 0);
+    const Refinement r = refine_drawing(contours, image_of(thick, body_look, 8));
+    EXPECT_LE(surface_error(r.refined.fitted.function, contours), surface_error(r.plain.function, contours));
+    EXPECT_LE(r.refined.report.on_contours_mm, 0.05 * 0.8);
+}
+
+/// Rotation about an oblique axis, then a shift far from the origin.
+Affine3 rigid_motion() {
+    const double a = 0.7, b = -0.4;
+    Affine3 about_z, about_x;
+    about_z.linear = {{{std::cos(a), -std::sin(a), 0}, {std::sin(a), std::cos(a), 0}, {0, 0, 1}}};
+    about_x.linear = {{{1, 0, 0}, {0, std::cos(b), -std::sin(b)}, {0, std::sin(b), std::cos(b)}}};
+    Affine3 motion = compose(about_x, about_z);
+    motion.translation = {140, -230, 710};
+    return motion;
+}
+
+ContourSet moved(ContourSet set, const Affine3& motion) {
+    for (Contour& contour : set.contours) {
+        for (Vec3& p : contour.points) p = motion.apply(p);
+        contour.plane = {motion.apply(contour.plane.origin), motion.apply_linear(contour.plane.normal),
+                         motion.apply_linear(contour.plane.u), motion.apply_linear(contour.plane.v)};
+    }
+    return set;
+}
+
+TEST(RefineAdversarial, MovesWithImageAndDrawing) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Image image = image_of(cube_grid(1.5), body_look, 8);
+    const Affine3 motion = rigid_motion();
+    Image moved_image = image;
+    moved_image.grid.index_to_mm = compose(motion, image.grid.index_to_mm);
+    const Refinement here = refine_drawing(contours, image), there = refine_drawing(moved(contours, motion), moved_image);
+    const Affine3 back = motion.inverse();
+    const auto depth_there = [&](const Vec3& p) { return lobed_depth(back.apply(p)); };
+    ASSERT_EQ(there.refined.report.use, ImageUse::used);
+    const double error_here = surface_error(here.refined.fitted.function, contours);
+    const double error_there = surface_error(there.refined.fitted.function, moved(contours, motion), depth_there);
+    EXPECT_NEAR(error_there, error_here, 0.06) << "a twentieth of a voxel: samples lie elsewhere, nothing else differs";
+}
+
+TEST(RefineAdversarial, ShearedVoxelsSayAsMuch) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Grid grid = cube_grid(1.5, 60);
+    grid.index_to_mm.set_column(2, {0.5, -0.3, 1.4});
+    grid.index_to_mm.translation -= 40.0 * Vec3{0.5, -0.3, 0};
+    const Refinement r = refine_drawing(contours, image_of(grid, body_look, 8));
+    ASSERT_EQ(r.refined.report.use, ImageUse::used);
+    EXPECT_LT(surface_error(r.refined.fitted.function, contours), 0.6 * surface_error(r.plain.function, contours));
+}
+
+}  // namespace
+}  // namespace kontur

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/refine/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kontur/segment.h"
+#include "refine/lobed_body.h"
+
+namespace kontur {
+namespace {
+
+using namespace test;
+
+TEST(Refine, MovesTheSurfaceBetweenContoursToTheBorderInTheImage) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), body_look, 8));
+    EXPECT_EQ(r.refined.report.use, ImageUse::used);
+    EXPECT_EQ(r.refined.report.planes_left_out, 4U);
+    EXPECT_LT(r.refined.report.error_with_mm, 0.5 * r.refined.report.error_without_mm);
+    const double without = surface_error(r.plain.function, contours), with = surface_error(r.refined.fitted.function, contours);
+    EXPECT_LT(with, 0.5 * without) << without << " mm without the image";
+    EXPECT_LT(with, 0.45) << "a third of a voxel";
+}
+
+TEST(Refine, LeavesTheDrawnContoursWhereTheyAre) {
+    const double voxel = 1.5;
+    ContourSet contradictory = drawn_on(orthogonal_planes());
+    for (Vec3& p : contradictory.contours[2].points) p += Vec3{0, 2, 0.5};  // within its plane
+    for (const ContourSet& contours : {drawn_on(orthogonal_planes()), drawn_on(stacked_planes()), contradictory}) {
+        const Refinement r = refine_drawing(contours, image_of(cube_grid(voxel), body_look, 8));
+        ASSERT_EQ(r.refined.report.use, ImageUse::used);
+        double largest = 0;
+        for (const Contour& contour : contours.contours)
+            for (const Vec3& p : contour.points)
+                largest = std::max(largest, std::abs(r.refined.fitted.function.value(p) - r.plain.function.value(p)));
+        EXPECT_LE(largest, 0.05 * voxel);
+        EXPECT_NEAR(largest, r.refined.report.on_contours_mm, 1e-9);
+    }
+}
+
+TEST(Refine, GivesTheSameBytesForAnyNumberOfThreads) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Image image = image_of(cube_grid(2), body_look, 8);
+    const Refinement one = refine_drawing(contours, image, 1), five = refine_drawing(contours, image, 5);
+    const auto same = [](std::span<const double> a, std::span<const double> b) { return std::ranges::equal(a, b); };
+    EXPECT_TRUE(same(one.refined.fitted.function.weights(), five.refined.fitted.function.weights()));
+    EXPECT_EQ(one.refined.report.error_with_mm, five.refined.report.error_with_mm);
+}
+
+TEST(Refine, ReadsAsManyIntensitiesFromAnImageOfAnySize) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const auto small = refine_drawing(contours, image_of(cube_grid(2), body_look)).refined.report;
+    const auto large = refine_drawing(contours, image_of(cube_grid(2, 96), body_look)).refined.report;
+    EXPECT_GT(small.intensities, 10'000);
+    EXPECT_LT(small.intensities, 1'000'000);
+    EXPECT_EQ(small.intensities, large.intensities);
+}
+
+TEST(Refine, SaysThatTooLittleIsDrawnToTell) {
+    const ContourSet contours = drawn_on({make_plane({0, 0, 1}, {0, 0, 1}), make_plane({3, 0, 0}, {1, 0, 0})});
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(3), body_look));
+    EXPECT_EQ(r.refined.report.use, ImageUse::unknown);
+    EXPECT_TRUE(std::ranges::equal(r.refined.fitted.function.weights(), r.plain.function.weights()));
+    EXPECT_NE(sentence(r.refined.report).find("not used"), std::string::npos);
+}
+
+TEST(Refine, SegmentUsesTheImageOnlyWhereAskedTo) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Image image = image_of(cube_grid(2), body_look, 8);
+    const Segmentation without = segment(contours, image.grid);
+    const Segmentation off = segment(contours, image.grid, &image, {.use_image = UseImage::off});
+    const Segmentation with = segment(contours, image.grid, &image, {.use_image = UseImage::automatic});
+    EXPECT_EQ(without.mask.values, off.mask.values);
+    EXPECT_EQ(off.report.image.use, ImageUse::none);
+    EXPECT_EQ(with.report.image.use, ImageUse::used);
+    EXPECT_NE(without.mask.values, with.mask.values);
+    std::int64_t wrong_without = 0, wrong_with = 0;
+    for (std::int64_t k = 0; k < image.grid.size.k; ++k)
+        for (std::int64_t j = 0; j < image.grid.size.j; ++j)
+            for (std::int64_t i = 0; i < image.grid.size.i; ++i) {
+                const std::size_t at = image.grid.offset(i, j, k);
+                const bool is_inside = lobed_depth(image.grid.center_mm(i, j, k)) > 0;
+                wrong_without += is_inside != (without.mask.values[at] != 0);
+                wrong_with += is_inside != (with.mask.values[at] != 0);
+            }
+    EXPECT_LT(wrong_with, wrong_without / 2);
+}
+
+}  // namespace
+}  // namespace kontur

@@ -61,7 +61,7 @@ export function button(options: ButtonOptions): HTMLButtonElement {
       type: "button",
       class: options.class ?? "button",
       title: options.title,
-      "aria-label": options.title,
+      "aria-label": options.label ? undefined : options.title, // what is seen is its name, and the title describes it
       "data-test": options.test,
       "data-part": options.part,
       on: { click: options.click },

@@ -8,6 +8,7 @@ import type { Contour, Structure, ViewName } from "../net/protocol";
 import { VIEW_NAMES } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { PLANE_COLORS, VIEW_TITLES } from "../view/palette";
+import { placeOf } from "./contour_names";
 import { button, el, listen } from "./dom";
 import { ICONS } from "./icons";
 import { qualityOf } from "./quality";
@@ -197,7 +198,7 @@ export class Panel {
 
   private contourRow(contour: Contour, structure: Structure): HTMLElement {
     const { project, call, show } = this.services;
-    const { name, slice, position } = this.planeOf(contour);
+    const { view: name, slice, position } = placeOf(contour, this.services.navigation);
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = name ? PLANE_COLORS[name] : PLANE_COLORS.oblique;
     const isSelected = project.selection?.contour === contour.id;
@@ -219,18 +220,6 @@ export class Panel {
       eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
       button({ icon: ICONS.remove, title: "Delete this contour", class: "icon-button small", test: "delete-contour", part: "remove", click: () => call("contour.remove", { ids: [contour.id] }) }),
     );
-  }
-
-  /** The view whose unturned planes the contour is parallel to, on which of its slices and where along them it lies. */
-  private planeOf(contour: Contour): { name: ViewName | null; slice: string; position: string } {
-    const { normal, origin } = contour.plane;
-    const { navigation } = this.services;
-    const name = navigation.unturnedViewAlong(normal);
-    const slice = name ? String(navigation.unturnedSliceOf(name, origin)) : "";
-    const axis = [0, 1, 2].find((i) => Math.abs(normal[i]!) > 0.9999);
-    if (axis === undefined) return { name, slice, position: dot(origin, normal).toFixed(1) };
-    const letter = (["RL", "AP", "IS"] as const)[axis]![origin[axis]! >= 0 ? 1 : 0]!;
-    return { name, slice, position: `${letter} ${Math.abs(origin[axis]!).toFixed(1)}` };
   }
 
   private updateActions(): void {
@@ -256,7 +245,7 @@ export class Panel {
     const { project } = this.services;
     const structure = project.activeStructure;
     const surface = structure && project.surfaces.get(structure.id);
-    this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], this.services.goTo));
+    this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], this.services));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);

@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 import { coincide } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
-import type { Contour, Surface } from "../net/protocol";
+import type { Navigation } from "../model/navigation";
+import type { Conflict, Contour, Surface } from "../net/protocol";
+import { distinct, settled } from "../tools/settling";
+import { contourName } from "./contour_names";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 
 const SAME_PLANE_MM = 0.01;
 
-type GoTo = (p: Vec3) => void;
-
-/** How well the surface fits its contours: figures, and places to go to where it does not. */
-export function qualityOf(surface: Surface | undefined, contours: Contour[], goTo: GoTo): HTMLElement[] {
-  return [...figures(surface, contours, goTo), ...selfCrossings(contours, goTo)];
+/** What is done about what is seen. */
+export interface QualityServices {
+  navigation: Navigation;
+  goTo(p: Vec3): void;
+  call(name: string, args: Record<string, unknown>): void;
 }
 
-function figures(surface: Surface | undefined, contours: Contour[], goTo: GoTo): HTMLElement[] {
+/** How well the surface fits its contours: figures, and places to go to where it does not. */
+export function qualityOf(surface: Surface | undefined, contours: Contour[], services: QualityServices): HTMLElement[] {
+  return [...figures(surface, contours, services), ...selfCrossings(contours, services)];
+}
+
+function figures(surface: Surface | undefined, contours: Contour[], services: QualityServices): HTMLElement[] {
   if (!surface || surface.stage === "none") {
-    const found = surface ? troubles(surface, goTo) : [];
+    const found = surface ? troubles(surface, contours, services) : [];
     return found.length > 0 ? found : [el("p", { class: "empty" }, "No surface yet.")];
   }
   const entries: HTMLElement[] = [];
@@ -26,22 +34,34 @@ function figures(surface: Surface | undefined, contours: Contour[], goTo: GoTo):
   const { residual } = surface;
   if (residual) {
     entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
-    entries.push(place(`largest residual ${residual.max_mm.toFixed(2)} mm`, "Go to where the surface is farthest from a contour", "residual", () => goTo(residual.at)));
+    entries.push(place(`largest residual ${residual.max_mm.toFixed(2)} mm`, "Go to where the surface is farthest from a contour", "residual", () => services.goTo(residual.at)));
   }
-  return [...entries, ...troubles(surface, goTo)];
+  return [...entries, ...troubles(surface, contours, services)];
 }
 
-function troubles({ conflicts = [], warnings = [] }: Surface, goTo: GoTo): HTMLElement[] {
+function troubles({ conflicts = [], warnings = [] }: Surface, contours: Contour[], services: QualityServices): HTMLElement[] {
+  return [...warnings.map((text) => el("p", { class: "warning-text" }, text)), ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services))];
+}
+
+/** Which two contradict each other, by how much, and a button for each to bend the other one to it. */
+function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, goTo, call }: QualityServices): HTMLElement {
+  const { at, distance_mm } = conflict;
+  const [a, b] = conflict.contours.map((id) => contours.find((contour) => contour.id === id));
+  const by = `${distance_mm.toFixed(1)} mm`;
   const title = "Go to where two contours contradict each other";
-  return [
-    ...warnings.map((text) => el("p", { class: "warning-text" }, text)),
-    ...conflicts.map(({ at, distance_mm }) => place(`contours disagree by ${distance_mm.toFixed(1)} mm`, title, "conflict", () => goTo(at))),
-  ];
+  if (!a || !b) return place(`contours disagree by ${by}`, title, "conflict", () => goTo(at));
+  const keep = (kept: Contour, yielding: Contour) => {
+    const pull = settled(conflict, kept, yielding);
+    const name = contourName(kept, navigation);
+    return pull && button({ label: `Keep ${name}`, title: `Keep ${name}: bend ${contourName(yielding, navigation)} to where it crosses`, class: "choice", click: () => call("contour.pull", { ...pull }) });
+  };
+  const go = place(`${contourName(a, navigation)} and ${contourName(b, navigation)} disagree by ${by}`, title, "conflict", () => goTo(at));
+  return el("div", { class: "conflict" }, go, keep(a, b), keep(b, a));
 }
 
-function selfCrossings(contours: Contour[], goTo: GoTo): HTMLElement[] {
+function selfCrossings(contours: Contour[], services: QualityServices): HTMLElement[] {
   const places = contours.flatMap((contour) => contour.self_crossings.slice(0, 1));
-  return places.map((at) => place("a contour crosses itself", "Go to where it crosses itself", "self-crossing", () => goTo(at)));
+  return places.map((at) => place("a contour crosses itself", "Go to where it crosses itself", "self-crossing", () => services.goTo(at)));
 }
 
 function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing", click: () => void): HTMLElement {

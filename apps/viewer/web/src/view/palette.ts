@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { ViewName } from "../net/protocol";
 
+/** Told apart by people of any colour vision; a test simulates it. */
 export const PLANE_COLORS: Record<ViewName, string> = {
-  axial: "#f0625a",
-  sagittal: "#4cc36b",
-  coronal: "#5b9cff",
-  oblique: "#c792ea",
+  axial: "#ff6a3d",
+  sagittal: "#57dfc0",
+  coronal: "#3f8cff",
+  oblique: "#e3a6f0",
 };
 
 export const VIEW_TITLES: Record<ViewName, string> = {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+import { dot } from "../geometry/vec";
+import type { Navigation } from "../model/navigation";
+import type { Contour, ViewName } from "../net/protocol";
+import { VIEW_TITLES } from "../view/palette";
+
+/** The view whose unturned planes the contour is parallel to, on which of its slices and where along them it lies. */
+export interface ContourPlace {
+  view: ViewName | null;
+  slice: string;
+  position: string;
+}
+
+export function placeOf({ plane: { normal, origin } }: Contour, navigation: Navigation): ContourPlace {
+  const view = navigation.unturnedViewAlong(normal);
+  const slice = view ? String(navigation.unturnedSliceOf(view, origin)) : "";
+  const axis = [0, 1, 2].find((i) => Math.abs(normal[i]!) > 0.9999);
+  if (axis === undefined) return { view, slice, position: dot(origin, normal).toFixed(1) };
+  const letter = (["RL", "AP", "IS"] as const)[axis]![origin[axis]! >= 0 ? 1 : 0]!;
+  return { view, slice, position: `${letter} ${Math.abs(origin[axis]!).toFixed(1)}` };
+}
+
+/** "Axial 51", as the list and the view's title have it; "Oblique 12.3" for planes of no view. */
+export function contourName(contour: Contour, navigation: Navigation): string {
+  const { view, slice, position } = placeOf(contour, navigation);
+  return view ? `${VIEW_TITLES[view]} ${slice}` : `Oblique ${position}`;
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page for those who use it by the keyboard or a screen reader, and for those whom colours or motion do not serve.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { describe, test } from "node:test";
+import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
+
+const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const visits = new BallVisits();
+let viewer: Viewer;
+
+interface Violation {
+  id: string;
+  nodes: { target: unknown[]; failureSummary?: string }[];
+}
+
+/** What axe finds wrong by WCAG 2.0 to 2.2, A and AA. */
+async function violations(): Promise<string[]> {
+  await viewer.page.evaluate(AXE); // not by a script element, which the page's policy refuses
+  const found = await viewer.page.evaluate(async () => {
+    const { axe } = window as unknown as { axe: { run: (options: object) => Promise<{ violations: Violation[] }> } };
+    return (await axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"] })).violations;
+  });
+  return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target.join(" ")} (${failureSummary})`).join("; ")}`);
+}
+
+let opened: Promise<void> | null = null;
+const open = () => (opened ??= prepare());
+
+async function prepare(): Promise<void> {
+  viewer = await visits.next();
+  await viewer.page.keyboard.press("f");
+  for (const [i, [view, mm]] of ([["axial", BALL_RADIUS_MM], ["coronal", BALL_RADIUS_MM - 7]] as const).entries()) {
+    await viewer.drag(view, circle(await viewer.pixels(view, mm), 48));
+    await viewer.waitForContours(i + 1);
+  }
+  await viewer.page.locator(".contour-row").first().click();
+  await viewer.surfaceShown();
+}
+
+describe("axe finds nothing", () => {
+  test("on the page with structures, contours, conflicts and figures", async () => {
+    await open();
+    assert.deepEqual(await violations(), []);
+  });
+
+  for (const name of ["export", "import", "help", "statistics-open", "appearance"])
+    test(`in what "${name}" opens`, async () => {
+      await open();
+      await viewer.page.click(`[data-test=${name}]`);
+      if (name === "statistics-open") await viewer.page.locator("[data-test=statistics]").waitFor();
+      const found = await violations();
+      await viewer.page.keyboard.press("Escape");
+      assert.deepEqual(found, []);
+    });
+});
+
+describe("the keyboard alone", () => {
+  test("reaches every control, and comes back to where it began", async () => {
+    await open();
+    const { page } = viewer;
+    const all = await page.evaluate(() => {
+      const can = "button:not(:disabled), input, select, canvas[tabindex='0'], [tabindex='0']";
+      return [...document.querySelectorAll<HTMLElement>(can)].filter((one) => one.checkVisibility() && !one.closest("[popover]")).length;
+    });
+    await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+    const reached = new Set<string>();
+    for (let i = 0; i < all + 8; ++i) {
+      await page.keyboard.press("Tab");
+      reached.add(await page.evaluate(() => {
+        const one = document.activeElement!;
+        return one === document.body ? "" : [...document.querySelectorAll("*")].indexOf(one).toString();
+      }));
+    }
+    reached.delete("");
+    assert.ok(reached.size >= all, `${reached.size} of ${all} controls`);
+  });
+});
+
+describe("the system's wishes", () => {
+  test("are heard: more contrast, forced colours, less motion", async () => {
+    await open();
+    const { page } = viewer;
+    const line = () => page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--line").trim());
+    const usual = await line();
+    await page.emulateMedia({ contrast: "more" });
+    assert.notEqual(await line(), usual);
+    await page.emulateMedia({ contrast: null, reducedMotion: "reduce" });
+    const moves = () => page.evaluate(() => [...document.querySelectorAll("*")].filter((one) => Number.parseFloat(getComputedStyle(one).transitionDuration) > 0.01).length);
+    assert.equal(await moves(), 0);
+    await page.emulateMedia({ reducedMotion: null });
+    assert.ok((await moves()) > 0, "the test can fail");
+    await page.emulateMedia({ forcedColors: "active" });
+    const pressed = await page.locator('[aria-pressed="true"]').first().evaluate((one) => getComputedStyle(one).forcedColorAdjust);
+    assert.equal(pressed, "none", "what is pressed keeps a colour of its own");
+    await page.emulateMedia({ forcedColors: null });
+  });
+});

@@ -210,6 +210,9 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
         ->allow_extra_args(false);
+    bind.flag("--all-rois", c.all_rois, "All structures of the RTSTRUCT that have contours, in its order")->excludes(bind.sub->get_option("--roi"));
+    bind.flag("--together", c.together,
+              "Of several structures those that exclude each other share no voxel and leave no gap where they touch");
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);
@@ -300,6 +303,10 @@ void add_fill(CLI::App& app, Invocation& invocation) {
                          {{"closed", FillEnds::closed}, {"half", FillEnds::half}, {"open", FillEnds::open}},
                          "How far beyond the first and last of parallel slices: not at all, half of a gap, or as far as the "
                          "fit says");
+    bind.sub->add_flag_callback(
+        "--alone", [&c] { c.options.jointly = false; }, "Each label for itself: no fit of touching labels together");
+    bind.defaulted("--shape-weight", c.options.shape_weight, "W",
+                   "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone");
     bind.defaulted("--smoothing-voxels", c.options.smoothing_voxels, "VOXELS",
                    "Smoothing of the painted outlines, standard deviation");
     bind.option("--report", c.report, "FILE", "Report to write: .json");

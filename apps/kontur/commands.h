@@ -29,6 +29,8 @@ namespace kontur::app {
 struct SegmentCommand {
     std::vector<std::filesystem::path> contours;
     std::vector<std::string> rois;   ///< several: each becomes a label of its own
+    bool all_rois = false;           ///< all that have contours take the place of `rois`
+    bool together = false;           ///< ROIs that exclude each other share no voxel and leave no gap
     ReadContoursOptions read;        ///< its `roi` is the only one of `rois`
     ImageInput image;                ///< its path is empty when `spacing_mm` gives the grid
     std::vector<double> spacing_mm;  ///< one number or three

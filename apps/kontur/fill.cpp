@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 
 Provenance provenance_of(const FillCommand& command, const Progress& progress) {
     const FillOptions& o = command.options;
-    std::string options = fmt::format("ends={} smoothing_voxels={}", name(o.ends), o.smoothing_voxels);
+    std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={}", name(o.ends), o.jointly, o.shape_weight,
+                                      o.smoothing_voxels);
     for (const std::int64_t label : o.labels) options += fmt::format(" label={}", label);
     return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, progress);
 }
@@ -54,6 +55,7 @@ Facts report_of(const FillReport& report, const Provenance& made) {
             {"provenance", provenance},
             {"labels", labels},
             {"contested_voxels", report.contested_voxels},
+            {"closed_voxels", report.closed_voxels},
             {"seconds", seconds},
             {"peak_memory_mb", peak_memory_mb()}};
 }

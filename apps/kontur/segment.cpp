@@ -164,7 +164,8 @@ void check_words(const SegmentCommand& command) {
     check_label_value(command.mask.label_value);
     check_utf8(command.name, "the name");
     if (command.date) utc_date();  // which may be set to what is no date
-    if (command.rois.size() > 1) check_roi_words(command);
+    if (has_several(command)) check_roi_words(command);
+    else if (command.together) throw Error(ErrorKind::invalid_input, "--together is for several ROIs; name them by --roi, or --all-rois");
 }
 
 void run(const SegmentCommand& words, Console& console) {
@@ -172,7 +173,7 @@ void run(const SegmentCommand& words, Console& console) {
     if (command.rois.size() == 1) command.read.roi = command.rois.front();
     check_words(command);
     check_files(command);
-    if (command.rois.size() > 1) return segment_rois(command, console);
+    if (has_several(command)) return segment_rois(command, console);
     const Progress progress = console.progress();
     Laps laps;
     const Inputs inputs = read_inputs(command, progress);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "dicom_output.h"
@@ -15,6 +17,9 @@
 #include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
+#include "kontur/measure/components.h"
+#include "kontur/labels/section_contours.h"
+#include "kontur/segment_together.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/report.h"
 #include "kontur/view/picture.h"
@@ -39,11 +44,21 @@ struct Drawings {
     std::vector<std::string> notes;
 };
 
+/// All ROIs by their numbers, as names may occur twice.
+std::vector<std::string> names_of(const SegmentCommand& command, const StructureSet& set) {
+    if (!command.all_rois) return command.rois;
+    std::vector<std::string> names;
+    for (const Roi& roi : set.rois)
+        if (!roi.contours.contours.empty() || !roi.damage.empty()) names.push_back(std::to_string(roi.number));
+    if (names.empty()) refuse(fmt::format("{}: none of the {} ROIs has a contour", command.contours.front().string(), set.rois.size()));
+    return names;
+}
+
 Drawings read_drawings(const SegmentCommand& command, const Progress& progress) {
     const fs::path& file = command.contours.front();
     const StructureSet set = read_rtstruct(file);
     Drawings drawings{{}, {}, {}, set.notes};
-    for (const std::string& name : command.rois) {
+    for (const std::string& name : names_of(command, set)) {
         try {
             const Roi roi = select_roi(set, name);
             if (roi.contours.contours.empty())
@@ -84,11 +99,20 @@ public:
     void add(const Mask& mask, std::uint16_t label) {
         for (std::size_t n = 0; n < labels_.size(); ++n) {
             if (mask.values[n] == 0) continue;
-            if (labels_[n] == 0) labels_[n] = label;
-            else ++shared_[{labels_[n], label}];
+            if (labels_[n] == 0) {
+                labels_[n] = label;
+            } else if (inner_.contains({label, labels_[n]})) {
+                ++shared_[{label, labels_[n]}];
+                labels_[n] = label;
+            } else {
+                ++shared_[{labels_[n], label}];
+            }
         }
         most_ = std::max(most_, label);
     }
+
+    /// The first label lies inside the second: its voxels are its own.
+    void set_inside(std::uint16_t inner, std::uint16_t outer) { inner_.insert({inner, outer}); }
 
     /// In 8 bits where they suffice.
     Image image() const {
@@ -113,6 +137,7 @@ private:
     std::vector<std::uint16_t> labels_;
     std::uint16_t most_ = 0;
     std::map<std::pair<std::uint16_t, std::uint16_t>, std::int64_t> shared_;
+    std::set<std::pair<std::uint16_t, std::uint16_t>> inner_;
 };
 
 /// What all fits say once, what differs with the label's number behind its name.
@@ -134,9 +159,23 @@ Provenance together(const std::vector<Fitted>& all) {
     return made;
 }
 
-Fitted fit(const SegmentCommand& command, const Drawings& drawings, std::size_t n, Mask& mask, const Progress& progress) {
+/// The borders of a mask on its slices, where no function says where they run.
+ContourSet slice_outlines(const Mask& mask) {
+    ContourSet set;
+    const auto area = static_cast<std::size_t>(mask.grid.size.i * mask.grid.size.j);
+    for (std::int64_t k = 0; k < mask.grid.size.k; ++k) {
+        const auto first = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.grid.offset(0, 0, k));
+        const PaintedSlice slice{.axis = 2, .index = k, .whole = true, .section = {first, first + static_cast<std::ptrdiff_t>(area)}};
+        std::vector<Contour> contours = section_contours(mask.grid, slice);
+        std::move(contours.begin(), contours.end(), std::back_inserter(set.contours));
+    }
+    return set;
+}
+
+/// What is said about a structure beside its voxels, which go to `mask`.
+Fitted fitted_from(const SegmentCommand& command, const Drawings& drawings, std::size_t n, Segmentation result, Mask& mask,
+                   const Progress& progress) {
     const Roi& roi = drawings.rois[n];
-    Segmentation result = segment(roi.contours, drawings.grid, drawings.image ? &*drawings.image : nullptr, command.options, progress);
     Fitted fitted;
     fitted.segment = {.number = static_cast<std::int64_t>(n + 1),
                       .label = roi.name,
@@ -150,11 +189,41 @@ Fitted fit(const SegmentCommand& command, const Drawings& drawings, std::size_t 
         fitted.roi.interpreted_type = roi.interpreted_type;
         fitted.roi.color = fitted.segment.color;
         fitted.roi.generation_algorithm = "SEMIAUTOMATIC";
-        fitted.roi.contours = slice_contours(result.mask, result.function, command.options.threads, progress);
+        fitted.roi.contours = command.together
+                                  ? slice_outlines(result.mask)
+                                  : slice_contours(result.mask, result.function, command.options.threads, progress);
         fitted.roi.contours.name = roi.name;
     }
     mask = std::move(result.mask);
     return fitted;
+}
+
+/// Masks and volumes as they are after voxels have changed hands.
+void count_again(SegmentReport& report, const Mask& mask) {
+    report.mask_voxels = std::count(mask.values.begin(), mask.values.end(), 1);
+    report.mask_volume_ml = static_cast<double>(report.mask_voxels) * mask.grid.voxel_volume_mm3() / 1000;
+    report.mask_components = static_cast<std::int64_t>(component_sizes(mask).size());
+}
+
+/// All structures at once; `notes` says what they are to each other.
+std::vector<Segmentation> fit_together(const SegmentCommand& command, const Drawings& drawings, LabelMap& labels,
+                                       std::vector<std::string>& notes, const Progress& progress) {
+    std::vector<ContourSet> contours;
+    for (const Roi& roi : drawings.rois) contours.push_back(roi.contours);
+    Together all = segment_together(contours, drawings.grid, {.segment = command.options}, progress);
+    for (Segmentation& one : all.structures) count_again(one.report, one.mask);
+    for (const StructurePair& pair : all.pairs) {
+        if (pair.relation == Relation::inside) {
+            const auto voxels = [&](std::size_t n) { return all.structures[n].report.mask_voxels; };
+            const auto [inner, outer] = std::minmax(pair.first, pair.second, [&](auto a, auto b) { return voxels(a) < voxels(b); });
+            labels.set_inside(static_cast<std::uint16_t>(inner + 1), static_cast<std::uint16_t>(outer + 1));
+        }
+        notes.push_back(fmt::format("'{}' and '{}': {}, {} voxel{} claimed by both", drawings.rois[pair.first].name,
+                                    drawings.rois[pair.second].name, name(pair.relation), pair.shared_voxels,
+                                    pair.shared_voxels == 1 ? "" : "s"));
+    }
+    notes.push_back(fmt::format("{} voxels between structures that touch were given to the nearest", all.closed_voxels));
+    return std::move(all.structures);
 }
 
 Facts report_of(const std::vector<Fitted>& all, const std::vector<std::string>& notes, const Provenance& made) {
@@ -190,6 +259,8 @@ std::vector<std::string> write_rois(const fs::path& path, const SegmentCommand& 
 
 }  // namespace
 
+bool has_several(const SegmentCommand& command) { return command.all_rois || command.rois.size() > 1; }
+
 void check_roi_words(const SegmentCommand& command) {
     const auto refuse_one = [](const char* option) {
         refuse(fmt::format("{} has room for one structure; several ROIs go into a mask's labels and an RTSTRUCT", option));
@@ -199,6 +270,8 @@ void check_roi_words(const SegmentCommand& command) {
     if (!command.name.empty()) refuse_one("--name");
     if (command.mask.label_value != WriteMaskOptions{}.label_value)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");
+    if (command.together && command.options.use_image != UseImage::off)
+        refuse("--together does not ask the image yet; leave out --use-image auto or --together");
     if (command.image.path.empty()) refuse("several ROIs need an --image, whose grid is that of their label map");
     if (command.contours.size() != 1) refuse("several ROIs are chosen from one RTSTRUCT");
     if (command.rois.size() > std::numeric_limits<std::uint16_t>::max())
@@ -213,10 +286,16 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     std::vector<Fitted> all;
     Structures structures;  // of a SEG, which keeps all voxels
     LabelMap labels(drawings.grid);
+    std::vector<std::string> notes = drawings.notes;
+    std::vector<Segmentation> parted;
+    if (command.together) parted = fit_together(command, drawings, labels, notes, progress);
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         Mask mask;
         try {
-            all.push_back(fit(command, drawings, n, mask, progress));
+            Segmentation result = command.together ? std::move(parted[n])
+                                                   : segment(drawings.rois[n].contours, drawings.grid,
+                                                             drawings.image ? &*drawings.image : nullptr, command.options, progress);
+            all.push_back(fitted_from(command, drawings, n, std::move(result), mask, progress));
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI '{}'", drawings.rois[n].name));
         }
@@ -232,7 +311,6 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     for (auto& digest : input_digests(command, progress)) made.push_back(std::move(digest));
     if (command.date) made.emplace_back("date", utc_date());
 
-    std::vector<std::string> notes = drawings.notes;
     const auto add = [&](std::vector<std::string> more) { notes.insert(notes.end(), more.begin(), more.end()); };
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {

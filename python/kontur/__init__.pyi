@@ -392,6 +392,8 @@ class Finding:
 
 class FillReport:
     @property
+    def closed_voxels(self) -> int: ...
+    @property
     def contested_voxels(self) -> int: ...
     @property
     def labels(self) -> list[FilledLabel]: ...
@@ -889,6 +891,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -903,6 +907,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -917,6 +923,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -931,6 +939,8 @@ def fill_labels(
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
+    jointly: bool = True,
+    shape_weight: float = 0.7,
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,

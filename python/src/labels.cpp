@@ -30,6 +30,8 @@ namespace {
 Keywords<FillOptions> fill_keywords() {
     return Keywords<FillOptions>()
         .field("ends", &FillOptions::ends, "How far beyond the first and the last of parallel slices: not at all, half of a gap, or as far as the fit says.")
+        .field("jointly", &FillOptions::jointly, "Fit labels that touch also as one object, so that no gaps stay between them.")
+        .field("shape_weight", &FillOptions::shape_weight, "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone.")
         .field("smoothing_voxels", &FillOptions::smoothing_voxels, "Of the painted outlines, standard deviation in voxels.")
         .field("only", &FillOptions::labels, "Only these labels; empty: all.")
         .field("threads", &FillOptions::threads, "0: the machine's. The result does not depend on it.")
@@ -65,6 +67,7 @@ void bind_report(py::module_& m) {
     Fields(report)
         .field("labels", &FillReport::labels, "list of FilledLabel: in increasing order.")
         .field("contested_voxels", &FillReport::contested_voxels, "int: claimed by more than one label.")
+        .field("closed_voxels", &FillReport::closed_voxels, "int: between labels that touch, claimed by them together alone.")
         .stored("seconds", &FillReport::seconds)
         .picklable();
     report.def_property_readonly(
@@ -110,9 +113,9 @@ Examples
 --------
 >>> z, y, x = np.mgrid[:41, :40, :40]
 >>> ball = ((z - 20) ** 2 + (y - 20) ** 2 + (x - 20) ** 2 < 15**2).astype("uint8")
->>> sparse = np.where(z % 5 == 0, ball, 0)
+>>> sparse = np.where(z % 4 == 2, ball, 0)
 >>> full = kontur.fill_labels(sparse, (1, 1, 1))
->>> bool(2 * (full & ball).sum() / (full.sum() + ball.sum()) > 0.99)
+>>> bool(2 * (full & ball).sum() / (full.sum() + ball.sum()) > 0.97)
 True
 )",
         [keywords](const py::object& labels, const std::optional<std::array<double, 3>>& spacing, bool return_report,

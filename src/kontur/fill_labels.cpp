@@ -5,205 +5,251 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <span>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
-#include "kontur/labels/label_boxes.h"
-#include "kontur/labels/painted_slices.h"
-#include "kontur/labels/section_contours.h"
+#include "kontur/labels/filled_map.h"
+#include "kontur/labels/painted_object.h"
+#include "kontur/labels/shape_interpolation.h"
 #include "kontur/segment.h"
 
 namespace kontur {
 namespace {
 
-/// A label as it was painted.
-struct PaintedObject {
-    std::int64_t label = 0;
-    std::int64_t voxels = 0;
-    ContourSet contours;
-    std::array<std::vector<std::int64_t>, 3> slices;  ///< indices of the painted slices, by axis
-    std::array<std::vector<bool>, 3> is_whole;        ///< by axis and index, whether a slice was painted as a whole
-    IndexBox range;                                   ///< where it may be filled
-
-    /// Whether a slice says what the voxel is.
-    bool is_known(const Index3& at) const {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (is_whole[axis][static_cast<std::size_t>(at[static_cast<int>(axis)])]) return true;
-        return false;
-    }
-};
-
-/// The only axis across which slices were painted; -1 when there are several.
-int only_axis(const PaintedObject& object) {
-    int only = -1;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (object.slices[static_cast<std::size_t>(axis)].empty()) continue;
-        if (only >= 0) return -1;
-        only = axis;
-    }
-    return only;
-}
-
 /// The largest distance in mm of neighbouring slices; 0 for single ones.
-double largest_gap_mm(const PaintedObject& object, const Grid& grid) {
+double largest_gap_mm(const PaintedObject& object) {
     double gap = 0;
-    const Vec3 spacing = grid.spacing_mm();
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto& slices = object.slices[static_cast<std::size_t>(axis)];
-        for (std::size_t n = 1; n < slices.size(); ++n)
-            gap = std::max(gap, spacing[axis] * static_cast<double>(slices[n] - slices[n - 1]));
+    const Vec3 spacing = object.grid.spacing_mm();
+    for (std::size_t n = 1; n < object.slices.size(); ++n) {
+        const PaintedSlice &low = object.slices[n - 1], &high = object.slices[n];
+        if (low.axis == high.axis) gap = std::max(gap, spacing[low.axis] * static_cast<double>(high.index - low.index));
     }
     return gap;
 }
 
-/// Between parallel slices the object may be wider than on them, by less than they are apart. Slices of several directions
-/// show its extent; between them it bulges.
-IndexBox range_of(const PaintedObject& object, const IndexBox& box, const Grid& grid, FillEnds ends) {
-    const Vec3 spacing = grid.spacing_mm();
-    const int axis = only_axis(object);
-    const double gap_mm = largest_gap_mm(object, grid);
+/// Where an object may be filled. Between parallel slices it may be wider than on them, by less than they are apart. Slices
+/// of several directions show its extent; between them it bulges.
+IndexBox range_of(const PaintedObject& object, const Grid& image, FillEnds ends) {
+    const Vec3 spacing = image.spacing_mm();
+    const IndexBox& box = object.found.box;
+    const int axis = object.only_axis();
+    const double gap_mm = largest_gap_mm(object);
     Index3 margin;
     for (int a = 0; a < 3; ++a) {
         const double bulge_mm = axis >= 0 ? gap_mm : 0.25 * spacing[a] * static_cast<double>(box.size()[a]);
         margin[a] = 3 + static_cast<std::int64_t>(std::ceil(bulge_mm / spacing[a]));
     }
-    IndexBox range = box.padded(margin, grid.size);
+    IndexBox range = box.padded(margin, image.size);
     if (axis < 0 || ends == FillEnds::open) return range;
-    const auto& slices = object.slices[static_cast<std::size_t>(axis)];
-    const auto half = [&](std::int64_t gap) { return ends == FillEnds::half ? gap / 2 : 0; };
+    const std::vector<std::int64_t> slices = object.indices(axis);
     const std::size_t last = slices.size() - 1;
-    const std::int64_t first_gap = last > 0 ? slices[1] - slices[0] : 0, last_gap = last > 0 ? slices[last] - slices[last - 1] : 0;
-    range.low[axis] = std::max<std::int64_t>(slices[0] - half(first_gap), 0);
-    range.high[axis] = std::min<std::int64_t>(slices[last] + half(last_gap), grid.size[axis] - 1);
+    const auto beyond = [&](std::size_t a, std::size_t b) { return ends == FillEnds::half && last > 0 ? (slices[b] - slices[a]) / 2 : 0; };
+    range.low[axis] = std::max<std::int64_t>(slices[0] - beyond(0, 1), 0);
+    range.high[axis] = std::min<std::int64_t>(slices[last] + beyond(last - 1, last), image.size[axis] - 1);
     return range;
 }
 
-PaintedObject look(const Image& labels, std::int64_t label, const LabelBox& found, const FillOptions& options) {
-    const Grid& grid = labels.grid;
-    const std::int64_t edge = 1 + static_cast<std::int64_t>(std::ceil(3 * options.smoothing_voxels));
-    const IndexBox box = found.box.padded({edge, edge, edge}, grid.size);
-    const Mask mask = label_mask(labels, label, box);
-    PaintedObject object;
-    object.label = label, object.voxels = found.voxels;
-    for (int axis = 0; axis < 3; ++axis)
-        object.is_whole[static_cast<std::size_t>(axis)].assign(static_cast<std::size_t>(grid.size[axis]), false);
-    for (const PaintedSlice& slice : find_painted_slices(mask)) {
-        const std::int64_t index = slice.index + box.low[slice.axis];
-        object.slices[static_cast<std::size_t>(slice.axis)].push_back(index);
-        object.is_whole[static_cast<std::size_t>(slice.axis)][static_cast<std::size_t>(index)] = slice.whole;
-        std::vector<Contour> contours = section_contours(mask.grid, slice, {options.smoothing_voxels});
-        std::move(contours.begin(), contours.end(), std::back_inserter(object.contours.contours));
-    }
-    object.range = range_of(object, found.box, grid, options.ends);
-    return object;
-}
-
 /// Whether a voxel of the range is unknown.
-bool is_anything_left_out(const PaintedObject& object) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto first = object.is_whole[axis].begin();
-        const auto low = static_cast<std::ptrdiff_t>(object.range.low[static_cast<int>(axis)]);
-        const auto high = static_cast<std::ptrdiff_t>(object.range.high[static_cast<int>(axis)]);
+bool is_anything_left_out(const PaintedObject& object, const IndexBox& range) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto first = object.is_whole[static_cast<std::size_t>(axis)].begin();
+        const auto low = static_cast<std::ptrdiff_t>(range.low[axis]), high = static_cast<std::ptrdiff_t>(range.high[axis]);
         if (std::all_of(first + low, first + high + 1, [](bool whole) { return whole; })) return false;
     }
     return true;
 }
 
-/// The labels on the grid while they are filled.
-class FilledMap {
-public:
-    explicit FilledMap(Image labels) : labels_(std::move(labels)), is_painted_(static_cast<std::size_t>(labels_.grid.voxel_count())) {
-        std::visit([&](const auto& samples) {
-            for (std::size_t n = 0; n < samples.size(); ++n) is_painted_[n] = samples[n] != 0;
-        }, labels_.samples);
-    }
-
-    const Image& labels() const { return labels_; }
-    bool is_painted(std::size_t n) const { return is_painted_[n]; }
-    std::int64_t label(std::size_t n) const { return static_cast<std::int64_t>(sample(labels_, n)); }
-    void set_label(std::size_t n, std::int64_t label) {
-        std::visit([&](auto& samples) { samples[n] = static_cast<std::decay_t<decltype(samples[n])>>(label); }, labels_.samples);
-    }
-
-    Image take() { return std::move(labels_); }
-
-private:
-    Image labels_;
-    std::vector<bool> is_painted_;
+/// What one fit leaves.
+struct Fitted {
+    const PaintedObject* object = nullptr;
+    IndexBox range;
+    ImplicitFunction function;
 };
-
-/// How deep places lie in an object, in mm.
-std::vector<double> depths(const ImplicitFunction& function, const std::vector<Vec3>& places, int threads) {
-    std::vector<double> values(places.size());
-    std::vector<Vec3> gradients(places.size());
-    function.values_and_gradients(places, values, gradients, threads);
-    constexpr double kLeastSlope = 1e-3;
-    for (std::size_t n = 0; n < values.size(); ++n) values[n] /= std::max(norm(gradients[n]), kLeastSlope);
-    return values;
-}
 
 class Filler {
 public:
     Filler(Image labels, const FillOptions& options) : map_(std::move(labels)), options_(options) {}
 
+    const Grid& grid() const { return map_.labels().grid; }
+
     /// Fits one object and gives it what nobody painted and no deeper one has.
-    void add(const PaintedObject& object, const Progress& progress) {
-        SegmentOptions segmenting;
-        segmenting.threads = options_.threads;
-        segmenting.max_memory_mb = options_.max_memory_mb;
-        const Grid& grid = map_.labels().grid;
-        const Segmentation result = segment(object.contours, grid_of(grid, object.range), segmenting, progress);
-        functions_.emplace(object.label, result.function);
+    void add(const PaintedObject& object, const IndexBox& range, const Progress& progress) {
+        Segmentation result = fit(object, range, progress);
+        follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
-        std::size_t place = 0;
-        for (std::int64_t k = object.range.low.k; k <= object.range.high.k; ++k)
-            for (std::int64_t j = object.range.low.j; j <= object.range.high.j; ++j)
-                for (std::int64_t i = object.range.low.i; i <= object.range.high.i; ++i) {
-                    if (!result.mask.values[place++]) continue;
-                    const std::size_t n = grid.offset(i, j, k);
-                    if (map_.is_painted(n) || object.is_known({i, j, k})) continue;
-                    const std::int64_t other = map_.label(n);
-                    if (other != 0) contested[other].push_back(n);
-                    else map_.set_label(n, object.label);
-                }
+        for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
+            if (map_.is_painted(n) || object.is_known(at)) return;
+            const std::int64_t other = map_.label(n);
+            if (other != 0) contested[other].push_back(n);
+            else map_.set_label(n, object.label);
+        });
+        fitted_.emplace(object.label, Fitted{&object, range, result.function});
         for (const auto& [other, voxels] : contested) contest(object.label, other, voxels);
     }
 
+    /// Fits labels that touch as one object; what that claims and none of them has goes to the one that is nearest.
+    void close_gaps(const std::vector<std::int64_t>& labels, const Progress& progress) {
+        std::vector<const PaintedObject*> objects;
+        for (const std::int64_t label : labels)
+            if (const auto found = fitted_.find(label); found != fitted_.end()) objects.push_back(found->second.object);
+        if (objects.size() < 2) return;
+        const PaintedObject all = united(objects, grid());
+        if (all.slices.size() < 2) return;
+        const IndexBox range = range_of(all, grid(), options_.ends);
+        if (!is_anything_left_out(all, range)) return;
+        Segmentation result = fit(all, range, progress);
+        follow_shapes(all, range, result);
+        std::vector<std::size_t> gaps;
+        for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
+            if (map_.label(n) == 0 && !all.is_known(at)) gaps.push_back(n);
+        });
+        give_to_nearest(objects, gaps, largest_gap_mm(all) / 4);
+    }
+
     std::int64_t contested() const { return contested_; }
+    std::int64_t closed() const { return closed_; }
     Image take() { return map_.take(); }
 
 private:
-    Vec3 center_mm(std::size_t n) const {
-        const Grid& grid = map_.labels().grid;
-        const auto m = static_cast<std::int64_t>(n);
-        return grid.center_mm(m % grid.size.i, m / grid.size.i % grid.size.j, m / (grid.size.i * grid.size.j));
+    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Progress& progress) const {
+        SegmentOptions segmenting;
+        segmenting.threads = options_.threads;
+        segmenting.max_memory_mb = options_.max_memory_mb;
+        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), segmenting, progress);
+    }
+
+    /// Calls visit(index, offset), both of the image, for the voxels of a mask on a range.
+    template <class Visit>
+    void for_inside(const IndexBox& range, const Mask& mask, const Visit& visit) const {
+        std::size_t place = 0;
+        for (std::int64_t k = range.low.k; k <= range.high.k; ++k)
+            for (std::int64_t j = range.low.j; j <= range.high.j; ++j)
+                for (std::int64_t i = range.low.i; i <= range.high.i; ++i)
+                    if (mask.values[place++]) visit(Index3{i, j, k}, grid().offset(i, j, k));
+    }
+
+    /// Where the fit and the shape-based interpolation of parallel slices differ, the weighted mean of the depths in both counts.
+    void follow_shapes(const PaintedObject& object, const IndexBox& range, Segmentation& result) const {
+        const int axis = object.only_axis();
+        if (axis < 0 || options_.shape_weight == 0) return;
+        for (std::size_t n = 1; n < object.slices.size(); ++n) {
+            const PaintedSlice &low = object.slices[n - 1], &high = object.slices[n];
+            if (high.index - low.index > 1)
+                follow_shape(object, ShapeInterpolation(object.grid, low, high), low, high, range, result);
+        }
+    }
+
+    void follow_shape(const PaintedObject& object, const ShapeInterpolation& shape, const PaintedSlice& low, const PaintedSlice& high,
+                      const IndexBox& range, Segmentation& result) const {
+        const auto [u, v] = slice_axes(low.axis);
+        std::vector<std::size_t> differing;
+        std::vector<Vec3> places;
+        std::vector<double> shape_mm;
+        Index3 at;
+        for (at[low.axis] = low.index + 1; at[low.axis] < high.index; ++at[low.axis])
+            for (at[v] = 0; at[v] < object.grid.size[v]; ++at[v])
+                for (at[u] = 0; at[u] < object.grid.size[u]; ++at[u]) {
+                    const Index3 in_image{at.i + object.box.low.i, at.j + object.box.low.j, at.k + object.box.low.k};
+                    const std::size_t place = result.mask.grid.offset(in_image.i - range.low.i, in_image.j - range.low.j, in_image.k - range.low.k);
+                    const double depth = shape.depth_mm(at);
+                    if ((depth > 0) == (result.mask.values[place] != 0)) continue;
+                    differing.push_back(place);
+                    places.push_back(grid().center_mm(in_image.i, in_image.j, in_image.k));
+                    shape_mm.push_back(depth);
+                }
+        const std::vector<double> fit_mm = depths_mm(result.function, places, options_.threads);
+        for (std::size_t n = 0; n < differing.size(); ++n)
+            result.mask.values[differing[n]] = std::lerp(fit_mm[n], shape_mm[n], options_.shape_weight * shape.trust()) > 0;
+    }
+
+    std::vector<Vec3> centers_mm(const std::vector<std::size_t>& voxels) const {
+        std::vector<Vec3> places;
+        for (const std::size_t n : voxels) {
+            const Index3 at = map_.index(n);
+            places.push_back(grid().center_mm(at.i, at.j, at.k));
+        }
+        return places;
     }
 
     void contest(std::int64_t label, std::int64_t other, const std::vector<std::size_t>& voxels) {
-        std::vector<Vec3> places;
-        for (const std::size_t n : voxels) places.push_back(center_mm(n));
-        const std::vector<double> own = depths(functions_.at(label), places, options_.threads);
-        const std::vector<double> others = depths(functions_.at(other), places, options_.threads);
+        const std::vector<Vec3> places = centers_mm(voxels);
+        const std::vector<double> own = depths_mm(fitted_.at(label).function, places, options_.threads);
+        const std::vector<double> others = depths_mm(fitted_.at(other).function, places, options_.threads);
         for (std::size_t n = 0; n < voxels.size(); ++n)
             if (own[n] > others[n]) map_.set_label(voxels[n], label);
         contested_ += static_cast<std::int64_t>(voxels.size());
     }
 
+    /// Only where two of them are no farther away than `reach_mm`: what lies beside one alone is no gap.
+    void give_to_nearest(const std::vector<const PaintedObject*>& objects, const std::vector<std::size_t>& voxels, double reach_mm) {
+        struct Nearest {
+            std::int64_t label = 0;
+            double depth_mm = -std::numeric_limits<double>::infinity(), next_mm = depth_mm;
+        };
+        std::vector<Nearest> nearest(voxels.size());
+        for (const PaintedObject* object : objects) {
+            const Fitted& fitted = fitted_.at(object->label);
+            std::vector<std::size_t> own, which;
+            for (std::size_t n = 0; n < voxels.size(); ++n)
+                if (const Index3 at = map_.index(voxels[n]); fitted.range.contains(at) && !object->is_known(at))
+                    own.push_back(voxels[n]), which.push_back(n);
+            const std::vector<double> depths = depths_mm(fitted.function, centers_mm(own), options_.threads);
+            for (std::size_t m = 0; m < own.size(); ++m) {
+                Nearest& best = nearest[which[m]];
+                if (depths[m] > best.depth_mm) best = {object->label, depths[m], best.depth_mm};
+                else best.next_mm = std::max(best.next_mm, depths[m]);
+            }
+        }
+        for (std::size_t n = 0; n < voxels.size(); ++n) {
+            if (!(nearest[n].next_mm > -reach_mm)) continue;
+            map_.set_label(voxels[n], nearest[n].label);
+            ++closed_;
+        }
+    }
+
     FilledMap map_;
     FillOptions options_;
-    std::map<std::int64_t, ImplicitFunction> functions_;
-    std::int64_t contested_ = 0;
+    std::map<std::int64_t, Fitted> fitted_;
+    std::int64_t contested_ = 0, closed_ = 0;
 };
 
 void check(const std::map<std::int64_t, LabelBox>& boxes, const FillOptions& options) {
     check_not_below_0("the smoothing of the painted outlines", options.smoothing_voxels, " voxels");
+    check_from_0_to_1("the weight of the shape-based interpolation", options.shape_weight);
     check_threads(options.threads);
     if (boxes.empty()) throw Error(ErrorKind::invalid_input, "nothing is painted: all voxels of the label map are 0");
     for (const std::int64_t label : options.labels)
         if (!boxes.contains(label))
             throw Error(ErrorKind::invalid_input, fmt::format("the label {} is to be filled, but no voxel has it", label));
+}
+
+std::vector<PaintedObject> look(const Image& labels, const std::map<std::int64_t, LabelBox>& boxes, const FillOptions& options,
+                                const Progress& progress) {
+    const std::int64_t margin = 1 + static_cast<std::int64_t>(std::ceil(3 * options.smoothing_voxels));
+    std::vector<PaintedObject> objects;
+    for (const auto& [label, found] : boxes) {
+        progress.report("find slices", static_cast<double>(objects.size()) / static_cast<double>(boxes.size()));
+        const auto& some = options.labels;
+        if (some.empty() || std::find(some.begin(), some.end(), label) != some.end())
+            objects.push_back(painted_object(labels, label, found, margin));
+    }
+    return objects;
+}
+
+/// Calls `work`; what cannot be fitted becomes a warning.
+template <class Work>
+void or_warn(std::int64_t label, std::vector<std::string>& warnings, const Work& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::invalid_input && error.kind() != ErrorKind::singular_system)
+            throw error.with_context(fmt::format("label {}", label));
+        warnings.push_back(fmt::format("left as it was painted: {}", error.what()));
+    }
 }
 
 }  // namespace
@@ -225,34 +271,26 @@ Filling fill_labels(Image labels, const FillOptions& options, const Progress& pr
     Stopwatch watch(report.seconds);
     const std::map<std::int64_t, LabelBox> boxes = label_boxes(labels);
     check(boxes, options);
-    std::vector<PaintedObject> objects;
-    for (const auto& [label, found] : boxes) {
-        progress.report("find slices", static_cast<double>(objects.size()) / static_cast<double>(boxes.size()));
-        if (!options.labels.empty() && std::find(options.labels.begin(), options.labels.end(), label) == options.labels.end())
-            continue;
-        objects.push_back(look(labels, label, found, options));
-    }
+    const std::vector<PaintedObject> objects = look(labels, boxes, options, progress);
+    const std::vector<std::vector<std::int64_t>> touching =
+        options.jointly ? touching_labels(labels) : std::vector<std::vector<std::int64_t>>{};
     watch.lap("find slices");
 
     Filler filler(std::move(labels), options);
     for (const PaintedObject& object : objects) {
         FilledLabel& filled = report.labels.emplace_back();
-        filled.label = object.label, filled.painted_voxels = object.voxels;
-        for (std::size_t axis = 0; axis < 3; ++axis) filled.slices[axis] = static_cast<std::int64_t>(object.slices[axis].size());
-        if (!is_anything_left_out(object)) {
-            filled.warnings.push_back("no slice was left out");
-            continue;
-        }
-        try {
-            filler.add(object, progress);
-        } catch (const Error& error) {
-            if (error.kind() != ErrorKind::invalid_input && error.kind() != ErrorKind::singular_system)
-                throw error.with_context(fmt::format("label {}", object.label));
-            filled.warnings.push_back(fmt::format("left as it was painted: {}", error.what()));
-        }
+        filled.label = object.label, filled.painted_voxels = object.found.voxels;
+        for (const PaintedSlice& slice : object.slices) ++filled.slices[static_cast<std::size_t>(slice.axis)];
+        const IndexBox range = range_of(object, filler.grid(), options.ends);
+        if (is_anything_left_out(object, range)) or_warn(object.label, filled.warnings, [&] { filler.add(object, range, progress); });
+        else filled.warnings.push_back("no slice was left out");
     }
     watch.lap("fill");
+    for (const auto& set : touching) filler.close_gaps(set, progress);
+    watch.lap("close gaps");
+
     report.contested_voxels = filler.contested();
+    report.closed_voxels = filler.closed();
     Image full = filler.take();
     const std::map<std::int64_t, LabelBox> after = label_boxes(full);
     for (FilledLabel& filled : report.labels) filled.added_voxels = after.at(filled.label).voxels - filled.painted_voxels;

@@ -24,10 +24,16 @@ std::string_view name(FillEnds ends) noexcept;
 
 struct FillOptions {
     FillEnds ends = FillEnds::closed;
-    double smoothing_voxels = 0.7;                ///< of the painted outlines, see SectionContourOptions
-    std::vector<std::int64_t> labels{};           ///< only these; empty: all
-    int threads = 0;                              ///< 0: the machine's
-    std::optional<double> max_memory_mb{};        ///< as SegmentOptions'
+    /// Fit labels that touch each other also as one object, and give what that claims and none of them has to the nearest:
+    /// else gaps stay between them.
+    bool jointly = true;
+    /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where the
+    /// slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).
+    double shape_weight = 0.7;
+    double smoothing_voxels = 0.7;          ///< of the painted outlines, see SectionContourOptions
+    std::vector<std::int64_t> labels{};     ///< only these; empty: all
+    int threads = 0;                        ///< 0: the machine's
+    std::optional<double> max_memory_mb{};  ///< as SegmentOptions'
 };
 
 /// What became of one label.
@@ -42,6 +48,7 @@ struct FilledLabel {
 struct FillReport {
     std::vector<FilledLabel> labels;                      ///< in increasing order
     std::int64_t contested_voxels = 0;                    ///< claimed by more than one label
+    std::int64_t closed_voxels = 0;                       ///< between labels that touch, claimed by them together alone
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
 };
 
@@ -51,8 +58,8 @@ struct Filling {
 };
 
 /// Fills what was left out of a label map: each label was painted on some slices, across any axis of the grid or several
-/// (see find_painted_slices); between them its body is fitted to their outlines as `segment` does. What was painted stays
-/// as it is, voxel for voxel, and a slice that was painted as a whole gets nothing more. Where several labels claim a voxel,
+/// (see find_painted_slices); between them its body is fitted to their outlines as `segment` does, and between parallel ones
+/// averaged with the shape-based interpolation (see ShapeInterpolation). What was painted stays as it is, voxel for voxel, and a slice that was painted as a whole gets nothing more. Where several labels claim a voxel,
 /// it goes to the one that it lies deepest in, f / |grad f|. A label painted on one slice alone, and one of whose slices
 /// none was left out, stay as they are. Throws Error(invalid_input) for an image that is no label map (see count_labels), one
 /// without labels, a label to fill that is not in it and a smoothing below 0; Error(too_large) as `segment` does.

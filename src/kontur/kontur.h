@@ -79,6 +79,7 @@
 #include "kontur/segment.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
+#include "kontur/segment_together.h"
 
 // Judging and showing the result.
 #include "kontur/measure/compare.h"

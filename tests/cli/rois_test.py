@@ -155,3 +155,35 @@ def test_a_batch_refuses_rois_that_make_no_sense(tmp_path, structures, images, r
     result = kontur("batch", tmp_path / "cases.csv")
     assert result.returncode in (1, 65) and part in result.stdout + result.stderr
     assert "all.nii" not in names(tmp_path)
+
+
+def test_together_no_voxel_has_two_structures_that_exclude_each_other(tmp_path, structures, images):
+    apart = one_by_one(tmp_path, structures, images)
+    assert (apart["Bladder"] & apart["rectum"]).any()
+    words = ("--all-rois", "--together", "--image", images)
+    result = kontur("segment", structures, *words, "--output", tmp_path / "all.dcm", "--report", tmp_path / "all.json",
+                    "--rtstruct", tmp_path / "all_rs.dcm")
+    assert result.returncode == 0, result
+    assert "'Bladder' and 'rectum': " in result.stderr
+    masks = {}
+    for number, name in enumerate(BALLS, 1):
+        done = kontur("convert", tmp_path / "all.dcm", tmp_path / f"{name}.nii", "--label", number)
+        assert done.returncode == 0, done
+        masks[name] = read_nifti(tmp_path / f"{name}.nii") != 0
+    if "'Bladder' and 'rectum': exclusive" in result.stderr:
+        assert not (masks["Bladder"] & masks["rectum"]).any()
+    report = json.loads((tmp_path / "all.json").read_text())
+    assert [one["name"] for one in report["structures"]] == list(BALLS)  # CTV has no contours
+    assert [one["mask"]["voxels"] for one in report["structures"]] == [int(masks[name].sum()) for name in BALLS]
+    assert (masks["PTV"].sum() > 0) and pydicom.dcmread(tmp_path / "all_rs.dcm").Modality == "RTSTRUCT"
+
+
+@pytest.mark.parametrize("words, code, sentence", [
+    (("--together", "--roi", "PTV"), 65, "--together is for several ROIs"),
+    (("--all-rois", "--roi", "PTV"), 64, "--roi excludes --all-rois"),
+    (("--all-rois", "--mesh", "out.stl"), 65, "--mesh has room for one structure"),
+])
+def test_words_about_all_rois_that_make_no_sense(tmp_path, structures, images, words, code, sentence):
+    result = kontur("segment", structures, *words, "--image", images, "--output", tmp_path / "out.nii")
+    assert result.returncode == code and sentence in result.stderr and result.stderr.count("\n") == 1, result
+    assert names(tmp_path) == []

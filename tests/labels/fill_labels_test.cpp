@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "kontur/labels/label_boxes.h"
@@ -53,10 +55,12 @@ Image ball(const Grid& grid = index_grid({44, 43, 42})) {
 TEST(FillLabels, ABallComesBackFromSlicesAcrossEachAxis) {
     const Image full = ball();
     for (int axis = 0; axis < 3; ++axis) {
-        const Filling filled = fill_labels(sparse_of(full, [&](const Index3& at) { return at[axis] % 5 == 2; }));
+        const Image sparse = sparse_of(full, [&](const Index3& at) { return at[axis] % 5 == 2; });
+        const Filling filled = fill_labels(sparse);
         ASSERT_EQ(filled.report.labels.size(), 1U);
         EXPECT_EQ(filled.report.labels[0].slices[static_cast<std::size_t>(axis)], axis == 0 ? 7 : 6);
-        EXPECT_GT(dice(filled.labels, full, 3, axis), 0.985) << axis;
+        EXPECT_GT(dice(filled.labels, full, 3, axis), 0.975) << axis;
+        EXPECT_GT(dice(fill_labels(sparse, {.shape_weight = 0}).labels, full, 3, axis), 0.985) << axis;
     }
 }
 
@@ -79,7 +83,7 @@ TEST(FillLabels, EndsGoAsFarAsAsked) {
     EXPECT_LT(half.first, 8);
     EXPECT_LE(open.first, half.first);
     EXPECT_GE(open.second, half.second);
-    EXPECT_GT(dice(fill_labels(sparse, {.ends = FillEnds::open}).labels, full, 3), 0.98);
+    EXPECT_GT(dice(fill_labels(sparse, {.ends = FillEnds::open}).labels, full, 3), 0.97);
 }
 
 TEST(FillLabels, SingleSlicesOfThreeDirectionsMakeABody) {
@@ -128,6 +132,53 @@ TEST(FillLabels, TheReportCountsWhatTheMapHolds) {
     }
 }
 
+/// Three sectors of a slanted tube, which meet in its middle.
+Image sectors(const Grid& grid) {
+    return label_map(grid, [](const Index3& at) {
+        const double x = double(at.i) - 22 - 0.35 * (double(at.k) - 20), y = double(at.j) - 21;
+        if (std::hypot(x, y) > 15) return 0;
+        const double angle = std::atan2(y, x) + 0.03 * double(at.k);
+        return 1 + static_cast<int>(std::floor(3 * (angle + 9 * std::numbers::pi) / (2 * std::numbers::pi))) % 3;
+    });
+}
+
+/// Voxels of `full` that share a face with another label there.
+std::vector<std::size_t> shared_borders(const Image& full) {
+    const Index3& size = full.grid.size;
+    std::vector<std::size_t> found;
+    for (std::int64_t k = 0; k < size.k; ++k)
+        for (std::int64_t j = 1; j + 1 < size.j; ++j)
+            for (std::int64_t i = 1; i + 1 < size.i; ++i) {
+                const std::size_t n = full.grid.offset(i, j, k);
+                const int own = bytes_of_labels(full)[n];
+                if (own == 0) continue;
+                for (const std::size_t m : {n - 1, n + 1, n - static_cast<std::size_t>(size.i), n + static_cast<std::size_t>(size.i)})
+                    if (bytes_of_labels(full)[m] != own && bytes_of_labels(full)[m] != 0) {
+                        found.push_back(n);
+                        break;
+                    }
+            }
+    return found;
+}
+
+TEST(FillLabels, TouchingLabelsLeaveNoGapsBetweenThem) {
+    const Image full = sectors(index_grid({50, 43, 41}));
+    const Image sparse = sparse_of(full, [](const Index3& at) { return at.k % 8 == 0; });
+    const auto borders = shared_borders(full);
+    const auto count = [&](const Image& filled, const auto& holds) {
+        return std::count_if(borders.begin(), borders.end(), [&](std::size_t n) { return holds(bytes_of_labels(filled)[n], bytes_of_labels(full)[n]); });
+    };
+    const Filling alone = fill_labels(sparse, {.jointly = false}), together = fill_labels(sparse);
+    const auto is_gap = [](int label, int) { return label == 0; };
+    const auto is_wrong = [](int label, int truth) { return label != truth; };
+    EXPECT_GT(count(alone.labels, is_gap), 20);
+    EXPECT_LE(count(together.labels, is_gap), count(alone.labels, is_gap) / 5);
+    EXPECT_LT(count(together.labels, is_wrong), count(alone.labels, is_wrong));
+    EXPECT_GT(together.report.closed_voxels, 0);
+    EXPECT_EQ(alone.report.closed_voxels, 0);
+    for (const int label : {1, 2, 3}) EXPECT_GT(dice(together.labels, full, label), dice(alone.labels, full, label) - 0.001);
+}
+
 TEST(FillLabels, OnlyChosenLabelsAreFilled) {
     const Image sparse = sparse_of(organs(index_grid({44, 43, 42})), [](const Index3& at) { return at.k % 4 == 0; });
     const auto before = count_labels(sparse), after = count_labels(fill_labels(sparse, {.labels = {2}}).labels);
@@ -165,6 +216,7 @@ TEST(FillLabels, KeepsTheSampleType) {
 TEST(FillLabels, RefusesWhatCannotBeFilled) {
     const Image map = ball();
     EXPECT_KONTUR_ERROR(fill_labels(map, {.labels = {3, 9}}), ErrorKind::invalid_input, "the label 9 is to be filled, but no voxel has it");
+    EXPECT_KONTUR_ERROR(fill_labels(map, {.shape_weight = 1.5}), ErrorKind::invalid_input, "shape-based interpolation is 1.5");
     EXPECT_KONTUR_ERROR(fill_labels(map, {.smoothing_voxels = -1}), ErrorKind::invalid_input, "smoothing of the painted outlines");
     EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<float>{0, 0.5F}}), ErrorKind::invalid_input, "no label map");
     EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<std::uint8_t>{0, 0}}), ErrorKind::invalid_input, "nothing is painted");

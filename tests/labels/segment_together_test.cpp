@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/segment_together.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "kontur/labels/union_contours.h"
+#include "support/expect_error.h"
+#include "support/label_maps.h"
+
+namespace kontur {
+namespace {
+
+/// A sector of a circle in a plane of constant z, its sides drawn `gap` mm off the true ones.
+Contour sector(double z, double begin, double end, double radius, double gap) {
+    Contour contour;
+    contour.plane = {{0, 0, z}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    const double middle = (begin + end) / 2;
+    const Vec3 corner = gap / std::sin((end - begin) / 2) * Vec3{std::cos(middle), std::sin(middle), 0} + Vec3{0, 0, z};
+    const double turn = std::asin(gap / radius);
+    constexpr int kSteps = 30;
+    const auto rim = [&](double angle) { return Vec3{radius * std::cos(angle), radius * std::sin(angle), z}; };
+    for (int n = 0; n < kSteps; ++n) contour.points.push_back(corner + (n / double(kSteps)) * (rim(begin + turn) - corner));
+    for (int n = 0; n <= kSteps; ++n) contour.points.push_back(rim(std::lerp(begin + turn, end - turn, n / double(kSteps))));
+    for (int n = 1; n < kSteps; ++n) contour.points.push_back(rim(end - turn) + (n / double(kSteps)) * (corner - rim(end - turn)));
+    return contour;
+}
+
+/// Three sectors of a barrel along z that turn with the height.
+std::vector<ContourSet> sectors(double gap) {
+    std::vector<ContourSet> sets(3);
+    for (int s = 0; s < 3; ++s)
+        for (double z = -24; z <= 24; z += 8) {
+            const double begin = s * 2 * std::numbers::pi / 3 + 0.02 * z;
+            sets[static_cast<std::size_t>(s)].contours.push_back(
+                sector(z, begin, begin + 2 * std::numbers::pi / 3, 18 - 0.005 * z * z, gap));
+        }
+    return sets;
+}
+
+Grid grid_here() {
+    Grid grid = test::index_grid({44, 44, 49});
+    grid.index_to_mm.translation = {-21.5, -21.5, -24};
+    return grid;
+}
+
+/// Voxels in the barrel, 2 mm within its wall, by how many structures they belong to.
+std::array<std::int64_t, 3> counts(const std::vector<Segmentation>& structures, double step_z) {
+    const Grid grid = grid_here();
+    std::array<std::int64_t, 3> found{};
+    for (std::int64_t k = 0; k < grid.size.k; ++k)
+        for (std::int64_t j = 0; j < grid.size.j; ++j)
+            for (std::int64_t i = 0; i < grid.size.i; ++i) {
+                const Vec3 p = grid.center_mm(i, j, k);
+                if (std::hypot(p.x, p.y) > 16 - 0.005 * p.z * p.z || std::fmod(std::abs(p.z), step_z) != 0) continue;
+                std::size_t owners = 0;
+                for (const Segmentation& one : structures) owners += one.mask.values[grid.offset(i, j, k)];
+                ++found[std::min<std::size_t>(owners, 2)];
+            }
+    return found;
+}
+
+TEST(SegmentTogether, MakesAPartition) {
+    for (const double gap : {0.05, 0.4}) {
+        const auto sets = sectors(gap);
+        std::vector<Segmentation> alone;
+        for (const ContourSet& set : sets) alone.push_back(segment(set, grid_here()));
+        const Together together = segment_together(sets, grid_here());
+        const auto before = counts(alone, 1), after = counts(together.structures, 1), drawn = counts(together.structures, 8);
+        EXPECT_GT(before[0] + before[2], 100) << gap;
+        EXPECT_EQ(after[2], 0) << gap;
+        EXPECT_LE(after[0], before[0] / 5) << gap;
+        EXPECT_EQ(drawn[0], 0) << "in drawn slices, " << gap;
+        ASSERT_EQ(together.pairs.size(), 3U);
+        for (const StructurePair& pair : together.pairs) EXPECT_EQ(pair.relation, Relation::exclusive);
+    }
+}
+
+ContourSet ball(const Vec3& center, double radius) {
+    ContourSet set;
+    for (double z = -radius + 3; z < radius; z += 4) {
+        Contour contour;
+        contour.plane = {center + Vec3{0, 0, z}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+        const double r = std::sqrt(radius * radius - z * z);
+        for (int n = 0; n < 48; ++n)
+            contour.points.push_back(contour.plane.from_uv(r * std::cos(n * std::numbers::pi / 24), r * std::sin(n * std::numbers::pi / 24)));
+        set.contours.push_back(contour);
+    }
+    return set;
+}
+
+TEST(SegmentTogether, OneInsideAnotherAndTwoThatOverlapKeepTheirVoxels) {
+    const std::vector<ContourSet> nested{ball({0, 0, 0}, 17), ball({4, 0, 0}, 6)};
+    const Together inside = segment_together(nested, grid_here());
+    ASSERT_EQ(inside.pairs.size(), 1U);
+    EXPECT_EQ(inside.pairs[0].relation, Relation::inside);
+    for (std::size_t n = 0; n < 2; ++n)
+        EXPECT_EQ(inside.structures[n].mask.values, segment(nested[n], grid_here()).mask.values);
+    const std::vector<ContourSet> crossing{ball({-4, 0, 0}, 12), ball({4, 0, 0}, 12)};
+    EXPECT_EQ(segment_together(crossing, grid_here()).pairs.at(0).relation, Relation::overlap);
+    const Together parted = segment_together(crossing, grid_here(), {.segment = {}, .rules = {{1, 0, Relation::exclusive, 0}}});
+    EXPECT_EQ(parted.pairs.at(0).relation, Relation::exclusive);
+    EXPECT_GT(parted.contested_voxels, 1000);
+    // By symmetry the border is the plane x = 0.
+    const Grid grid = grid_here();
+    for (std::int64_t k = 10; k < 39; ++k)
+        for (std::int64_t j = 0; j < 44; ++j)
+            for (std::int64_t i = 0; i < 44; ++i) {
+                const std::size_t n = grid.offset(i, j, k);
+                ASSERT_FALSE(parted.structures[0].mask.values[n] && parted.structures[1].mask.values[n]);
+                ASSERT_FALSE(grid.center_mm(i, j, k).x > 1 && parted.structures[0].mask.values[n]);
+            }
+}
+
+TEST(SegmentTogether, SameBytesForAnyNumberOfThreads) {
+    const auto sets = sectors(0.2);
+    const Together one = segment_together(sets, grid_here(), {.segment = {.threads = 1}});
+    const Together three = segment_together(sets, grid_here(), {.segment = {.threads = 3}});
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(one.structures[n].mask.values, three.structures[n].mask.values);
+}
+
+TEST(SegmentTogether, RefusesRulesAboutStructuresThatAreNotThere) {
+    const std::vector<ContourSet> one{ball({0, 0, 0}, 10)};
+    EXPECT_KONTUR_ERROR(segment_together(one, grid_here(), {.segment = {}, .rules = {{0, 1, Relation::overlap, 0}}}),
+                        ErrorKind::invalid_input, "the structures 0 and 1; there are 1");
+}
+
+TEST(UnionContours, OfTwoHalvesIsTheWhole) {
+    const auto sets = sectors(0.2);
+    const std::array<const ContourSet*, 3> structures{&sets[0], &sets[1], &sets[2]};
+    const ContourSet outline = union_contours(structures, {.step_mm = 0.5, .close_mm = 1});
+    ASSERT_EQ(outline.contours.size(), 7U);
+    for (const Contour& contour : outline.contours)
+        for (const Vec3& p : contour.points) EXPECT_NEAR(std::hypot(p.x, p.y), 18 - 0.005 * p.z * p.z, 0.75);
+}
+
+TEST(UnionContours, LeavesOutPlanesThatShowSomeOnly) {
+    auto sets = sectors(0.2);
+    sets[1].contours.erase(sets[1].contours.begin() + 3);
+    sets[2].contours.pop_back();  // at its end, beyond which it does not reach
+    const std::array<const ContourSet*, 3> structures{&sets[0], &sets[1], &sets[2]};
+    EXPECT_EQ(union_contours(structures).contours.size() > 0, true);
+    for (const Contour& contour : union_contours(structures).contours) EXPECT_NE(contour.plane.origin.z, 0);
+}
+
+}  // namespace
+}  // namespace kontur

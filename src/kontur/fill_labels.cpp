@@ -107,7 +107,7 @@ public:
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
             if (map_.label(n) == 0 && !all.is_known(at)) gaps.push_back(n);
         });
-        give_to_nearest(objects, gaps, largest_gap_mm(all) / 4);
+        give_to_nearest(objects, gaps, largest_gap_mm(all) / 2);
     }
 
     std::int64_t contested() const { return contested_; }

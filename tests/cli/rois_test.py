@@ -182,6 +182,7 @@ def test_together_no_voxel_has_two_structures_that_exclude_each_other(tmp_path, 
     (("--together", "--roi", "PTV"), 65, "--together is for several ROIs"),
     (("--all-rois", "--roi", "PTV"), 64, "--roi excludes --all-rois"),
     (("--all-rois", "--mesh", "out.stl"), 65, "--mesh has room for one structure"),
+    (("--all-rois", "--together", "--use-image", "auto"), 65, "--together does not ask the image yet"),
 ])
 def test_words_about_all_rois_that_make_no_sense(tmp_path, structures, images, words, code, sentence):
     result = kontur("segment", structures, *words, "--image", images, "--output", tmp_path / "out.nii")

@@ -141,10 +141,12 @@ describe("the page", () => {
     assert.deepEqual(await contoursNow(), edited);
   });
 
-  test("copies a contour to the next slice, deletes it, and undoes that", async () => {
+  test("accepts what is proposed on the next slice, deletes it, and undoes that", async () => {
     const { page } = viewer;
     await page.locator(".contour-row[data-kind=freehand]").click();
     await page.keyboard.press("c");
+    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
+    await page.keyboard.press("Enter");
     await viewer.waitForContours(4);
     await page.waitForSelector(".contour-row.selected");
     await page.keyboard.press("Delete");

@@ -88,7 +88,8 @@ void add_option(Case& one, const OptionName& option, const std::string& value) {
     if (values.empty()) refuse(fmt::format("the cell below '{}' names none", option.name));
     for (const std::string& word : values) one.options.push_back(fmt::format("--{}={}", option.name, word));
     if (option.name == "image") one.inputs.emplace_back(value);
-    if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "report"})) one.outputs.emplace_back(value);
+    if (is_one_of(option.name, {"output", "rtstruct", "mesh", "picture", "uncertainty", "report"}))
+        one.outputs.emplace_back(value);
     if (option.name == "output") one.output = value;
     if (option.name == "report") one.report = value;
     one.has_threads |= option.name == "threads";

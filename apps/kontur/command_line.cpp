@@ -206,6 +206,8 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--rtstruct", c.rtstruct, "FILE", "Contours on the slices of a DICOM --image to write, as RTSTRUCT: .dcm");
     bind.option("--mesh", c.mesh, "FILE", "Surface to write: .stl, .ply, .obj, .vtk or .vtp, LPS mm");
     bind.option("--picture", c.picture, "FILE", "Picture to write: .png");
+    bind.option("--uncertainty", c.uncertainty, "FILE",
+                "Half width in mm of the 90 % band to write, for 3 planes and more: .ply, or an image at the mask's border");
     bind.option("--report", c.report, "FILE", "Report to write: .json");
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
@@ -316,6 +318,30 @@ void add_fill(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+void add_suggest(CLI::App& app, Invocation& invocation) {
+    constexpr int kMostPlanes = 1000;
+    Binder<SuggestCommand> bind(app, invocation, "suggest", "Planes in which to draw next, and how sure the surface is",
+                                "kontur suggest contours.json --image ct.nii.gz --planes 3 --output planes.json");
+    SuggestCommand& c = *bind.command;
+    bind.word("CONTOURS", c.contours,
+              "Contours of one object: .json, .mrk.json, .vtk, .vtp or RTSTRUCT; several files are merged");
+    CLI::Option* image = bind.option("--image", c.image.path, "FILE", "Image or DICOM folder that was drawn on");
+    bind.defaulted("--planes", c.planes, "N", "How many")->check(CLI::Range(1, kMostPlanes));
+    add_choice<PlaneChoice>(*bind.sub, "--among", c.among,
+                            {{"any", PlaneChoice::any}, {"image-slices", PlaneChoice::image_slices}},
+                            "Planes of any direction, or only slices across the axes of the image");
+    bind.option("-o,--output", c.output, "FILE", "Planes to write, for --planes of trace: .json");
+    bind.option("--sketch", c.sketch, "FILE", "Contours to write: the outlines predicted in the planes: .json");
+    bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
+    bind.flag("--json", c.json, "Print JSON");
+    add_segment_method(*bind.sub, c.options);
+    add_read_options(*bind.sub, c.image.options);
+    add_series_options(*bind.sub, c.image.options.dicom);
+    for (const char* name : {"--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
+        bind.sub->get_option(name)->needs(image);
+    bind.quiet();
+}
+
 void add_compare(CLI::App& app, Invocation& invocation) {
     Binder<CompareCommand> bind(app, invocation, "compare",
                                 "Overlap, surface distances in mm and volumes in ml of two masks",
@@ -418,6 +444,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_batch(app, invocation);
     add_trace(app, invocation);
     add_fill(app, invocation);
+    add_suggest(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);
     add_convert(app, invocation);

@@ -17,6 +17,7 @@
 #include "kontur/io/rtstruct.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/phantom.h"
+#include "kontur/refine/candidate_planes.h"
 #include "kontur/segment.h"
 #include "viewer/server_options.h"
 
@@ -37,6 +38,7 @@ struct SegmentCommand {
     double margin_mm = 10;           ///< around the contours' box, with `spacing_mm`
     std::filesystem::path output;
     std::filesystem::path rtstruct, mesh, picture, report;  ///< empty: not asked for
+    std::filesystem::path uncertainty;                      ///< half widths of the band, as image or .ply; likewise
     WriteMaskOptions mask;
     std::string name;                   ///< of the structure; empty: the contour file's
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
@@ -98,6 +100,19 @@ struct FillCommand {
     FillOptions options;
 };
 void run(const FillCommand& command, Console& console);
+
+/// Where to draw next.
+struct SuggestCommand {
+    std::vector<std::filesystem::path> contours;
+    ReadContoursOptions read;
+    ImageInput image;  ///< its path is empty when there is none
+    int planes = 1;    ///< how many
+    PlaneChoice among = PlaneChoice::any;
+    std::filesystem::path output, sketch;  ///< planes; predicted outlines in them; empty: not asked for
+    bool json = false;
+    SegmentOptions options;
+};
+void run(const SuggestCommand& command, Console& console);
 
 /// A synthetic CT with exact truth masks and contours drawn on them.
 struct PhantomCommand {

@@ -18,6 +18,8 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/png.h"
+#include "kontur/refine/surface_uncertainty.h"
+#include "kontur/refine/uncertainty_map.h"
 #include "kontur/report.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
@@ -39,7 +41,9 @@ void check_files(const SegmentCommand& command) {
     check_dicom_images(command.rtstruct, command.image.path);
     std::vector<fs::path> inputs = command.contours;
     inputs.push_back(command.image.path);
-    check_outputs(std::array{command.output, command.rtstruct, command.mesh, command.picture, command.report}, inputs);
+    check_outputs(
+        std::array{command.output, command.rtstruct, command.mesh, command.picture, command.uncertainty, command.report},
+        inputs);
 }
 
 struct Inputs {
@@ -109,6 +113,26 @@ void write_structure_set(const fs::path& path, const SegmentCommand& command, co
         result.report.warnings.push_back(std::move(note));
 }
 
+bool is_mesh_name(const fs::path& path) { return output_kind(path) == FileKind::mesh; }
+
+/// Before any work is done.
+void check_planes_suffice(const SegmentCommand& command, const ContourSet& contours) {
+    const std::size_t count = DrawnLines(contours).planes().size();
+    if (!command.uncertainty.empty() && count < kLeastPlanes)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("--uncertainty: contours lie in {} different plane{}; of fewer than {} nothing is known",
+                                count, count == 1 ? "" : "s", kLeastPlanes));
+}
+
+void write_uncertainty(const fs::path& path, const SegmentCommand& command, const Inputs& inputs, const Segmentation& result,
+                       const Provenance& made) {
+    const SurfaceEvidence evidence = gather_evidence(result, inputs.contours, command.options.threads);
+    if (is_mesh_name(path))
+        write_mesh(path, *result.mesh,
+                   {"half_width_mm", half_widths_mm(evidence, result.mesh->points, command.options.threads)}, made);
+    else write_image(path, uncertainty_map(result.mask, evidence, command.options.threads), {{}, made});
+}
+
 /// Measures consecutive stages into a report's `seconds`.
 class Laps {
 public:
@@ -137,11 +161,13 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
         text += fmt::format("{}: {} triangles, {}\n", command.mesh.string(), result.mesh->triangles.size(),
                             in_ml(signed_volume_mm3(*result.mesh) / 1000));
     if (!command.picture.empty()) text += command.picture.string() + "\n";
-    if (!command.report.empty()) text += command.report.string() + "\n";
+    for (const fs::path& path : {command.uncertainty, command.report})
+        if (!path.empty()) text += path.string() + "\n";
     text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,
                         r.points, r.centres, r.residual.max_mm, r.residual.rms_mm);
     if (!r.crossings.empty()) text += crossings_line(r.crossings);
     if (r.image.use != ImageUse::none) text += sentence(r.image) + "\n";
+    text += sentence(r.uncertainty) + "\n";
     console.print(text + fmt::format("{:.2f} s, {:.0f} MB\n", seconds, peak_memory_mb()));
 }
 
@@ -155,6 +181,10 @@ void check_words(const SegmentCommand& command) {
         for (const fs::path& path : {command.output, command.rtstruct}) check_dicom_images(path, {});
     if (!command.mesh.empty()) check_output_kind(command.mesh, FileKind::mesh);
     if (!command.picture.empty()) check_extension(command.picture, ".png");
+    if (!command.uncertainty.empty()) {
+        if (is_mesh_name(command.uncertainty)) check_extension(command.uncertainty, ".ply");
+        else check_image_name(command.uncertainty);
+    }
     if (!command.report.empty()) check_extension(command.report, ".json");
 
     if (command.image.path.empty() && command.spacing_mm.empty())
@@ -184,8 +214,11 @@ void run(const SegmentCommand& words, Console& console) {
     const double read_seconds = laps.lap();
 
     SegmentOptions options = command.options;
-    options.mesh = !command.mesh.empty() || !command.picture.empty();
-    Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, progress);
+    check_planes_suffice(command, inputs.contours);
+    const bool draws_band = !command.uncertainty.empty() && is_mesh_name(command.uncertainty);
+    options.mesh = !command.mesh.empty() || !command.picture.empty() || draws_band;
+    Segmentation result =
+        segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, progress);
     SegmentReport& report = result.report;
     report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
     report.seconds.insert(report.seconds.begin(), {"read", read_seconds});
@@ -211,6 +244,8 @@ void run(const SegmentCommand& words, Console& console) {
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
     write(command.picture,
           [&](const fs::path& path) { write_png(path, picture(command, inputs, result), mask.provenance); });
+    write(command.uncertainty,
+          [&](const fs::path& path) { write_uncertainty(path, command, inputs, result, mask.provenance); });
     report.seconds.emplace_back("write", laps.lap());
     write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json(report, mask.provenance)); });
     outputs.commit();

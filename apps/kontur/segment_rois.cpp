@@ -267,6 +267,7 @@ void check_roi_words(const SegmentCommand& command) {
     };
     if (!command.mesh.empty()) refuse_one("--mesh");
     if (!command.picture.empty()) refuse_one("--picture");
+    if (!command.uncertainty.empty()) refuse_one("--uncertainty");
     if (!command.name.empty()) refuse_one("--name");
     if (command.mask.label_value != WriteMaskOptions{}.label_value)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");

@@ -80,6 +80,19 @@ json to_json(const std::vector<Vec3>& points) {
     return array;
 }
 
+json to_json(const ExpectedDice& dice) { return {{"value", dice.value}, {"low", dice.low}, {"high", dice.high}}; }
+
+json to_json(const SurfaceUncertainty& u) {
+    json told{{"known", u.is_known}, {"planes", u.planes}, {"text", sentence(u)}};
+    if (!u.is_known) return told;
+    told["expected_dice"] = to_json(u.dice);
+    told["planes_to_dice"] = {{"0.95", u.planes_to_95}, {"0.98", u.planes_to_98}};
+    told["volume_ml"] = {{"low", u.volume_low_ml}, {"high", u.volume_high_ml}};
+    told["half_width_mm"] = {{"median", u.half_width_median_mm}, {"p90", u.half_width_p90_mm}};
+    told["farthest"] = {{"at", to_json(u.farthest_position)}, {"distance_mm", u.farthest_mm}};
+    return told;
+}
+
 json to_json(const Plane& plane) {
     return {{"origin", to_json(plane.origin)},
             {"u", to_json(plane.u)},

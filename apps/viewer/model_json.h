@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "kontur/refine/surface_uncertainty.h"
 #include "viewer/model.h"
 
 // The model as JSON, the same in project files and in messages to the page (docs/viewer-protocol.md). Reading refuses what
@@ -35,6 +36,8 @@ nlohmann::json parsed(std::string_view text);
 nlohmann::json to_json(const Vec3& v);
 nlohmann::json to_json(const std::vector<Vec3>& points);
 nlohmann::json to_json(const Plane& plane);
+nlohmann::json to_json(const ExpectedDice& dice);
+nlohmann::json to_json(const SurfaceUncertainty& uncertainty);
 nlohmann::json to_json(const Structure& structure);
 nlohmann::json to_json(const ControlPoint& point);
 nlohmann::json to_json(const DrawnContour& contour);

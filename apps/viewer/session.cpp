@@ -9,6 +9,7 @@
 #include <set>
 
 #include "kontur/base/error.h"
+#include "kontur/refine/surface_uncertainty.h"
 #include "viewer/contour_edits.h"
 #include "viewer/model_json.h"
 
@@ -304,6 +305,7 @@ json Session::surface_event(const Surface& surface) const {
                          {"rms_mm", surface.residual.rms_mm},
                          {"contour", surface.worst_contour},
                          {"at", to_json(surface.worst_at)}};
+    event["uncertainty"] = to_json(surface_uncertainty(evidence_of(surface)));
     return event;
 }
 
@@ -355,6 +357,7 @@ const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
     static const std::map<std::string, Call, std::less<>> table{
         {"path", {&Session::path, false}},
         {"outline", {&Session::outline_of, false}},
+        {"suggest", {&Session::suggest, false}},
         {"contour.add", {&Session::add_contour}},
         {"contour.move_point", {&Session::move_control_point}},
         {"contour.insert_point", {&Session::insert_control_point}},

@@ -115,6 +115,7 @@ private:
 
     nlohmann::json path(const Members& m);
     nlohmann::json outline_of(const Members& m);
+    nlohmann::json suggest(const Members& m);
     nlohmann::json add_contour(const Members& m);
     nlohmann::json move_control_point(const Members& m);
     nlohmann::json insert_control_point(const Members& m);
@@ -153,6 +154,7 @@ private:
     std::string unit() const;
     nlohmann::json page_state();
     nlohmann::json surface_event(const Surface& surface) const;
+    SurfaceEvidence evidence_of(const Surface& surface) const;
     void tell(const nlohmann::json& event);
     void watch(WatchedPlane plane);
     void tell_outlines(Id structure, std::int64_t revision, const PlaneCutter& cut);

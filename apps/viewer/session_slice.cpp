@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/refine/surface_uncertainty.h"
 #include "kontur/view/outline.h"
 #include "kontur/view/reslice.h"
 #include "viewer/binary_reply.h"
@@ -241,6 +242,11 @@ std::string Session::mesh(Id structure) {
         {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}});
     reply.add<float>("positions", floats(mesh.points));
     reply.add<float>("normals", floats(mesh.normals));
+    if (surface.evidence && surface.stage == SurfaceStage::refined) {
+        const std::vector<double> widths = half_widths_mm(evidence_of(surface), mesh.points);
+        const std::vector<float> narrow(widths.begin(), widths.end());
+        reply.add<float>("half_widths_mm", narrow);
+    }
     reply.add("triangles",
               std::span(reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), 3 * mesh.triangles.size()));
     return reply.bytes();

@@ -24,10 +24,10 @@ Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
 }
 
 /// Places where contours disagree by more than careful hands do, in large organs more than in small ones.
-std::vector<Conflict> conflicts(const SurfaceTask& task) {
+std::vector<Conflict> conflicts(const SurfaceTask& task, const std::vector<Crossing>& crossings) {
     const double least_mm = std::max(1.0, 0.015 * diameter_mm(task.set));
     std::vector<Conflict> found;
-    for (const Crossing& crossing : find_crossings(task.set))
+    for (const Crossing& crossing : crossings)
         if (crossing.disagreement_mm >= least_mm)
             found.push_back({task.ids[crossing.contour], task.ids[crossing.other],
                              0.5 * (crossing.position + crossing.other_position), crossing.disagreement_mm});
@@ -56,7 +56,7 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     if (update.surface.mesh.triangles.empty()) {
         if (!update.surface.refined || task.set.contours.empty()) return surface;
         surface.warnings.push_back("These contours give no surface: where they contradict each other, none is followed.");
-        surface.conflicts = conflicts(task);
+        surface.conflicts = conflicts(task, find_crossings(task.set));
         return surface;
     }
     surface.stage = update.surface.refined ? SurfaceStage::refined : SurfaceStage::preview;
@@ -66,7 +66,14 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     surface.residual = update.surface.residual;
     surface.worst_contour = task.ids[surface.residual.worst_contour];
     surface.worst_at = worst_point(task.set.contours[surface.residual.worst_contour], update.surface.function);
-    surface.conflicts = conflicts(task);
+    const std::vector<Crossing> crossings = find_crossings(task.set);
+    surface.conflicts = conflicts(task, crossings);
+    surface.evidence = std::make_shared<const SurfaceEvidence>(
+        gather_evidence(sample_surface(*surface.mesh, update.surface.function), task.set,
+                        {.volume_mm3 = 1000 * surface.volume_ml,
+                         .residual_mm = surface.residual.rms_mm,
+                         .disagreement_mm = trusted_disagreement_mm(disagreement(crossings))}));
+    surface.drawn = std::make_shared<const ContourSet>(task.set);
     return surface;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kontur/live_editor.h"
+#include "kontur/refine/surface_evidence.h"
 #include "viewer/model.h"
 
 namespace kontur::viewer {
@@ -44,6 +45,8 @@ struct Surface {
     Residual residual;
     Id worst_contour = 0;  ///< where the residual is largest
     Vec3 worst_at;
+    std::shared_ptr<const SurfaceEvidence> evidence;  ///< how sure it is, without the image's part in that
+    std::shared_ptr<const ContourSet> drawn;          ///< what it was made from
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.

@@ -55,8 +55,10 @@ PYBIND11_MODULE(_core, m) {
     bind_constraints(m);
     bind_fitting(m);
     bind_extraction(m);
+    bind_uncertainty_types(m);
     bind_segment(m);
     bind_labels(m);
+    bind_uncertainty(m);
     bind_editor(m);
     bind_measures(m);
     bind_findings(m);

@@ -137,6 +137,7 @@ void bind_report(py::module_& m) {
         .field("mask_voxels", &Report::mask_voxels, "int")
         .field("mask_volume_ml", &Report::mask_volume_ml, "float")
         .field("mask_components", &Report::mask_components, "int: face-connected.")
+        .field("uncertainty", &Report::uncertainty, "SurfaceUncertainty: what the contours say of the surface's error.")
         .field("estimated_memory_mb", &Report::estimated_memory_mb, "float: before the fit, of the whole process.")
         .field("warnings", &Report::warnings, "list of str: choices made for you and doubts, one sentence each.")
         .stored("seconds", &Report::seconds)
@@ -165,11 +166,15 @@ void bind_segmentation(py::module_& m) {
     });
     type.def(py::pickle(
         [](const py::object& self) {
-            return py::make_tuple(self.attr("mask"), self.attr("function"), self.attr("mesh"), self.attr("report"));
+            const auto& samples = self.cast<const Segmentation&>().samples;
+            return py::make_tuple(self.attr("mask"), self.attr("function"), self.attr("mesh"), self.attr("report"),
+                                  samples.points, samples.areas_mm2, samples.slopes);
         },
         [](const py::tuple& state) {
             return Segmentation{state[0].cast<Mask>(), state[1].cast<ImplicitFunction>(),
-                                state[2].cast<std::optional<TriangleMesh>>(), state[3].cast<SegmentReport>()};
+                                state[2].cast<std::optional<TriangleMesh>>(), state[3].cast<SegmentReport>(),
+                                SurfaceSamples{state[4].cast<std::vector<Vec3>>(), state[5].cast<std::vector<double>>(),
+                                               state[6].cast<std::vector<double>>()}};
         }));
 }
 

@@ -133,6 +133,14 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     return report;
 }
 
+EvidenceFacts evidence_facts(const SegmentReport& report, const Grid& grid) {
+    const Vec3 spacing = grid.spacing_mm();
+    return {.volume_mm3 = 1000 * report.mask_volume_ml,
+            .voxel_mm = std::min({spacing.x, spacing.y, spacing.z}),
+            .residual_mm = report.residual.rms_mm,
+            .disagreement_mm = trusted_disagreement_mm(disagreement(report.crossings))};
+}
+
 Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report) {
     return {
         {"contours_sha256", contours_sha256(contours)},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kontur/extract/track.h"
+#include "kontur/refine/surface_evidence.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/volume.h"
 #include "kontur/stages.h"
@@ -21,5 +22,8 @@ struct StageResults {
 
 /// The report of a run, with a sentence on each choice and doubt; `seconds` and `estimated_memory_mb` are left to `segment`.
 SegmentReport describe(const StageResults& results, const SegmentOptions& options);
+
+/// What the report says of the drawing's own error.
+EvidenceFacts evidence_facts(const SegmentReport& report, const Grid& grid);
 
 }  // namespace kontur

@@ -64,6 +64,18 @@ Facts image_json(const SegmentReport& report) {
             {"on_contours_mm", image.on_contours_mm}};
 }
 
+Facts uncertainty_json(const SurfaceUncertainty& u) {
+    if (!u.is_known) return {{"planes", u.planes}, {"known", false}};
+    return {{"planes", u.planes},
+            {"known", true},
+            {"expected_dice", {{"value", u.dice.value}, {"low", u.dice.low}, {"high", u.dice.high}}},
+            {"planes_to_dice", {{"0.95", u.planes_to_95}, {"0.98", u.planes_to_98}}},
+            {"half_width_mm", {{"median", u.half_width_median_mm}, {"p90", u.half_width_p90_mm}}},
+            {"volume_ml", {{"value", u.volume_ml}, {"low", u.volume_low_ml}, {"high", u.volume_high_ml}}},
+            {"farthest_from_contours_mm", u.farthest_mm},
+            {"farthest_position_mm", triple(u.farthest_position)}};
+}
+
 Facts report_json(const SegmentReport& report, const Provenance& made) {
     return {
         {"version", KONTUR_VERSION},
@@ -96,6 +108,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"peak_memory_mb", peak_memory_mb()},
         {"estimated_memory_mb", report.estimated_memory_mb},
         {"mask", mask_json(report)},
+        {"uncertainty", uncertainty_json(report.uncertainty)},
         {"warnings", report.warnings},
     };
 }

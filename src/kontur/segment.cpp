@@ -38,7 +38,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
     const FindSurfaceOptions finding{options.voxelizer, options.threads};
     const SurfaceLattice surface = find_surface(fitted.function, grid, starts, finding, progress);
-    Segmentation result{fill(surface, options.threads), fitted.function, {}, {}};
+    Segmentation result{fill(surface, options.threads), fitted.function, {}, {}, {}};
     watch.lap("voxelize");
 
     if (options.mesh) {
@@ -48,10 +48,16 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     }
 
     result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask}, options);
+    result.samples = sample_surface(surface, fitted.function, kSurfaceSamples, options.threads);
+    result.report.uncertainty = surface_uncertainty(gather_evidence(result, drawing.contours, options.threads));
     watch.lap("measure");
     result.report.estimated_memory_mb = memory_mb;
     result.report.seconds = std::move(seconds);
     return result;
+}
+
+SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, int threads) {
+    return gather_evidence(made.samples, contours, evidence_facts(made.report, made.mask.grid), threads);
 }
 
 }  // namespace kontur

@@ -5,6 +5,7 @@
 
 #include "kontur/base/progress.h"
 #include "kontur/function/implicit_function.h"
+#include "kontur/refine/surface_evidence.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/contour.h"
@@ -13,12 +14,13 @@
 
 namespace kontur {
 
-/// A mask on the grid, the function that it was made from, and the surface where it was asked for.
+/// A mask on the grid, the function that it was made from, the surface where it was asked for, and some points of it.
 struct Segmentation {
     Mask mask;
     ImplicitFunction function;
     std::optional<TriangleMesh> mesh;
     SegmentReport report;
+    SurfaceSamples samples;
 };
 
 /// Contours to mask (and mesh) on a grid. With `use_image` the image tells, where it helps, how the surface runs between the
@@ -28,5 +30,8 @@ Segmentation segment(const ContourSet& contours, const Grid& grid, const Segment
                      const Progress& progress = {});
 Segmentation segment(const ContourSet& contours, const Grid& grid, const Image* image, const SegmentOptions& options = {},
                      const Progress& progress = {});
+
+/// For suggest_planes and half_widths_mm: what is known of the surface from the `contours` that it was made from.
+SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, int threads = 0);
 
 }  // namespace kontur

@@ -9,6 +9,7 @@
 
 #include "kontur/fit/residual.h"
 #include "kontur/refine/refine.h"
+#include "kontur/refine/surface_uncertainty.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
@@ -47,6 +48,7 @@ struct SegmentReport {
     std::int64_t mask_voxels = 0;
     double mask_volume_ml = 0;
     std::int64_t mask_components = 0;                     ///< face-connected
+    SurfaceUncertainty uncertainty;                       ///< of the surface, from three planes on
     double estimated_memory_mb = 0;                       ///< before the fit, of the whole process
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order
     std::vector<std::string> warnings;                    ///< choices made for the user and doubts, one sentence each

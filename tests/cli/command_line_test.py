@@ -5,7 +5,7 @@ import re
 import pytest
 from support import ball_array, ball_planes, kontur, names, succeed, write_nifti, write_planes
 
-COMMANDS = ["segment", "trace", "compare", "inspect", "convert", "phantom"]
+COMMANDS = ["segment", "trace", "suggest", "compare", "inspect", "convert", "phantom"]
 
 
 def test_without_words_prints_the_help_that_lists_every_command():

@@ -49,7 +49,7 @@ def test_every_stage_with_options_has_a_table():
 def test_every_stage_has_a_page_with_a_picture_and_its_source():
     index = (STAGES / "README.md").read_text()
     pages = [page for page in STAGES.glob("*.md") if page.name != "README.md"]
-    assert len(pages) == 11
+    assert len(pages) == 12
     for page in pages:
         text = page.read_text()
         assert f"]({page.name})" in index

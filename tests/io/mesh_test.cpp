@@ -50,6 +50,27 @@ TEST(MeshFile, PlyAndVtkKeepPointsNormalsAndTrianglesExactly) {
     }
 }
 
+TEST(MeshFile, PlyKeepsANumberForEachPoint) {
+    const TemporaryFolder folder;
+    const TriangleMesh mesh = body();
+    PointValues widths{"half_width_mm", {}};
+    for (std::size_t n = 0; n < mesh.points.size(); ++n) widths.values.push_back(0.25 * static_cast<double>(n));
+    write_mesh(folder / "body.ply", mesh, widths);
+    EXPECT_EQ(read_mesh(folder / "body.ply").points, mesh.points);
+    const std::string bytes = bytes_of(folder / "body.ply");
+    EXPECT_NE(bytes.find("property float nz\nproperty float half_width_mm\nelement face"), std::string::npos);
+    const std::size_t first = bytes.find("end_header\n") + 11, row = 3 * 8 + 4 * 4;
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, mesh.points.size() - 1}) {
+        float value = -1;
+        std::memcpy(&value, bytes.data() + first + n * row + row - 4, 4);
+        EXPECT_EQ(value, 0.25F * static_cast<float>(n));
+    }
+    widths.values.pop_back();
+    EXPECT_KONTUR_ERROR(write_mesh(folder / "less.ply", mesh, widths), ErrorKind::invalid_input,
+                        "half_width_mm has 575 values");
+    EXPECT_KONTUR_ERROR(write_mesh(folder / "body.stl", mesh, widths), ErrorKind::unsupported, "only a .ply");
+}
+
 TEST(MeshFile, ObjKeepsPointsAndNormalsToItsDecimals) {
     const TemporaryFolder folder;
     const TriangleMesh mesh = body();

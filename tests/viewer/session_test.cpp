@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "support/expect_error.h"
@@ -120,6 +121,52 @@ TEST(Session, TheOutlineOnAPlaneThatNoViewShowsIsTold) {
     EXPECT_EQ(called(here.session, request)["result"]["lines"], json::array());
     request["structure"] = id + 1000;
     EXPECT_EQ(called(here.session, request)["result"]["lines"], json::array());
+}
+
+ContourSet three_circles() {
+    ContourSet set = circles(1, 60);
+    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) {
+        Contour contour{make_plane(test::kPlane.origin, normal), {}, true, false};
+        for (int n = 0; n < 60; ++n)
+            contour.points.push_back(
+                contour.plane.from_uv(10 * std::cos(n * 0.1047197551), 10 * std::sin(n * 0.1047197551)));
+        set.contours.push_back(contour);
+    }
+    return set;
+}
+
+TEST(Session, SaysHowSureTheSurfaceIsAndWhereToDrawNext) {
+    SessionHere here;
+    const Id ball = here.session.add_structures("Import", {three_circles()}).front();
+    const Id flat = here.session.add_structures("Import", {circles(1, 60)}).front();
+    here.session.wait_for_surfaces();
+    const json surfaces = json::parse(here.session.greeting())["surfaces"];
+    ASSERT_EQ(surfaces.size(), 2u);
+    for (const json& surface : surfaces) {
+        const json& told = surface["uncertainty"];
+        EXPECT_EQ(told["known"], surface["structure"] == ball);
+        EXPECT_EQ(told.contains("expected_dice"), surface["structure"] == ball);
+        EXPECT_FALSE(told["text"].get<std::string>().empty());
+    }
+
+    json request{{"call", "suggest"}, {"structure", ball}};
+    const json first = called(here.session, request)["result"]["planes"];
+    ASSERT_EQ(first.size(), 1u);
+    EXPECT_FALSE(first[0]["lines"].empty());
+    request["skip"] = {first[0]["plane"]};
+    const json second = called(here.session, request)["result"]["planes"];
+    ASSERT_EQ(second.size(), 1u);
+    EXPECT_NE(second[0]["plane"], first[0]["plane"]);
+    request["slices"] = true;
+    EXPECT_TRUE(called(here.session, request)["result"]["planes"][0].contains("slice"));
+    request["skip"] = 7;
+    EXPECT_EQ(called(here.session, request)["error"]["kind"], "invalid_input");
+
+    const json across = called(here.session, {{"call", "suggest"}, {"structure", flat}})["result"]["planes"];
+    ASSERT_EQ(across.size(), 1u);
+    const json& normal = across[0]["plane"]["normal"];
+    EXPECT_NEAR(dot({normal[0], normal[1], normal[2]}, test::kPlane.normal), 0, 1e-6);
+    EXPECT_EQ(called(here.session, {{"call", "suggest"}, {"structure", flat + 1000}})["result"]["planes"], json::array());
 }
 
 }  // namespace

@@ -199,10 +199,14 @@ std::string planes_text(const std::vector<Contour>& contours) {
     return contours.empty() ? text : text + "\n  ]}\n";
 }
 
+/// The document up to its planes' end.
+std::string document_of(const std::string& name, const std::string& planes) {
+    return fmt::format("{{\n\"version\": {},\n\"frame\": \"LPS mm\",\n\"structure\": {},\n\"planes\": [\n{}]", kVersion,
+                       json(name).dump(), planes);
+}
+
 std::string to_document(const ContourSet& set, const Provenance& provenance) {
-    const std::string name = json(set.name).dump();
-    std::string text = fmt::format("{{\n\"version\": {},\n\"frame\": \"LPS mm\",\n\"structure\": {},\n\"planes\": [\n{}]",
-                                   kVersion, name, planes_text(set.contours));
+    std::string text = document_of(set.name, planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
     if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
@@ -224,6 +228,13 @@ std::vector<Plane> read_planes_json(const std::filesystem::path& path) {
         for_each_plane(document, [&](const json&, const Plane& plane, PatientFrame) { planes.push_back(plane); });
         return planes;
     });
+}
+
+void write_planes_json(const std::filesystem::path& path, const std::vector<Plane>& planes, const std::string& name) {
+    check_utf8(name, "the structure's name");
+    std::string text;
+    for (const Plane& plane : planes) text += (text.empty() ? "" : ",\n") + plane_head(plane) + "  ]}";
+    write_file_atomically(path, document_of(name, text + (planes.empty() ? "" : "\n")) + "\n}\n");
 }
 
 void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "kontur/shape/contour.h"
@@ -17,6 +18,9 @@ ContourSet read_contour_json(const std::filesystem::path& path);
 
 /// The planes of such a file, in its order, with or without contours.
 std::vector<Plane> read_planes_json(const std::filesystem::path& path);
+
+/// Writes planes without contours, in the same format, whole or not at all. Throws as write_contour_json does.
+void write_planes_json(const std::filesystem::path& path, const std::vector<Plane>& planes, const std::string& name = {});
 
 /// Writes the file whole or not at all. Reading it gives the same doubles in the same order; neighbouring contours on an
 /// identical plane share one entry. `provenance` goes into the key of that name. Throws Error(invalid_input) for a

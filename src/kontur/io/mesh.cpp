@@ -90,6 +90,17 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, con
     write_file_atomically(path, [&](AtomicFile& file) { format.write(file, mesh, provenance); });
 }
 
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const PointValues& values,
+                const Provenance& provenance) {
+    if (format_of(path).parse != parse_ply)
+        throw Error(ErrorKind::unsupported, fmt::format("{}: only a .ply has room for {}", path.string(), values.name));
+    check_mesh(mesh);
+    if (values.values.size() != mesh.points.size())
+        throw Error(ErrorKind::invalid_input, fmt::format("{} has {} values for the {} points of the mesh", values.name,
+                                                          values.values.size(), mesh.points.size()));
+    write_file_atomically(path, [&](AtomicFile& file) { write_ply(file, mesh, values, provenance); });
+}
+
 TriangleMesh read_mesh(const std::filesystem::path& path) {
     const Format& format = format_of(path);
     InputFile file(path);

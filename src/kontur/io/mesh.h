@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/provenance.h"
@@ -18,6 +20,17 @@ namespace kontur {
 /// triangles in an STL file; Error(io) naming file and reason.
 /// `provenance` goes into comments of PLY and OBJ and, shortened to the digits of the contours' digest, into STL's header.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const Provenance& provenance = {});
+
+/// A number for each point of a mesh.
+struct PointValues {
+    std::string name;  ///< a word of letters, digits and underscores
+    std::vector<double> values;
+};
+
+/// A .ply whose points have one more property, a float of that name. Throws as write_mesh does, and Error(invalid_input) for
+/// other than one value for each point.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const PointValues& values,
+                const Provenance& provenance = {});
 
 /// Reads binary STL, PLY (text and binary of both byte orders) or OBJ, recognised by the path's extension. A file that
 /// declares `SPACE=RAS` is turned to LPS; one that declares nothing is taken as LPS mm. STL points with identical

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "kontur/io/atomic_file.h"
+#include "kontur/io/mesh.h"
 #include "kontur/io/patient_frame.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/provenance.h"
@@ -14,6 +15,7 @@ namespace kontur {
 
 void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const PointValues& values, const Provenance& provenance);
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_vtk(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_vtp(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);

@@ -265,19 +265,25 @@ void append(std::string& bytes, Number value) {
 }  // namespace
 
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance) {
+    write_ply(file, mesh, {}, provenance);
+}
+
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const PointValues& values, const Provenance& provenance) {
     std::string comments;
     for (const auto& [name, value] : provenance) comments += fmt::format("comment kontur {}: {}\n", name, value);
-    file.write(fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment kontur {}\ncomment SPACE=LPS\ncomment UNIT=mm\n{}"
-        "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
-        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-        KONTUR_VERSION, comments, mesh.points.size(),
-        mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", mesh.triangles.size()));
+    file.write(
+        fmt::format("ply\nformat binary_little_endian 1.0\ncomment kontur {}\ncomment SPACE=LPS\ncomment UNIT=mm\n{}"
+                    "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}{}"
+                    "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+                    KONTUR_VERSION, comments, mesh.points.size(),
+                    mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n",
+                    values.name.empty() ? "" : fmt::format("property float {}\n", values.name), mesh.triangles.size()));
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         std::string row;
         for (int axis = 0; axis < 3; ++axis) append(row, mesh.points[i][axis]);
         if (!mesh.normals.empty())
             for (int axis = 0; axis < 3; ++axis) append(row, static_cast<float>(mesh.normals[i][axis]));
+        if (!values.name.empty()) append(row, static_cast<float>(values.values[i]));
         file.write(row);
     }
     for (const auto& triangle : mesh.triangles) {

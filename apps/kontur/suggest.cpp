@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/refine/suggest_plane.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "commands.h"
+#include "dicom_output.h"
+#include "facts.h"
+#include "input_digests.h"
+#include "kontur/base/error.h"
+#include "kontur/io/contour_json.h"
+#include "kontur/view/outline.h"
+#include "outputs.h"
+
+namespace kontur::app {
+namespace {
+
+/// Without an image: voxels of which so many go along the contours' box.
+constexpr double kVoxelsAcross = 64;
+
+/// Whatever can be refused before any work is done.
+void check(const SuggestCommand& command) {
+    std::vector<std::filesystem::path> inputs = command.contours;
+    inputs.push_back(command.image.path);
+    for (const std::filesystem::path& path : {command.output, command.sketch})
+        if (!path.empty() && !has_extension(path, ".json"))
+            throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", path.string()));
+    check_outputs(std::array{command.output, command.sketch}, inputs);
+    if (command.among == PlaneChoice::image_slices && command.image.path.empty())
+        throw Error(ErrorKind::invalid_input, "slices of an image are asked for; give --image");
+}
+
+Grid grid_around_contours(const ContourSet& contours) {
+    check_contours(contours);  // their box makes sense only then
+    const Box3 box = bounding_box(contours);
+    const double spacing = box.diagonal() / kVoxelsAcross;
+    return grid_around(box, {spacing, spacing, spacing}, 0.35 * box.diagonal());
+}
+
+Facts triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Facts interval(const ExpectedDice& dice) { return {{"value", dice.value}, {"low", dice.low}, {"high", dice.high}}; }
+
+/// Slices count from 0, as voxel indices do.
+Facts facts_of(const SuggestedPlane& one) {
+    Facts facts{{"origin_mm", triple(one.plane.origin)}, {"normal", triple(one.plane.normal)}, {"gain", one.gain}};
+    if (one.slice) facts["slice"] = {{"axis", std::string(1, "ijk"[one.slice->axis])}, {"index", one.slice->index}};
+    if (one.after.value > 0) {
+        facts["expected_dice"] = interval(one.before);
+        facts["expected_dice_with_it"] = interval(one.after);
+    }
+    return facts;
+}
+
+std::string line_of(std::size_t number, const SuggestedPlane& one) {
+    const Vec3 &at = one.plane.origin, &n = one.plane.normal;
+    std::string text = fmt::format("{}: through ({:.1f}, {:.1f}, {:.1f}) mm, across ({:.3f}, {:.3f}, {:.3f})", number, at.x,
+                                   at.y, at.z, n.x, n.y, n.z);
+    if (one.slice) text += fmt::format(", slice {} = {}", "ijk"[one.slice->axis], one.slice->index);
+    if (one.after.value > 0)
+        text += fmt::format("; expected Dice {:.2f}, with it {:.2f}", one.before.value, one.after.value);
+    return text + "\n";
+}
+
+/// The predicted outlines: to be corrected, not to be believed.
+ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const std::string& name) {
+    ContourSet sketch;
+    sketch.name = name;
+    for (const Plane& plane : planes)
+        for (Polyline& line : outline(mesh, plane))
+            if (line.closed && line.points.size() >= 3) {
+                for (Vec3& p : line.points) p -= plane.distance_to(p) * plane.normal;
+                sketch.contours.push_back({.plane = plane, .points = std::move(line.points)});
+            }
+    return sketch;
+}
+
+}  // namespace
+
+void run(const SuggestCommand& command, Console& console) {
+    check(command);
+    const Progress progress = console.progress();
+    ReadContours read = read_contours(command.contours, command.read);
+    for (const std::string& note : read.notes) console.warn(note);
+    const ContourSet& contours = read.contours;
+    if (contours.contours.empty())
+        throw Error(ErrorKind::invalid_input, "the contour files have no contour; at least 1 is needed");
+    const bool has_image = !command.image.path.empty();
+    const Grid grid = has_image ? read_grid(command.image.path, console.noting(command.image.options), progress)
+                                : grid_around_contours(contours);
+
+    SegmentOptions options = command.options;
+    options.mesh = !command.sketch.empty();
+    const Segmentation made = segment(contours, grid, options, progress);
+    for (const std::string& warning : made.report.warnings) console.warn(warning);
+    SuggestPlaneOptions choose{.planes = command.among};
+    if (has_image) choose.grid = grid;
+    choose.threads = options.threads;
+    const PlaneSuggestions found = suggest_planes(gather_evidence(made, contours, options.threads), contours,
+                                                  static_cast<std::size_t>(command.planes), choose);
+
+    std::vector<Plane> planes;
+    for (const SuggestedPlane& one : found.planes) planes.push_back(one.plane);
+    Outputs outputs;
+    if (!command.output.empty())
+        outputs.write(command.output,
+                      [&](const std::filesystem::path& path) { write_planes_json(path, planes, contours.name); });
+    if (!command.sketch.empty())
+        outputs.write(command.sketch, [&](const std::filesystem::path& path) {
+            write_contour_json(path, sketch_of(planes, *made.mesh, contours.name));
+        });
+    outputs.commit();
+
+    const std::string about = sentence(made.report.uncertainty);
+    if (found.planes.size() < static_cast<std::size_t>(command.planes))
+        console.warn(
+            fmt::format("{} of {} planes are suggested: every other one that meets the object runs along one that "
+                        "was drawn or suggested",
+                        found.planes.size(), command.planes));
+    if (command.json) {
+        Facts list = Facts::array();
+        for (const SuggestedPlane& one : found.planes) list.push_back(facts_of(one));
+        console.print(to_json_text({{"planes", list}, {"about", about}}));
+        return;
+    }
+    std::string text;
+    for (std::size_t n = 0; n < found.planes.size(); ++n) text += line_of(n + 1, found.planes[n]);
+    console.print(text + about + "\n");
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kontur/refine/drawn_lines.h"
+#include "kontur/refine/area_samples.h"
+#include "kontur/shape/crossings.h"
+
+namespace kontur {
+
+/// What is known of a fitted surface from the contours that it was made from: where band, expected Dice and the next plane
+/// come from. None of it asks for the truth.
+struct SurfaceEvidence {
+    SurfaceSamples samples;
+    std::vector<double> distances_mm;  ///< of each sample from the nearest drawn line
+    DrawnLines lines;
+    double diameter_mm = 0;      ///< of the smallest ball around the samples: the unit of length, which turns with them
+    double volume_mm3 = 0;       ///< that the surface encloses
+    double voxel_mm = 0;         ///< smallest spacing of the image that was drawn on; 0: not known
+    double residual_mm = 0;      ///< rms distance of the surface from the drawn points
+    double disagreement_mm = 0;  ///< rms of contours where they cross; 0 where fewer than four cross
+
+    std::size_t plane_count() const { return lines.planes().size(); }
+};
+
+/// What a caller knows besides samples and contours.
+struct EvidenceFacts {
+    double volume_mm3 = 0;
+    double voxel_mm = 0;
+    double residual_mm = 0;
+    double disagreement_mm = 0;
+};
+
+SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contours, const EvidenceFacts& facts,
+                                int threads = 0);
+
+/// The rms of contours where they cross; 0 where fewer than four do, of which a mean says little.
+double trusted_disagreement_mm(const Disagreement& crossings);
+
+/// With fewer planes the surface is a guess between them, and nothing can be said about its error.
+inline constexpr std::size_t kLeastPlanes = 3;
+
+}  // namespace kontur

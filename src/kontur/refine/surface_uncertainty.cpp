@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/refine/surface_uncertainty.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kontur/refine/uncertainty_model.h"
+
+namespace kontur {
+namespace {
+
+/// The band's formula with what is the same all over the surface in one factor.
+class Band {
+public:
+    explicit Band(const SurfaceEvidence& evidence) : diameter_mm_(evidence.diameter_mm) {
+        const SurfaceSamples& samples = evidence.samples;
+        const double area = samples.area_mm2();
+        double mean_h = 0, mean_log_slope = 0;
+        for (std::size_t n = 0; n < samples.points.size(); ++n) {
+            mean_h += samples.areas_mm2[n] * relative(evidence.distances_mm[n]);
+            mean_log_slope += samples.areas_mm2[n] * std::log(clamped(samples.slopes[n]));
+        }
+        mean_slope_ = std::exp(mean_log_slope / area);
+        factor_mm_ = diameter_mm_ * std::exp(kBand.factor) * std::pow(mean_h / area, kBand.mean_distance) *
+                     std::pow(std::pow(area, 1.5) / evidence.volume_mm3, kBand.shape);
+        const double by_hand = kNinety * std::max(evidence.residual_mm, evidence.disagreement_mm / std::sqrt(2.0));
+        drawing_mm_ = std::hypot(evidence.voxel_mm / 2, by_hand);
+    }
+
+    double mean_slope() const { return mean_slope_; }
+    double half_width_mm(double distance_mm, double slope) const {
+        const double missed =
+            factor_mm_ * std::pow(relative(distance_mm), kBand.distance) * std::pow(clamped(slope), kBand.slope);
+        return std::hypot(missed, drawing_mm_);
+    }
+
+private:
+    double relative(double distance_mm) const { return std::max(distance_mm / diameter_mm_, kLeastDistance); }
+    static double clamped(double slope) { return std::clamp(slope, kLeastSlope, kMostSlope); }
+
+    double diameter_mm_, mean_slope_ = 1, factor_mm_ = 0, drawing_mm_ = 0;
+};
+
+bool is_known(const SurfaceEvidence& evidence) {
+    return evidence.plane_count() >= kLeastPlanes && !evidence.samples.points.empty() && evidence.volume_mm3 > 0;
+}
+
+/// The value below which this fraction of the area lies.
+double quantile(const std::vector<double>& values, const std::vector<double>& areas, double fraction) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    const double wanted = fraction * std::accumulate(areas.begin(), areas.end(), 0.0);
+    double sum = 0;
+    for (const std::size_t n : order)
+        if ((sum += areas[n]) >= wanted) return values[n];
+    return values[order.back()];
+}
+
+std::string two_digits(double dice) { return fmt::format("{:.2f}", dice); }
+
+/// Three digits, and no exponent for large ones.
+std::string rounded(double ml) { return ml < 100 ? fmt::format("{:.3g}", ml) : fmt::format("{:.0f}", ml); }
+
+}  // namespace
+
+std::vector<double> half_widths_mm(const SurfaceEvidence& evidence) {
+    if (!is_known(evidence)) return {};
+    const Band band(evidence);
+    std::vector<double> widths;
+    for (std::size_t n = 0; n < evidence.distances_mm.size(); ++n)
+        widths.push_back(band.half_width_mm(evidence.distances_mm[n], evidence.samples.slopes[n]));
+    return widths;
+}
+
+std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::vector<Vec3>& points, int threads) {
+    if (!is_known(evidence)) return {};
+    const Band band(evidence);
+    std::vector<double> widths = evidence.lines.distances_to(points, threads);
+    for (double& width : widths) width = band.half_width_mm(width, band.mean_slope());
+    return widths;
+}
+
+SurfaceUncertainty surface_uncertainty(const SurfaceEvidence& evidence) {
+    SurfaceUncertainty result;
+    result.planes = evidence.plane_count();
+    if (!is_known(evidence)) return result;
+    result.is_known = true;
+    const std::vector<double> widths = half_widths_mm(evidence);
+    result.half_width_median_mm = quantile(widths, evidence.samples.areas_mm2, 0.5);
+    result.half_width_p90_mm = quantile(widths, evidence.samples.areas_mm2, 0.9);
+    const auto farthest = std::max_element(evidence.distances_mm.begin(), evidence.distances_mm.end());
+    result.farthest_mm = *farthest;
+    result.farthest_position = evidence.samples.points[static_cast<std::size_t>(farthest - evidence.distances_mm.begin())];
+    result.dice = expected_dice(evidence);
+    const double odds = 1 / result.dice.value - 1;
+    result.volume_ml = evidence.volume_mm3 / 1000;
+    result.volume_low_ml = result.volume_ml / (1 + kVolume.low * odds);
+    result.volume_high_ml = result.volume_ml * (1 + kVolume.high * odds);
+    result.planes_to_95 = planes_to(result.dice, result.planes, 0.95);
+    result.planes_to_98 = planes_to(result.dice, result.planes, 0.98);
+    return result;
+}
+
+std::string sentence(const SurfaceUncertainty& u) {
+    if (!u.is_known)
+        return fmt::format("how sure the surface is, {} plane{} do{} not tell; {} are needed", u.planes,
+                           u.planes == 1 ? "" : "s", u.planes == 1 ? "es" : "", kLeastPlanes);
+    std::string text =
+        fmt::format("expected Dice {} ({} to {}), volume {} ml ({} to {})", two_digits(u.dice.value), two_digits(u.dice.low),
+                    two_digits(u.dice.high), rounded(u.volume_ml), rounded(u.volume_low_ml), rounded(u.volume_high_ml));
+    if (u.planes_to_95 > 0)
+        text += fmt::format("; about {} more plane{} to 0.95", u.planes_to_95, u.planes_to_95 == 1 ? "" : "s");
+    else if (u.planes_to_98 > 0)
+        text += fmt::format("; about {} more plane{} to 0.98", u.planes_to_98, u.planes_to_98 == 1 ? "" : "s");
+    return text + "; what no contour touches is not counted";
+}
+
+}  // namespace kontur

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kontur suggest: planes in which to draw next, as text, JSON and files that other commands read."""
+import json
+
+import nibabel
+import numpy
+import pytest
+from scipy import ndimage
+from support import CENTER, RADIUS, ball_array, kontur, succeed, write_nifti, write_planes
+
+
+def plane(origin, normal):
+    normal = numpy.array(normal, float)
+    u = numpy.roll(normal, 1)
+    return {"origin": list(origin), "normal": normal.tolist(), "u": u.tolist(), "v": numpy.cross(normal, u).tolist(), "contours": []}
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    """Circles of a ball in so many of the planes of the axes, and the ball."""
+    mask = write_nifti(tmp_path / "ball.nii.gz", ball_array())
+
+    def draw(count):
+        planes = write_planes(tmp_path / "axes.json", [plane(CENTER, n) for n in numpy.eye(3)[:count]])
+        succeed("trace", mask, "--planes", planes, "--output", tmp_path / "drawn.json")
+        return tmp_path / "drawn.json", mask
+
+    return draw
+
+
+def test_second_plane_is_across_the_first_and_nothing_is_known_of_the_error(drawn):
+    contours, mask = drawn(1)
+    found = json.loads(kontur("suggest", contours, "--image", mask, "--json").stdout)
+    [suggested] = found["planes"]
+    assert abs(numpy.dot(suggested["normal"], numpy.eye(3)[0])) < 1e-6
+    assert "expected_dice" not in suggested
+    assert found["about"] == "how sure the surface is, 1 plane does not tell; 3 are needed"
+
+
+def test_planes_are_written_for_trace_and_sketches_for_segment(drawn, tmp_path):
+    contours, mask = drawn(3)
+    result = succeed("suggest", contours, "--image", mask, "--planes", 2, "--output", tmp_path / "planes.json",
+                     "--sketch", tmp_path / "sketch.json")
+    assert len(result.splitlines()) == 3 and "expected Dice" in result
+    planes = json.loads((tmp_path / "planes.json").read_text())["planes"]
+    assert len(planes) == 2
+    succeed("trace", mask, "--planes", tmp_path / "planes.json", "--output", tmp_path / "more.json")
+    traced = json.loads((tmp_path / "more.json").read_text())["planes"]
+    sketched = json.loads((tmp_path / "sketch.json").read_text())["planes"]
+    assert [len(p["contours"]) for p in traced] == [len(p["contours"]) for p in sketched] == [1, 1]
+    for one in sketched:
+        points = numpy.array(one["contours"][0]["points"]) - CENTER
+        assert numpy.abs(numpy.linalg.norm(points, axis=1) - RADIUS).max() < 2
+    succeed("segment", contours, tmp_path / "sketch.json", "--image", mask, "--output", tmp_path / "all.nii.gz")
+
+
+def test_slices_of_the_image_are_whole_layers(drawn):
+    contours, mask = drawn(3)
+    found = json.loads(succeed("suggest", contours, "--image", mask, "--planes", 2, "--among", "image-slices", "--json"))
+    for suggested in found["planes"]:
+        axis = "ijk".index(suggested["slice"]["axis"])
+        assert abs(suggested["normal"][axis]) == pytest.approx(1)
+        assert suggested["slice"]["index"] >= 0
+        assert suggested["expected_dice_with_it"]["value"] >= suggested["expected_dice"]["value"]
+
+
+def test_works_without_an_image(drawn):
+    contours, _ = drawn(3)
+    assert "1: through" in kontur("suggest", contours).stdout
+
+
+@pytest.mark.parametrize("words, sentence", [
+    (["--among", "image-slices"], "slices of an image are asked for; give --image"),
+    (["--output", "planes.txt"], "planes.txt does not end with .json"),
+])
+def test_says_what_is_wrong(drawn, tmp_path, words, sentence):
+    contours, _ = drawn(3)
+    result = kontur("suggest", contours, *words, cwd=tmp_path)
+    assert result.returncode in (65, 69) and sentence in result.stderr, result.stderr
+
+
+def test_report_and_summary_of_segment_say_how_sure_the_surface_is(drawn, tmp_path):
+    contours, mask = drawn(3)
+    result = succeed("segment", contours, "--image", mask, "--output", tmp_path / "m.nii.gz", "--report", tmp_path / "r.json")
+    told = json.loads((tmp_path / "r.json").read_text())["uncertainty"]
+    assert told["known"] and told["planes"] == 3
+    assert told["expected_dice"]["low"] < told["expected_dice"]["value"] < told["expected_dice"]["high"]
+    truth_ml = 4 / 3 * numpy.pi * RADIUS**3 / 1000
+    assert told["volume_ml"]["low"] < truth_ml < told["volume_ml"]["high"]
+    assert "expected Dice" in result
+
+    contours, _ = drawn(2)
+    kontur("segment", contours, "--image", mask, "--output", tmp_path / "m.nii.gz", "--report", tmp_path / "r.json")
+    assert json.loads((tmp_path / "r.json").read_text())["uncertainty"] == {"planes": 2, "known": False}
+
+
+def test_band_is_written_as_image_and_as_property_of_a_ply(drawn, tmp_path):
+    contours, mask = drawn(3)
+    for name in ("band.nii.gz", "band.ply"):
+        succeed("segment", contours, "--image", mask, "--output", tmp_path / "m.nii.gz", "--uncertainty", tmp_path / name)
+    band = numpy.asarray(nibabel.load(tmp_path / "band.nii.gz").dataobj)
+    inside = numpy.asarray(nibabel.load(tmp_path / "m.nii.gz").dataobj) > 0
+    border = inside & ~ndimage.binary_erosion(inside)
+    assert (band[border] > 0).all() and (band[ndimage.binary_erosion(inside, iterations=2)] == 0).all()
+    assert b"property float half_width_mm\n" in (tmp_path / "band.ply").read_bytes()[:1000]
+
+    contours, _ = drawn(2)
+    result = kontur("segment", contours, "--image", mask, "--output", tmp_path / "n.nii.gz", "--uncertainty", tmp_path / "n.nii")
+    assert result.returncode == 65
+    assert "contours lie in 2 different planes; of fewer than 3 nothing is known" in result.stderr
+    assert not (tmp_path / "n.nii.gz").exists()

@@ -106,6 +106,7 @@ export class App {
       ...shared,
       call: (name, args = {}) => this.editor.edits.make(name, args),
       identity: this.identity.element,
+      suggest: () => void this.suggest(),
       openStatistics: () => openStatistics(this.http, (p) => this.goTo(p)),
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
@@ -120,6 +121,7 @@ export class App {
       redo: () => this.redo(),
       help: () => openHelp(this.session?.version ?? ""),
       leave: () => this.leave(),
+      suggest: () => void this.suggest(),
       rename: () => panel.rename(this.project.activeStructure?.id),
       tell: (text) => void this.notices.show("info", text),
     });
@@ -369,6 +371,11 @@ export class App {
     }
     this.activate(view);
     this.goTo(crosshairOnto(contour, this.navigation.crosshair));
+  }
+
+  private async suggest(): Promise<void> {
+    const view = await this.editor.proposals.suggest();
+    if (view) this.activate(view);
   }
 
   private jump(view: SliceView, event: PointerEvent): void {

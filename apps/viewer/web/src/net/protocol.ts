@@ -71,6 +71,15 @@ export interface Surface {
   residual?: { max_mm: number; rms_mm: number; contour: number; at: Vec3 };
   conflicts?: Conflict[];
   warnings?: string[];
+  uncertainty?: { known: boolean; planes: number; text: string };
+}
+
+/** Where to draw next, and the outline that is expected there. */
+export interface Suggestion {
+  plane: Plane;
+  gain: number;
+  lines: Vec3[][];
+  expected_dice?: { value: number; low: number; high: number };
 }
 
 export interface ImageInfo {

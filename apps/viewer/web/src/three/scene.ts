@@ -12,6 +12,8 @@ export interface MeshData {
   positions: Float32Array;
   normals: Float32Array;
   triangles: Uint32Array;
+  /** Of each point, linear; without them the surface has one colour. */
+  colors?: Float32Array | undefined;
 }
 
 /** A surface, and the same with fewer triangles for when it must be drawn fast. */
@@ -92,6 +94,7 @@ export class Scene {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(data.positions, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(data.normals, 3));
+    if (data.colors) geometry.setAttribute("color", new THREE.BufferAttribute(data.colors, 3));
     geometry.setIndex(new THREE.BufferAttribute(data.triangles, 1));
     const shown = this.surfaces.get(structure) ?? this.addMesh(structure);
     shown.fine.dispose();
@@ -131,11 +134,15 @@ export class Scene {
 
   style(structure: number, color: string, visible: boolean, opacity: number): void {
     const shown = this.surfaces.get(structure);
-    const wanted = `${color} ${visible} ${opacity}`;
-    if (!shown || shown.style === wanted) return;
+    if (!shown) return;
+    const hasColors = shown.fine.hasAttribute("color");
+    const wanted = `${color} ${visible} ${opacity} ${hasColors}`;
+    if (shown.style === wanted) return;
     shown.style = wanted;
     const { mesh } = shown;
-    mesh.material.color.set(color);
+    mesh.material.color.set(hasColors ? "#ffffff" : color);
+    if (mesh.material.vertexColors !== hasColors) mesh.material.needsUpdate = true;
+    mesh.material.vertexColors = hasColors;
     mesh.material.transparent = opacity < 1;
     mesh.material.opacity = opacity;
     mesh.material.depthWrite = opacity >= 1;
@@ -324,6 +331,7 @@ function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {
   if (!triangles) return geometry;
   geometry.setAttribute("position", positions);
   geometry.setAttribute("normal", fine.getAttribute("normal"));
+  if (fine.hasAttribute("color")) geometry.setAttribute("color", fine.getAttribute("color"));
   geometry.setIndex(new THREE.BufferAttribute(coarseTriangles(positions.array as Float32Array, triangles.array as Uint32Array), 1));
   return geometry;
 }

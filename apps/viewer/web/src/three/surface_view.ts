@@ -9,6 +9,7 @@ import type { Vec3 } from "../geometry/vec";
 import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
 import { PLANE_COLORS } from "../view/palette";
+import { BAND_STOPS, bandColors, bandScale } from "./band";
 import type { Scene } from "./scene";
 
 export interface SurfaceViewServices {
@@ -36,6 +37,10 @@ export class SurfaceView {
   private readonly fetches = new Map<number, Latest<void>>();
   private readonly shownRevisions = new Map<number, number>();
   private scene: Scene | null = null;
+  private showsBand = false;
+  private readonly band = button({ icon: ICONS.statistics, title: "Colour the surface by how sure it is", class: "icon-button small", test: "band", click: () => this.toggleBand() });
+  private readonly ramp = el("span", { class: "band-ramp" });
+  private readonly scale = el("div", { class: "band-scale", hidden: true, "data-test": "band-scale" });
   private opacity = 1;
 
   constructor(private readonly services: SurfaceViewServices) {
@@ -54,8 +59,11 @@ export class SurfaceView {
       class: "icon-button small",
       click: () => void this.header.dispatchEvent(new MouseEvent("dblclick")),
     });
-    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, glass, frame, enlarge);
-    this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header);
+    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, glass, frame, enlarge);
+    this.band.setAttribute("aria-pressed", "false");
+    this.band.hidden = true;
+    this.ramp.style.background = `linear-gradient(to right, ${BAND_STOPS.join()})`;
+    this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.scale);
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
@@ -107,6 +115,7 @@ export class SurfaceView {
       if (surface.stage === "none" || this.shownRevisions.get(surface.structure) === surface.revision) continue;
       this.fetchesOf(surface.structure).send();
     }
+    this.band.hidden = ![...project.surfaces.values()].some(({ uncertainty }) => uncertainty?.known);
     this.scene.setMarks([...project.surfaces.values()].flatMap((surface) => (surface.conflicts ?? []).map(({ at }) => at)));
     this.restyle();
     this.showHint();
@@ -141,12 +150,30 @@ export class SurfaceView {
     try {
       const reply = await this.services.http.mesh(structure);
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
-      this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles") });
+      const colors = this.colorsOf(reply.f32("half_widths_mm"));
+      this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles"), colors });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();
     } catch (error) {
       if (!(error instanceof ServerError && error.kind === "cancelled")) this.services.failed(error);
     }
+  }
+
+  /** Of how sure the surface is, where that is wanted and known; a preview has none. */
+  private colorsOf(half_widths_mm: Float32Array): Float32Array | undefined {
+    if (!this.showsBand || half_widths_mm.length === 0) return undefined;
+    const most_mm = bandScale(half_widths_mm);
+    this.scale.replaceChildren(el("span", {}, "90 % band: 0"), this.ramp, el("span", {}, `± ${most_mm} mm`));
+    this.scale.hidden = false;
+    return bandColors(half_widths_mm, most_mm);
+  }
+
+  private toggleBand(): void {
+    this.showsBand = !this.showsBand;
+    this.band.setAttribute("aria-pressed", String(this.showsBand));
+    this.scale.hidden = true;
+    this.shownRevisions.clear();
+    this.surfacesChanged();
   }
 
   /** Tests and measurements wait for what the finished frame shows. */

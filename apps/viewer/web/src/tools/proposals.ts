@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { coincide, heightOver, projected, type Plane } from "../geometry/plane";
+import { areParallel, coincide, heightOver, projected, type Plane } from "../geometry/plane";
 import { add, dot, scale, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import { VIEW_NAMES, type Contour, type ViewName } from "../net/protocol";
+import { VIEW_NAMES, type Contour, type Suggestion, type ViewName } from "../net/protocol";
 import type { Drawing } from "./drawing";
 import { isHoleOf } from "./free_outlines";
 import type { EditorServices } from "./services";
@@ -22,6 +22,7 @@ export interface Proposal {
 export class Proposals extends Emitter<"proposal"> {
   shown: Proposal | null = null;
   private asked: Plane | null = null; // what is shown, or on its way
+  private skipped: { structure: number; planes: Plane[] } = { structure: 0, planes: [] }; // suggested since contours have changed
 
   constructor(
     private readonly navigation: Navigation,
@@ -30,7 +31,10 @@ export class Proposals extends Emitter<"proposal"> {
     private readonly services: EditorServices,
   ) {
     super();
-    project.on(["contours"], () => void this.drop());
+    project.on(["contours"], () => {
+      this.skipped.planes = [];
+      this.drop();
+    });
     navigation.on(["planes"], () => this.dropOutOfSight());
   }
 
@@ -50,6 +54,33 @@ export class Proposals extends Emitter<"proposal"> {
     const drawn = project.contoursOf(structure.id).find((contour) => coincide(contour.plane, plane, step_mm / 2));
     if (drawn) return this.pass(drawn, structure.name);
     await this.propose(structure.id, plane, selected);
+  }
+
+  /** Turns a view to the plane on which a contour would tell most, and offers the expected outline there; once more: the next best. Returns the view. */
+  async suggest(): Promise<ViewName | null> {
+    const { project, navigation, services, drawing } = this;
+    const structure = project.activeStructure;
+    if (drawing.sketch) return services.tell("Close the contour that you are drawing first (Enter), or leave it (Esc)."), null;
+    if (!structure || isHidden(structure.id, project, services)) return null;
+    if (!project.surfaces.get(structure.id)?.uncertainty) return services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null;
+    if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };
+    try {
+      const { planes } = await services.call<{ planes: Suggestion[] }>("suggest", { structure: structure.id, skip: this.skipped.planes });
+      const [best] = planes;
+      if (!best) return services.tell(`No other plane is suggested for ${structure.name}: it needs a finished surface, and planes that are not drawn yet.`), null;
+      this.skipped.planes.push(best.plane);
+      const view = VIEW_NAMES.find((name) => areParallel(navigation.cameras[name].axes, best.plane)) ?? "oblique";
+      this.drop();
+      if (!areParallel(navigation.cameras[view].axes, best.plane)) navigation.turnTo(view, best.plane);
+      this.asked = best.plane;
+      navigation.setCrosshair(best.plane.origin);
+      this.shown = { structure: structure.id, plane: best.plane, lines: best.lines.filter((line) => line.length >= 3) };
+      this.emit("proposal");
+      return view;
+    } catch (error) {
+      services.failed(error);
+      return null;
+    }
   }
 
   /** Shows what of the structure's surface lies on the plane; or else, if there is one, the contour laid there. */

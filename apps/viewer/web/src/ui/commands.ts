@@ -19,6 +19,8 @@ export interface CommandServices {
   redo(): void;
   help(): void;
   leave(): void;
+  /** Shows where to draw next. */
+  suggest(): void;
   rename(): void;
   tell(text: string): void;
 }
@@ -91,6 +93,11 @@ export const COMMANDS: readonly Command[] = [
     keys: ["a"],
     help: ["Edit", "A", "make the computed outline under the pointer a contour, as it is"],
     run: ({ editor, focused }) => editor.adoptOutline(focused()),
+  },
+  {
+    keys: ["g"],
+    help: ["Draw", "G", "go to where a contour tells most, with the expected outline as a proposal; again: the next best place"],
+    run: ({ suggest }) => suggest(),
   },
   { keys: ["h"], help: ["Edit", "H", "hole on or off"], run: toggleHole },
   {

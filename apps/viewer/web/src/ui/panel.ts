@@ -21,6 +21,8 @@ export interface PanelServices {
   /** Whose image it is. */
   identity: HTMLElement;
   openStatistics(): void;
+  /** Shows where to draw next. */
+  suggest(): void;
   addStructure(): void;
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */

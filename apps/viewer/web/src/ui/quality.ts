@@ -14,6 +14,8 @@ const SAME_PLANE_MM = 0.01;
 export interface QualityServices {
   navigation: Navigation;
   goTo(p: Vec3): void;
+  /** Shows where to draw next. */
+  suggest(): void;
   call(name: string, args: Record<string, unknown>): void;
 }
 
@@ -31,6 +33,10 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   const guess = depthGuess(contours);
   if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", `${volume(surface.volume_ml)} ml`, guess !== null));
   if (guess) entries.push(el("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
+  if (surface.uncertainty) {
+    entries.push(el("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
+    entries.push(button({ label: "Where to draw next", title: "Go to where a contour tells most, with the expected outline as a proposal (G)", class: "choice", test: "suggest", click: services.suggest }));
+  }
   const { residual } = surface;
   if (residual) {
     entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));

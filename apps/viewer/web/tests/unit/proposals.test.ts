@@ -4,7 +4,7 @@ import { test } from "node:test";
 import type { Plane } from "../../src/geometry/plane";
 import type { Vec3 } from "../../src/geometry/vec";
 import { editing, type Call } from "./editing";
-import { square } from "./support";
+import { AXIAL, near, SKEW, square } from "./support";
 
 const ring = (half: number, z: number): Vec3[] => [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
 
@@ -83,4 +83,25 @@ test("beyond the image's last slice nothing is proposed, and the crosshair stays
   await proposals.next("axial", 30);
   assert.deepEqual([heights(calls), navigation.crosshair], [[], before]);
   assert.match(complaints.at(-1)!, /no slice further on/);
+});
+
+test("where to draw next is shown on the oblique view with the expected outline; asked once more, that place is skipped", async () => {
+  const { editor, server, calls, navigation, project, proposals, complaints } = proposing(() => []);
+  assert.equal(await proposals.suggest(), null);
+  assert.match(complaints.at(-1)!, /before the surface of Liver is finished/);
+  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 10, uncertainty: { known: true, planes: 3, text: "" } });
+  const steep: Plane = { ...SKEW, origin: [5, 0, 0] };
+  server.planes = [{ plane: steep, gain: 0.3, lines: [ring(4, 0)] }];
+  assert.equal(await proposals.suggest(), "oblique");
+  assert.deepEqual(proposals.shown, { structure: 1, plane: steep, lines: [ring(4, 0)] });
+  near(navigation.cameras.oblique.axes.normal, steep.normal);
+  near(navigation.crosshair, steep.origin);
+  assert.equal(editor.proposals.drop(), true);
+  server.planes = [{ plane: { ...AXIAL, origin: [0, 0, 8] }, gain: 0.1, lines: [ring(4, 8)] }];
+  assert.equal(await proposals.suggest(), "axial");
+  assert.equal(navigation.crosshair[2], 8);
+  server.planes = [];
+  assert.equal(await proposals.suggest(), null);
+  assert.match(complaints.at(-1)!, /No other plane is suggested/);
+  assert.deepEqual(calls.filter(({ name }) => name === "suggest").map(({ args }) => (args["skip"] as Plane[]).length), [0, 1, 2]);
 });

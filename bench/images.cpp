@@ -107,7 +107,9 @@ std::vector<Plane> planes(const Structure& structure, const std::string& kind, i
             std::vector<double> heights;
             for (const Vec3& v : voxels) heights.push_back(dot(normal, truth.grid.index_to_mm.apply(v)));
             std::sort(heights.begin(), heights.end());
-            const auto at = [&](double f) { return heights[static_cast<std::size_t>(f * static_cast<double>(heights.size() - 1))]; };
+            const auto at = [&](double f) {
+                return heights[static_cast<std::size_t>(f * static_cast<double>(heights.size() - 1))];
+            };
             const double height = random.uniform(at(0.15), at(0.85));
             const Vec3 middle = truth.grid.index_to_mm.apply(box.center());
             result.push_back(make_plane(middle + (height - dot(normal, middle)) * normal, normal));
@@ -148,8 +150,9 @@ std::string scores(const Mask& mask, const Mask& truth) {
 void measure(const Structure& structure, const std::string& kind, int count, bool by_hand) {
     const Vec3 spacing = structure.truth.grid.spacing_mm();
     const double voxel = std::min({spacing.x, spacing.y, spacing.z});
-    ContourSet contours = trace(structure.truth, planes(structure, kind, count),
-                                {.min_area_mm2 = 2 * std::pow(structure.truth.grid.voxel_volume_mm3(), 2.0 / 3), .threads = 1});
+    ContourSet contours =
+        trace(structure.truth, planes(structure, kind, count),
+              {.min_area_mm2 = 2 * std::pow(structure.truth.grid.voxel_volume_mm3(), 2.0 / 3), .threads = 1});
     Random random(seed_of(structure.name + kind + std::to_string(count) + "hand"));
     if (by_hand) draw_by_hand(contours, voxel, random);
     const SegmentOptions options{.threads = 1};
@@ -160,9 +163,10 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
     const FittedFunction fitted = fit(prepared, stages.fit);
     const double fit_seconds = cpu_seconds() - start;
     const auto mask_of = [&](const ImplicitFunction& function) {
-        return fill(find_surface(function, structure.truth.grid,
-                                 start_points(drawing.contours, prepared, function, stages.prepare.click_margin_mm), {.threads = 1}),
-                    1);
+        return fill(
+            find_surface(function, structure.truth.grid,
+                         start_points(drawing.contours, prepared, function, stages.prepare.click_margin_mm), {.threads = 1}),
+            1);
     };
     const std::string without = scores(mask_of(fitted.function), structure.truth);
     const auto print = [&](const char* method, const RefineReport& r, double seconds, const std::string& with) {
@@ -198,16 +202,16 @@ Structure read_structure(const std::vector<std::string>& words) {
     ReadImageOptions read;
     if (words.size() > 4) read.frame = std::stoll(words[4]);
     structure.image = read_image(words[1], read);
-    structure.truth = cropped(read_mask(words[2], words[3].empty() ? std::nullopt
-                                                                                  : std::optional(std::stoll(words[3]))));
+    structure.truth = cropped(read_mask(words[2], words[3].empty() ? std::nullopt : std::optional(std::stoll(words[3]))));
     return structure;
 }
 
 int run(const std::vector<std::string>& words) {
     if (words.size() < 4)
-        throw Error(ErrorKind::invalid_input,
-                    "usage: kontur_images NAME IMAGE LABELS LABEL [FRAME] or NAME phantom ORGAN SPACING_MM; kinds, counts of planes "
-                    "and hands from KONTUR_IMAGES, as axial,3,exact;...");
+        throw Error(
+            ErrorKind::invalid_input,
+            "usage: kontur_images NAME IMAGE LABELS LABEL [FRAME] or NAME phantom ORGAN SPACING_MM; kinds, counts of planes "
+            "and hands from KONTUR_IMAGES, as axial,3,exact;...");
     const Structure structure = read_structure(words);
     const char* chosen = std::getenv("KONTUR_IMAGES");
     for (const char* kind : {"axial", "ortho", "oblique"})

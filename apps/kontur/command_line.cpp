@@ -212,7 +212,8 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.option("--roi", c.rois, "NAME",
                 "Which structure of an RTSTRUCT, by name or number; again for more, which become the labels 1, 2, ...")
         ->allow_extra_args(false);
-    bind.flag("--all-rois", c.all_rois, "All structures of the RTSTRUCT that have contours, in its order")->excludes(bind.sub->get_option("--roi"));
+    bind.flag("--all-rois", c.all_rois, "All structures of the RTSTRUCT that have contours, in its order")
+        ->excludes(bind.sub->get_option("--roi"));
     bind.flag("--together", c.together,
               "Of several structures those that exclude each other share no voxel and leave no gap where they touch");
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 Provenance provenance_of(const FillCommand& command, const Progress& progress) {
     const FillOptions& o = command.options;
-    std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={}", name(o.ends), o.jointly, o.shape_weight,
-                                      o.smoothing_voxels);
+    std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={}", name(o.ends), o.jointly,
+                                      o.shape_weight, o.smoothing_voxels);
     for (const std::int64_t label : o.labels) options += fmt::format(" label={}", label);
     return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, progress);
 }
@@ -76,7 +76,8 @@ void run(const FillCommand& command, Console& console) {
     const ImageInput input{command.labels.path, console.noting(command.labels.options)};
     const ImageInput images{command.image, console.noting(command.labels.options)};
     if (is_dicom_name(command.output))
-        for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(input.path), images)) console.warn(note);
+        for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(input.path), images))
+            console.warn(note);
     const Filling filling = [&] {
         Image labels = read_labels(input, {}, progress);
         try {

@@ -195,7 +195,8 @@ void check_words(const SegmentCommand& command) {
     check_utf8(command.name, "the name");
     if (command.date) utc_date();  // which may be set to what is no date
     if (has_several(command)) check_roi_words(command);
-    else if (command.together) throw Error(ErrorKind::invalid_input, "--together is for several ROIs; name them by --roi, or --all-rois");
+    else if (command.together)
+        throw Error(ErrorKind::invalid_input, "--together is for several ROIs; name them by --roi, or --all-rois");
 }
 
 void run(const SegmentCommand& words, Console& console) {
@@ -217,8 +218,7 @@ void run(const SegmentCommand& words, Console& console) {
     check_planes_suffice(command, inputs.contours);
     const bool draws_band = !command.uncertainty.empty() && is_mesh_name(command.uncertainty);
     options.mesh = !command.mesh.empty() || !command.picture.empty() || draws_band;
-    Segmentation result =
-        segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, progress);
+    Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, progress);
     SegmentReport& report = result.report;
     report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
     report.seconds.insert(report.seconds.begin(), {"read", read_seconds});

@@ -17,11 +17,11 @@
 #include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
-#include "kontur/measure/components.h"
-#include "kontur/labels/section_contours.h"
-#include "kontur/segment_together.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/labels/section_contours.h"
+#include "kontur/measure/components.h"
 #include "kontur/report.h"
+#include "kontur/segment_together.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
 
@@ -50,7 +50,8 @@ std::vector<std::string> names_of(const SegmentCommand& command, const Structure
     std::vector<std::string> names;
     for (const Roi& roi : set.rois)
         if (!roi.contours.contours.empty() || !roi.damage.empty()) names.push_back(std::to_string(roi.number));
-    if (names.empty()) refuse(fmt::format("{}: none of the {} ROIs has a contour", command.contours.front().string(), set.rois.size()));
+    if (names.empty())
+        refuse(fmt::format("{}: none of the {} ROIs has a contour", command.contours.front().string(), set.rois.size()));
     return names;
 }
 
@@ -165,7 +166,8 @@ ContourSet slice_outlines(const Mask& mask) {
     const auto area = static_cast<std::size_t>(mask.grid.size.i * mask.grid.size.j);
     for (std::int64_t k = 0; k < mask.grid.size.k; ++k) {
         const auto first = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.grid.offset(0, 0, k));
-        const PaintedSlice slice{.axis = 2, .index = k, .whole = true, .section = {first, first + static_cast<std::ptrdiff_t>(area)}};
+        const PaintedSlice slice{
+            .axis = 2, .index = k, .whole = true, .section = {first, first + static_cast<std::ptrdiff_t>(area)}};
         std::vector<Contour> contours = section_contours(mask.grid, slice);
         std::move(contours.begin(), contours.end(), std::back_inserter(set.contours));
     }
@@ -215,7 +217,8 @@ std::vector<Segmentation> fit_together(const SegmentCommand& command, const Draw
     for (const StructurePair& pair : all.pairs) {
         if (pair.relation == Relation::inside) {
             const auto voxels = [&](std::size_t n) { return all.structures[n].report.mask_voxels; };
-            const auto [inner, outer] = std::minmax(pair.first, pair.second, [&](auto a, auto b) { return voxels(a) < voxels(b); });
+            const auto [inner, outer] =
+                std::minmax(pair.first, pair.second, [&](auto a, auto b) { return voxels(a) < voxels(b); });
             labels.set_inside(static_cast<std::uint16_t>(inner + 1), static_cast<std::uint16_t>(outer + 1));
         }
         notes.push_back(fmt::format("'{}' and '{}': {}, {} voxel{} claimed by both", drawings.rois[pair.first].name,
@@ -293,9 +296,10 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         Mask mask;
         try {
-            Segmentation result = command.together ? std::move(parted[n])
-                                                   : segment(drawings.rois[n].contours, drawings.grid,
-                                                             drawings.image ? &*drawings.image : nullptr, command.options, progress);
+            Segmentation result = command.together
+                                      ? std::move(parted[n])
+                                      : segment(drawings.rois[n].contours, drawings.grid,
+                                                drawings.image ? &*drawings.image : nullptr, command.options, progress);
             all.push_back(fitted_from(command, drawings, n, std::move(result), mask, progress));
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI '{}'", drawings.rois[n].name));

@@ -29,9 +29,13 @@ namespace {
 
 Keywords<FillOptions> fill_keywords() {
     return Keywords<FillOptions>()
-        .field("ends", &FillOptions::ends, "How far beyond the first and the last of parallel slices: not at all, half of a gap, or as far as the fit says.")
-        .field("jointly", &FillOptions::jointly, "Fit labels that touch also as one object, so that no gaps stay between them.")
-        .field("shape_weight", &FillOptions::shape_weight, "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone.")
+        .field("ends", &FillOptions::ends,
+               "How far beyond the first and the last of parallel slices: not at all, half of a gap, or as far as the fit "
+               "says.")
+        .field("jointly", &FillOptions::jointly,
+               "Fit labels that touch also as one object, so that no gaps stay between them.")
+        .field("shape_weight", &FillOptions::shape_weight,
+               "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone.")
         .field("smoothing_voxels", &FillOptions::smoothing_voxels, "Of the painted outlines, standard deviation in voxels.")
         .field("only", &FillOptions::labels, "Only these labels; empty: all.")
         .field("threads", &FillOptions::threads, "0: the machine's. The result does not depend on it.")
@@ -67,11 +71,13 @@ void bind_report(py::module_& m) {
     Fields(report)
         .field("labels", &FillReport::labels, "list of FilledLabel: in increasing order.")
         .field("contested_voxels", &FillReport::contested_voxels, "int: claimed by more than one label.")
-        .field("closed_voxels", &FillReport::closed_voxels, "int: between labels that touch, claimed by them together alone.")
+        .field("closed_voxels", &FillReport::closed_voxels,
+               "int: between labels that touch, claimed by them together alone.")
         .stored("seconds", &FillReport::seconds)
         .picklable();
     report.def_property_readonly(
-        "seconds", [](const FillReport& r) { return py::dict(py::cast(r.seconds)); }, "dict of str to float: wall time by stage.");
+        "seconds", [](const FillReport& r) { return py::dict(py::cast(r.seconds)); },
+        "dict of str to float: wall time by stage.");
 }
 
 }  // namespace
@@ -122,21 +128,27 @@ True
                    const py::object& progress, const py::object& stop, const py::kwargs& given) -> py::object {
             const FillOptions options = keywords.parse("fill_labels", given);
             const bool is_image = py::isinstance<Image>(labels);
-            if (is_image && spacing) throw Error(ErrorKind::invalid_input, "an Image has its own spacing; leave `spacing` out");
+            if (is_image && spacing)
+                throw Error(ErrorKind::invalid_input, "an Image has its own spacing; leave `spacing` out");
             if (!is_image && !spacing)
-                throw Error(ErrorKind::invalid_input, "an array has no spacing; give that of its voxels in mm, such as (5, 1, 1)");
+                throw Error(ErrorKind::invalid_input,
+                            "an array has no spacing; give that of its voxels in mm, such as (5, 1, 1)");
             const py::array array = is_image ? py::array() : py::array::ensure(labels);
             if (!array) throw py::error_already_set();
-            Image image = is_image ? labels.cast<const Image&>() : py::module_::import("kontur").attr("Image")(array, py::cast(grid_of(array, *spacing))).cast<Image>();
-            Filling filling = run({progress, stop}, [&](const Progress& p) { return fill_labels(std::move(image), options, p); });
+            Image image =
+                is_image
+                    ? labels.cast<const Image&>()
+                    : py::module_::import("kontur").attr("Image")(array, py::cast(grid_of(array, *spacing))).cast<Image>();
+            Filling filling =
+                run({progress, stop}, [&](const Progress& p) { return fill_labels(std::move(image), options, p); });
             FillReport report = std::move(filling.report);
             py::object full = py::cast(std::move(filling.labels));
             if (!is_image) full = full.attr("samples").attr("astype")(array.dtype());
             if (return_report) return py::make_tuple(full, report);
             return full;
         },
-        py::arg("labels"), py::arg("spacing") = py::none(), py::kw_only(), py::arg("return_report") = false, kProgress, kStop,
-        KeywordText(keywords));
+        py::arg("labels"), py::arg("spacing") = py::none(), py::kw_only(), py::arg("return_report") = false, kProgress,
+        kStop, KeywordText(keywords));
 }
 
 }  // namespace kontur::python

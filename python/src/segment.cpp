@@ -91,8 +91,9 @@ py::object mesh_of(const py::object& self) {
 void bind_refine_report(py::module_& m) {
     py::class_<RefineReport> type(m, "RefineReport", "What became of the image between the contours.");
     Fields(type)
-        .field("use", &RefineReport::use,
-               "str: 'none' (no image, or not asked for), 'unknown' (too few planes to tell), 'no_help' (not used) or 'used'.")
+        .field(
+            "use", &RefineReport::use,
+            "str: 'none' (no image, or not asked for), 'unknown' (too few planes to tell), 'no_help' (not used) or 'used'.")
         .field("planes_left_out", &RefineReport::planes_left_out, "int: one after another, to see whether the image helps.")
         .field("error_without_mm", &RefineReport::error_without_mm,
                "float: mean distance of contours left out from the surface through the others.")
@@ -226,12 +227,13 @@ True
 >>> kidney.report.residual.max_mm < 0.5
 True
 )",
-        [keywords](const ContourSet& contours, const Grid& grid, const Image* image, const py::object& progress, const py::object& stop,
-                   const py::kwargs& given) {
+        [keywords](const ContourSet& contours, const Grid& grid, const Image* image, const py::object& progress,
+                   const py::object& stop, const py::kwargs& given) {
             const SegmentOptions options = keywords.parse("segment", given);
             return run({progress, stop}, [&](const Progress& p) { return segment(contours, grid, image, options, p); });
         },
-        py::arg("contours"), py::arg("grid"), py::kw_only(), py::arg("image") = py::none(), kProgress, kStop, KeywordText(keywords));
+        py::arg("contours"), py::arg("grid"), py::kw_only(), py::arg("image") = py::none(), kProgress, kStop,
+        KeywordText(keywords));
     define(
         m, "provenance", R"(What determines a result, for `write_mask` and `write_mesh`.
 

@@ -47,7 +47,9 @@ IndexBox range_of(const PaintedObject& object, const Grid& image, FillEnds ends)
     if (axis < 0 || ends == FillEnds::open) return range;
     const std::vector<std::int64_t> slices = object.indices(axis);
     const std::size_t last = slices.size() - 1;
-    const auto beyond = [&](std::size_t a, std::size_t b) { return ends == FillEnds::half && last > 0 ? (slices[b] - slices[a]) / 2 : 0; };
+    const auto beyond = [&](std::size_t a, std::size_t b) {
+        return ends == FillEnds::half && last > 0 ? (slices[b] - slices[a]) / 2 : 0;
+    };
     range.low[axis] = std::max<std::int64_t>(slices[0] - beyond(0, 1), 0);
     range.high[axis] = std::min<std::int64_t>(slices[last] + beyond(last - 1, last), image.size[axis] - 1);
     return range;
@@ -132,7 +134,8 @@ private:
                     if (mask.values[place++]) visit(Index3{i, j, k}, grid().offset(i, j, k));
     }
 
-    /// Where the fit and the shape-based interpolation of parallel slices differ, the weighted mean of the depths in both counts.
+    /// Where the fit and the shape-based interpolation of parallel slices differ, the weighted mean of the depths in both
+    /// counts.
     void follow_shapes(const PaintedObject& object, const IndexBox& range, Segmentation& result) const {
         const int axis = object.only_axis();
         if (axis < 0 || options_.shape_weight == 0) return;
@@ -143,8 +146,8 @@ private:
         }
     }
 
-    void follow_shape(const PaintedObject& object, const ShapeInterpolation& shape, const PaintedSlice& low, const PaintedSlice& high,
-                      const IndexBox& range, Segmentation& result) const {
+    void follow_shape(const PaintedObject& object, const ShapeInterpolation& shape, const PaintedSlice& low,
+                      const PaintedSlice& high, const IndexBox& range, Segmentation& result) const {
         const auto [u, v] = slice_axes(low.axis);
         std::vector<std::size_t> differing;
         std::vector<Vec3> places;
@@ -154,7 +157,8 @@ private:
             for (at[v] = 0; at[v] < object.grid.size[v]; ++at[v])
                 for (at[u] = 0; at[u] < object.grid.size[u]; ++at[u]) {
                     const Index3 in_image{at.i + object.box.low.i, at.j + object.box.low.j, at.k + object.box.low.k};
-                    const std::size_t place = result.mask.grid.offset(in_image.i - range.low.i, in_image.j - range.low.j, in_image.k - range.low.k);
+                    const std::size_t place = result.mask.grid.offset(in_image.i - range.low.i, in_image.j - range.low.j,
+                                                                      in_image.k - range.low.k);
                     const double depth = shape.depth_mm(at);
                     if ((depth > 0) == (result.mask.values[place] != 0)) continue;
                     differing.push_back(place);
@@ -185,7 +189,8 @@ private:
     }
 
     /// Only where two of them are no farther away than `reach_mm`: what lies beside one alone is no gap.
-    void give_to_nearest(const std::vector<const PaintedObject*>& objects, const std::vector<std::size_t>& voxels, double reach_mm) {
+    void give_to_nearest(const std::vector<const PaintedObject*>& objects, const std::vector<std::size_t>& voxels,
+                         double reach_mm) {
         struct Nearest {
             std::int64_t label = 0;
             double depth_mm = -std::numeric_limits<double>::infinity(), next_mm = depth_mm;
@@ -227,8 +232,8 @@ void check(const std::map<std::int64_t, LabelBox>& boxes, const FillOptions& opt
             throw Error(ErrorKind::invalid_input, fmt::format("the label {} is to be filled, but no voxel has it", label));
 }
 
-std::vector<PaintedObject> look(const Image& labels, const std::map<std::int64_t, LabelBox>& boxes, const FillOptions& options,
-                                const Progress& progress) {
+std::vector<PaintedObject> look(const Image& labels, const std::map<std::int64_t, LabelBox>& boxes,
+                                const FillOptions& options, const Progress& progress) {
     const std::int64_t margin = 1 + static_cast<std::int64_t>(std::ceil(3 * options.smoothing_voxels));
     std::vector<PaintedObject> objects;
     for (const auto& [label, found] : boxes) {
@@ -282,7 +287,8 @@ Filling fill_labels(Image labels, const FillOptions& options, const Progress& pr
         filled.label = object.label, filled.painted_voxels = object.found.voxels;
         for (const PaintedSlice& slice : object.slices) ++filled.slices[static_cast<std::size_t>(slice.axis)];
         const IndexBox range = range_of(object, filler.grid(), options.ends);
-        if (is_anything_left_out(object, range)) or_warn(object.label, filled.warnings, [&] { filler.add(object, range, progress); });
+        if (is_anything_left_out(object, range))
+            or_warn(object.label, filled.warnings, [&] { filler.add(object, range, progress); });
         else filled.warnings.push_back("no slice was left out");
     }
     watch.lap("fill");

@@ -27,8 +27,8 @@ struct FillOptions {
     /// Fit labels that touch each other also as one object, and give what that claims and none of them has to the nearest:
     /// else gaps stay between them.
     bool jointly = true;
-    /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where the
-    /// slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).
+    /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where
+    /// the slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).
     double shape_weight = 0.7;
     double smoothing_voxels = 0.7;          ///< of the painted outlines, see SectionContourOptions
     std::vector<std::int64_t> labels{};     ///< only these; empty: all
@@ -59,11 +59,12 @@ struct Filling {
 
 /// Fills what was left out of a label map: each label was painted on some slices, across any axis of the grid or several
 /// (see find_painted_slices); between them its body is fitted to their outlines as `segment` does, and between parallel ones
-/// averaged with the shape-based interpolation (see ShapeInterpolation). What was painted stays as it is, voxel for voxel, and a slice that was painted as a whole gets nothing more. Where several labels claim a voxel,
-/// it goes to the one that it lies deepest in, f / |grad f|. A label painted on one slice alone, and one of whose slices
-/// none was left out, stay as they are. Throws Error(invalid_input) for an image that is no label map (see count_labels), one
-/// without labels, a label to fill that is not in it and a smoothing below 0; Error(too_large) as `segment` does.
-/// Works within the labels' boxes. The same bytes for any number of threads.
+/// averaged with the shape-based interpolation (see ShapeInterpolation). What was painted stays as it is, voxel for voxel,
+/// and a slice that was painted as a whole gets nothing more. Where several labels claim a voxel, it goes to the one that it
+/// lies deepest in, f / |grad f|. A label painted on one slice alone, and one of whose slices none was left out, stay as
+/// they are. Throws Error(invalid_input) for an image that is no label map (see count_labels), one without labels, a label
+/// to fill that is not in it and a smoothing below 0; Error(too_large) as `segment` does. Works within the labels' boxes.
+/// The same bytes for any number of threads.
 Filling fill_labels(Image labels, const FillOptions& options = {}, const Progress& progress = {});
 
 }  // namespace kontur

@@ -30,8 +30,8 @@
 // Files to shapes.
 #include "kontur/io/contour_json.h"
 #include "kontur/io/contours.h"
-#include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_identity.h"
+#include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
@@ -72,12 +72,12 @@
 #include "kontur/extract/voxelize.h"
 
 // How sure the surface is, and where to draw next.
+#include "kontur/refine/area_samples.h"
 #include "kontur/refine/candidate_planes.h"
 #include "kontur/refine/drawn_lines.h"
 #include "kontur/refine/expected_dice.h"
 #include "kontur/refine/suggest_plane.h"
 #include "kontur/refine/surface_evidence.h"
-#include "kontur/refine/area_samples.h"
 #include "kontur/refine/surface_uncertainty.h"
 #include "kontur/refine/uncertainty_map.h"
 

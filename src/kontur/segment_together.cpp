@@ -30,7 +30,9 @@ std::vector<Vec3> centers_mm(const Grid& grid, const Voxels& voxels) {
     return places;
 }
 
-std::size_t count(const Mask& mask) { return static_cast<std::size_t>(std::count(mask.values.begin(), mask.values.end(), 1)); }
+std::size_t count(const Mask& mask) {
+    return static_cast<std::size_t>(std::count(mask.values.begin(), mask.values.end(), 1));
+}
 
 Voxels shared(const Mask& a, const Mask& b) {
     Voxels both;
@@ -42,12 +44,15 @@ Voxels shared(const Mask& a, const Mask& b) {
 /// Whether a voxel of one mask has a face in common with one of the other.
 bool touch(const Mask& a, const Mask& b) {
     const Index3& size = a.grid.size;
-    const auto meet = [&](std::size_t n, std::size_t m) { return (a.values[n] & b.values[m]) | (b.values[n] & a.values[m]); };
+    const auto meet = [&](std::size_t n, std::size_t m) {
+        return (a.values[n] & b.values[m]) | (b.values[n] & a.values[m]);
+    };
     std::size_t n = 0;
     for (std::int64_t k = 0; k < size.k; ++k)
         for (std::int64_t j = 0; j < size.j; ++j)
             for (std::int64_t i = 0; i < size.i; ++i, ++n)
-                if ((i + 1 < size.i && meet(n, n + 1)) || (j + 1 < size.j && meet(n, n + static_cast<std::size_t>(size.i))) ||
+                if ((i + 1 < size.i && meet(n, n + 1)) ||
+                    (j + 1 < size.j && meet(n, n + static_cast<std::size_t>(size.i))) ||
                     (k + 1 < size.k && meet(n, n + static_cast<std::size_t>(size.i * size.j))))
                     return true;
     return false;
@@ -58,7 +63,8 @@ double reach_mm(const ContourSet& contours, const Grid& grid) {
     const Plane& first = contours.contours.front().plane;
     std::vector<double> heights;
     for (const Contour& contour : contours.contours)
-        if (std::abs(dot(contour.plane.normal, first.normal)) > 0.99) heights.push_back(first.distance_to(contour.points.front()));
+        if (std::abs(dot(contour.plane.normal, first.normal)) > 0.99)
+            heights.push_back(first.distance_to(contour.points.front()));
     std::sort(heights.begin(), heights.end());
     const Vec3 spacing = grid.spacing_mm();
     double apart = std::max({spacing.x, spacing.y, spacing.z});
@@ -93,7 +99,8 @@ private:
     Relation relation(std::size_t a, std::size_t b, std::size_t both) {
         for (const StructurePair& rule : options_.rules)
             if (std::minmax(rule.first, rule.second) == std::minmax(a, b)) return rule.relation;
-        const double share = static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(std::min(count(mask(a)), count(mask(b))), 1));
+        const double share = static_cast<double>(both) /
+                             static_cast<double>(std::max<std::size_t>(std::min(count(mask(a)), count(mask(b))), 1));
         return share > kInside ? Relation::inside : share > kOverlap ? Relation::overlap : Relation::exclusive;
     }
 
@@ -118,7 +125,8 @@ private:
     void contest(const StructurePair& pair, const Voxels& voxels) {
         const std::vector<Vec3> places = centers_mm(grid_, voxels);
         const std::vector<double> first = depths(pair.first, places), second = depths(pair.second, places);
-        for (std::size_t n = 0; n < voxels.size(); ++n) mask(second[n] > first[n] ? pair.first : pair.second).values[voxels[n]] = 0;
+        for (std::size_t n = 0; n < voxels.size(); ++n)
+            mask(second[n] > first[n] ? pair.first : pair.second).values[voxels[n]] = 0;
         result_.contested_voxels += static_cast<std::int64_t>(voxels.size());
     }
 
@@ -153,7 +161,8 @@ private:
         const Segmentation all = segment(outline, grid_, options_.segment, progress);
         Voxels gaps;
         for (std::size_t n = 0; n < all.mask.values.size(); ++n)
-            if (all.mask.values[n] && std::none_of(group.begin(), group.end(), [&](std::size_t s) { return mask(s).values[n]; }))
+            if (all.mask.values[n] &&
+                std::none_of(group.begin(), group.end(), [&](std::size_t s) { return mask(s).values[n]; }))
                 gaps.push_back(n);
         give_to_nearest(group, gaps, reach_mm(outline, grid_));
     }
@@ -186,8 +195,9 @@ private:
 void check(std::size_t structures, const TogetherOptions& options) {
     for (const StructurePair& rule : options.rules)
         if (rule.first >= structures || rule.second >= structures || rule.first == rule.second)
-            throw Error(ErrorKind::invalid_input, fmt::format("a rule is about the structures {} and {}; there are {}, counted from 0",
-                                                              rule.first, rule.second, structures));
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("a rule is about the structures {} and {}; there are {}, counted from 0", rule.first,
+                                    rule.second, structures));
 }
 
 }  // namespace

@@ -116,7 +116,8 @@ TEST(FillLabels, WhatWasPaintedStaysVoxelForVoxelAndPaintedSlicesGetNothingMore)
                 in_slices += k % step == 0 && changed;
             }
         EXPECT_EQ(in_slices, 0U) << step;
-        for (const int label : {1, 2, 7}) EXPECT_GT(dice(filled.labels, full, label, 2), 0.95) << "label " << label << ", every " << step;
+        for (const int label : {1, 2, 7})
+            EXPECT_GT(dice(filled.labels, full, label, 2), 0.95) << "label " << label << ", every " << step;
     }
 }
 
@@ -152,7 +153,8 @@ std::vector<std::size_t> shared_borders(const Image& full) {
                 const std::size_t n = full.grid.offset(i, j, k);
                 const int own = bytes_of_labels(full)[n];
                 if (own == 0) continue;
-                for (const std::size_t m : {n - 1, n + 1, n - static_cast<std::size_t>(size.i), n + static_cast<std::size_t>(size.i)})
+                for (const std::size_t m :
+                     {n - 1, n + 1, n - static_cast<std::size_t>(size.i), n + static_cast<std::size_t>(size.i)})
                     if (bytes_of_labels(full)[m] != own && bytes_of_labels(full)[m] != 0) {
                         found.push_back(n);
                         break;
@@ -166,7 +168,8 @@ TEST(FillLabels, TouchingLabelsLeaveNoGapsBetweenThem) {
     const Image sparse = sparse_of(full, [](const Index3& at) { return at.k % 8 == 0; });
     const auto borders = shared_borders(full);
     const auto count = [&](const Image& filled, const auto& holds) {
-        return std::count_if(borders.begin(), borders.end(), [&](std::size_t n) { return holds(bytes_of_labels(filled)[n], bytes_of_labels(full)[n]); });
+        return std::count_if(borders.begin(), borders.end(),
+                             [&](std::size_t n) { return holds(bytes_of_labels(filled)[n], bytes_of_labels(full)[n]); });
     };
     const Filling alone = fill_labels(sparse, {.jointly = false}), together = fill_labels(sparse);
     const auto is_gap = [](int label, int) { return label == 0; };
@@ -209,17 +212,23 @@ TEST(FillLabels, KeepsTheSampleType) {
             samples.push_back(k % 4 == 0 && is_in_ball({m % 30, m / 30, k}, {14, 15, 10}, 9) ? 100000 : 0);
     const Filling filled = fill_labels({grid, samples});
     const auto& result = std::get<std::vector<std::int32_t>>(filled.labels.samples);
-    EXPECT_EQ(std::count(result.begin(), result.end(), 100000), filled.report.labels[0].painted_voxels + filled.report.labels[0].added_voxels);
+    EXPECT_EQ(std::count(result.begin(), result.end(), 100000),
+              filled.report.labels[0].painted_voxels + filled.report.labels[0].added_voxels);
     EXPECT_GT(filled.report.labels[0].added_voxels, 0);
 }
 
 TEST(FillLabels, RefusesWhatCannotBeFilled) {
     const Image map = ball();
-    EXPECT_KONTUR_ERROR(fill_labels(map, {.labels = {3, 9}}), ErrorKind::invalid_input, "the label 9 is to be filled, but no voxel has it");
-    EXPECT_KONTUR_ERROR(fill_labels(map, {.shape_weight = 1.5}), ErrorKind::invalid_input, "shape-based interpolation is 1.5");
-    EXPECT_KONTUR_ERROR(fill_labels(map, {.smoothing_voxels = -1}), ErrorKind::invalid_input, "smoothing of the painted outlines");
-    EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<float>{0, 0.5F}}), ErrorKind::invalid_input, "no label map");
-    EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<std::uint8_t>{0, 0}}), ErrorKind::invalid_input, "nothing is painted");
+    EXPECT_KONTUR_ERROR(fill_labels(map, {.labels = {3, 9}}), ErrorKind::invalid_input,
+                        "the label 9 is to be filled, but no voxel has it");
+    EXPECT_KONTUR_ERROR(fill_labels(map, {.shape_weight = 1.5}), ErrorKind::invalid_input,
+                        "shape-based interpolation is 1.5");
+    EXPECT_KONTUR_ERROR(fill_labels(map, {.smoothing_voxels = -1}), ErrorKind::invalid_input,
+                        "smoothing of the painted outlines");
+    EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<float>{0, 0.5F}}), ErrorKind::invalid_input,
+                        "no label map");
+    EXPECT_KONTUR_ERROR(fill_labels({index_grid({2, 1, 1}), std::vector<std::uint8_t>{0, 0}}), ErrorKind::invalid_input,
+                        "nothing is painted");
 }
 
 }  // namespace

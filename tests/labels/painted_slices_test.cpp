@@ -39,8 +39,9 @@ std::set<Place> places(const std::vector<PaintedSlice>& slices) {
 std::int64_t area(const PaintedSlice& slice) { return std::count(slice.section.begin(), slice.section.end(), 1); }
 
 const PaintedSlice& slice_at(const std::vector<PaintedSlice>& slices, const Place& place) {
-    return *std::find_if(slices.begin(), slices.end(),
-                         [&](const PaintedSlice& slice) { return Place{slice.axis, slice.index} == place; });
+    return *std::find_if(slices.begin(), slices.end(), [&](const PaintedSlice& slice) {
+        return Place{slice.axis, slice.index} == place;
+    });
 }
 
 TEST(PaintedSlices, EverySliceAcrossEachAxisIsFound) {
@@ -112,9 +113,11 @@ TEST(PaintedSlices, HolesAndBranchesStay) {
 
 TEST(PaintedSlices, AThinTubeAlongTheStackIsCutAcross) {
     // The slice along the tube would hold more voxels than any across it.
-    const auto slices =
-        find_painted_slices(mask_where([](const Index3& at) { return is_in_ball({at.i, at.j, 0}, {4, 4, 0}, 2.6) && at.k % 4 == 1; },
-                                       {9, 9, 121}));
+    const auto slices = find_painted_slices(mask_where(
+        [](const Index3& at) {
+            return is_in_ball({at.i, at.j, 0}, {4, 4, 0}, 2.6) && at.k % 4 == 1;
+        },
+        {9, 9, 121}));
     ASSERT_EQ(slices.size(), 30U);
     for (const PaintedSlice& slice : slices) EXPECT_EQ(slice.axis, 2);
 }
@@ -131,7 +134,8 @@ TEST(PaintedSlices, ASolidIsCutAcrossOneAxis) {
 }
 
 TEST(PaintedSlices, ASolidAmongSlicesIsCutAsTheyAre) {
-    const auto slices = find_painted_slices(ball_where([](const Index3& at) { return at.j % 6 == 0 || (at.j > 14 && at.j < 20); }));
+    const auto slices =
+        find_painted_slices(ball_where([](const Index3& at) { return at.j % 6 == 0 || (at.j > 14 && at.j < 20); }));
     for (const PaintedSlice& slice : slices) EXPECT_EQ(slice.axis, 1);
     EXPECT_EQ(slices.size(), 9U);
 }
@@ -139,10 +143,12 @@ TEST(PaintedSlices, ASolidAmongSlicesIsCutAsTheyAre) {
 TEST(PaintedSlices, EveryPaintedVoxelLiesInASection) {
     for (const std::uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
         std::uint32_t state = seed * 2654435761U;
-        const Mask mask = mask_where([&](const Index3& at) {
-            state = state * 1664525U + 1013904223U;
-            return (at.k % 3 == 0 && state >> 28 < 12) || state >> 24 == 7;
-        }, {13, 11, 9});
+        const Mask mask = mask_where(
+            [&](const Index3& at) {
+                state = state * 1664525U + 1013904223U;
+                return (at.k % 3 == 0 && state >> 28 < 12) || state >> 24 == 7;
+            },
+            {13, 11, 9});
         std::vector<std::uint8_t> covered(mask.values.size());
         for (const PaintedSlice& slice : find_painted_slices(mask)) {
             const auto [u, v] = slice_axes(slice.axis);
@@ -158,7 +164,9 @@ TEST(PaintedSlices, EveryPaintedVoxelLiesInASection) {
     }
 }
 
-TEST(PaintedSlices, NothingPaintedGivesNone) { EXPECT_TRUE(find_painted_slices(mask_where([](const Index3&) { return false; })).empty()); }
+TEST(PaintedSlices, NothingPaintedGivesNone) {
+    EXPECT_TRUE(find_painted_slices(mask_where([](const Index3&) { return false; })).empty());
+}
 
 }  // namespace
 }  // namespace kontur

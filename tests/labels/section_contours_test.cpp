@@ -40,8 +40,8 @@ TEST(SectionContours, ACircleIsCloserThanItsVoxels) {
     const Grid grid = index_grid({64, 64, 1});
     const Vec3 center{31.3, 31.8, 0};
     constexpr double kRadius = 20.2;
-    const PaintedSlice slice =
-        section_where(grid, [&](const Index3& at) { return std::hypot(double(at.i) - center.x, double(at.j) - center.y) < kRadius; });
+    const PaintedSlice slice = section_where(
+        grid, [&](const Index3& at) { return std::hypot(double(at.i) - center.x, double(at.j) - center.y) < kRadius; });
     const auto mean_square_error = [&](double smoothing) {
         double sum = 0;
         std::size_t count = 0;

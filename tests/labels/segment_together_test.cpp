@@ -24,7 +24,8 @@ Contour sector(double z, double begin, double end, double radius, double gap) {
     const auto rim = [&](double angle) { return Vec3{radius * std::cos(angle), radius * std::sin(angle), z}; };
     for (int n = 0; n < kSteps; ++n) contour.points.push_back(corner + (n / double(kSteps)) * (rim(begin + turn) - corner));
     for (int n = 0; n <= kSteps; ++n) contour.points.push_back(rim(std::lerp(begin + turn, end - turn, n / double(kSteps))));
-    for (int n = 1; n < kSteps; ++n) contour.points.push_back(rim(end - turn) + (n / double(kSteps)) * (corner - rim(end - turn)));
+    for (int n = 1; n < kSteps; ++n)
+        contour.points.push_back(rim(end - turn) + (n / double(kSteps)) * (corner - rim(end - turn)));
     return contour;
 }
 
@@ -85,7 +86,8 @@ ContourSet ball(const Vec3& center, double radius) {
         contour.plane = {center + Vec3{0, 0, z}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
         const double r = std::sqrt(radius * radius - z * z);
         for (int n = 0; n < 48; ++n)
-            contour.points.push_back(contour.plane.from_uv(r * std::cos(n * std::numbers::pi / 24), r * std::sin(n * std::numbers::pi / 24)));
+            contour.points.push_back(
+                contour.plane.from_uv(r * std::cos(n * std::numbers::pi / 24), r * std::sin(n * std::numbers::pi / 24)));
         set.contours.push_back(contour);
     }
     return set;
@@ -100,7 +102,8 @@ TEST(SegmentTogether, OneInsideAnotherAndTwoThatOverlapKeepTheirVoxels) {
         EXPECT_EQ(inside.structures[n].mask.values, segment(nested[n], grid_here()).mask.values);
     const std::vector<ContourSet> crossing{ball({-4, 0, 0}, 12), ball({4, 0, 0}, 12)};
     EXPECT_EQ(segment_together(crossing, grid_here()).pairs.at(0).relation, Relation::overlap);
-    const Together parted = segment_together(crossing, grid_here(), {.segment = {}, .rules = {{1, 0, Relation::exclusive, 0}}});
+    const Together parted =
+        segment_together(crossing, grid_here(), {.segment = {}, .rules = {{1, 0, Relation::exclusive, 0}}});
     EXPECT_EQ(parted.pairs.at(0).relation, Relation::exclusive);
     EXPECT_GT(parted.contested_voxels, 1000);
     // By symmetry the border is the plane x = 0.

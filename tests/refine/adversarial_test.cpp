@@ -38,7 +38,8 @@ TEST(RefineAdversarial, ConstantImageChangesNothing) {
 
 TEST(RefineAdversarial, NoiseAloneIsNotFollowed) {
     const ContourSet contours = drawn_on(orthogonal_planes());
-    const Refinement r = refine_drawing(contours, image_of(cube_grid(2), [](const Vec3&) { return 0.0; }, 10));
+    const Refinement r = refine_drawing(contours, image_of(
+                                                      cube_grid(2), [](const Vec3&) { return 0.0; }, 10));
     EXPECT_EQ(r.refined.report.use, ImageUse::no_help);
     EXPECT_TRUE(std::ranges::equal(r.refined.fitted.function.weights(), r.plain.function.weights()));
 }
@@ -53,8 +54,7 @@ TEST(RefineAdversarial, ImageShiftedDifferentlyAtEachPlaneIsNotFollowed) {
     const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), shifted, 8));
     if (r.refined.report.use == ImageUse::used)
         EXPECT_LT(surface_error(r.refined.fitted.function, contours), 1.05 * surface_error(r.plain.function, contours));
-    else
-        EXPECT_EQ(r.refined.report.use, ImageUse::no_help);
+    else EXPECT_EQ(r.refined.report.use, ImageUse::no_help);
 }
 
 TEST(RefineAdversarial, InvertedAndScaledIntensitiesSayTheSame) {
@@ -78,14 +78,17 @@ TEST(RefineAdversarial, ImageThatEndsInsideTheObjectHelpsAsFarAsItGoes) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     const Grid half = grid_around({{-48, -48, -48}, {48, 48, 4}}, {1.5, 1.5, 1.5}, 0);
     const Refinement r = refine_drawing(contours, image_of(half, body_look, 8));
-    const double without = surface_error(r.plain.function, contours), with = surface_error(r.refined.fitted.function, contours);
+    const double without = surface_error(r.plain.function, contours),
+                 with = surface_error(r.refined.fitted.function, contours);
     EXPECT_LT(with, 0.95 * without);
 }
 
 TEST(RefineAdversarial, VoxelsThatHoldNoNumberSayNothing) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     const Look holes = [](const Vec3& p) {
-        return p.x > 20 ? std::numeric_limits<double>::quiet_NaN() : norm(p) > 44 ? std::numeric_limits<double>::infinity() : body_look(p);
+        return p.x > 20       ? std::numeric_limits<double>::quiet_NaN()
+               : norm(p) > 44 ? std::numeric_limits<double>::infinity()
+                              : body_look(p);
     };
     const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), holes, 8));
     ASSERT_EQ(r.refined.report.use, ImageUse::used);

@@ -13,8 +13,8 @@
 
 namespace kontur::test {
 
-/// Positive inside a body of radius 30 mm with lobes and hollows of 7 mm in places where planes across the axes show but their
-/// feet.
+/// Positive inside a body of radius 30 mm with lobes and hollows of 7 mm in places where planes across the axes show but
+/// their feet.
 inline double lobed_depth(const Vec3& p) {
     const double r = norm(p) + 1e-9;
     double radius = 30;
@@ -30,7 +30,8 @@ inline double lobed_depth(const Vec3& p) {
 /// First-order distance to the surface of a body that is positive inside.
 inline double surface_distance(const std::function<double(const Vec3&)>& depth, const Vec3& p) {
     constexpr double h = 1e-3;
-    const Vec3 gradient{depth(p + Vec3{h, 0, 0}) - depth(p - Vec3{h, 0, 0}), depth(p + Vec3{0, h, 0}) - depth(p - Vec3{0, h, 0}),
+    const Vec3 gradient{depth(p + Vec3{h, 0, 0}) - depth(p - Vec3{h, 0, 0}),
+                        depth(p + Vec3{0, h, 0}) - depth(p - Vec3{0, h, 0}),
                         depth(p + Vec3{0, 0, h}) - depth(p - Vec3{0, 0, h})};
     return std::abs(depth(p)) / (norm(gradient) / (2 * h));
 }
@@ -50,7 +51,8 @@ inline double white_noise(std::int64_t index) {
 }
 
 inline Grid cube_grid(double spacing_mm, double half_mm = 48) {
-    return grid_around({{-half_mm, -half_mm, -half_mm}, {half_mm, half_mm, half_mm}}, {spacing_mm, spacing_mm, spacing_mm}, 0);
+    return grid_around({{-half_mm, -half_mm, -half_mm}, {half_mm, half_mm, half_mm}}, {spacing_mm, spacing_mm, spacing_mm},
+                       0);
 }
 
 inline Image image_of(const Grid& grid, const Look& look, double noise = 0) {

@@ -22,7 +22,8 @@ std::vector<double> inverse(std::vector<double> a, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i) {
             if (i == p) continue;
             const double factor = a[i * n + p];
-            for (std::size_t j = 0; j < n; ++j) a[i * n + j] -= factor * a[p * n + j], result[i * n + j] -= factor * result[p * n + j];
+            for (std::size_t j = 0; j < n; ++j)
+                a[i * n + j] -= factor * a[p * n + j], result[i * n + j] -= factor * result[p * n + j];
         }
     }
     return result;
@@ -33,7 +34,8 @@ TEST(GaussianPosterior, IsWhatInvertingTheMatricesGives) {
     Random random(5);
     std::vector<double> prior(n * n), precision(n), information(n);
     for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) prior[i * n + j] = 2 * std::exp(-0.3 * std::abs(static_cast<double>(i) - static_cast<double>(j)));
+        for (std::size_t j = 0; j < n; ++j)
+            prior[i * n + j] = 2 * std::exp(-0.3 * std::abs(static_cast<double>(i) - static_cast<double>(j)));
         precision[i] = i % 3 == 0 ? 0 : random.uniform(0, 4);
         information[i] = precision[i] * random.gaussian();
     }
@@ -43,7 +45,8 @@ TEST(GaussianPosterior, IsWhatInvertingTheMatricesGives) {
     const std::vector<double> covariance = inverse(both, n);
     for (std::size_t i = 0; i < n; ++i) {
         double mean = 0, by_weights = 0;
-        for (std::size_t j = 0; j < n; ++j) mean += covariance[i * n + j] * information[j], by_weights += prior[i * n + j] * posterior.weights[j];
+        for (std::size_t j = 0; j < n; ++j)
+            mean += covariance[i * n + j] * information[j], by_weights += prior[i * n + j] * posterior.weights[j];
         EXPECT_NEAR(posterior.mean[i], mean, 1e-10);
         EXPECT_NEAR(posterior.variance[i], covariance[i * n + i], 1e-10);
         EXPECT_NEAR(by_weights, mean, 1e-10);
@@ -66,7 +69,9 @@ OffsetEvidence evidence(int points, int most, double step_mm, double (*log_likel
 }
 
 /// Two unlike peaks near each other.
-double two_peaks(double u) { return std::log(0.7 * std::exp(-2 * (u - 1) * (u - 1)) + 0.3 * std::exp(-4 * (u + 0.5) * (u + 0.5)) + 0.001); }
+double two_peaks(double u) {
+    return std::log(0.7 * std::exp(-2 * (u - 1) * (u - 1)) + 0.3 * std::exp(-4 * (u + 0.5) * (u + 0.5)) + 0.001);
+}
 double flat(double) { return -3; }
 
 TEST(Offsets, OfOnePointHaveTheMomentsOfItsPosterior) {
@@ -86,7 +91,8 @@ TEST(Offsets, OfOnePointHaveTheMomentsOfItsPosterior) {
 
 TEST(Offsets, FlatEvidenceLeavesThePrior) {
     std::vector<MovingPoint> points;
-    for (int i = 0; i < 5; ++i) points.push_back({.position = {3.0 * i, 0, 0}, .normal = {0, 0, 1}, .distance_mm = 4, .prior_mm = 1 + 0.2 * i});
+    for (int i = 0; i < 5; ++i)
+        points.push_back({.position = {3.0 * i, 0, 0}, .normal = {0, 0, 1}, .distance_mm = 4, .prior_mm = 1 + 0.2 * i});
     const Offsets found = find_offsets(points, {.length_mm = 6}, evidence(5, 12, 0.5, flat));
     for (std::size_t i = 0; i < points.size(); ++i) {
         EXPECT_NEAR(found.mean_mm[i], 0, 1e-9);
@@ -96,7 +102,8 @@ TEST(Offsets, FlatEvidenceLeavesThePrior) {
 
 TEST(Offsets, PointsThatSayNothingFollowTheirNeighbours) {
     std::vector<MovingPoint> points;
-    for (int i = 0; i < 3; ++i) points.push_back({.position = {2.0 * i, 0, 0}, .normal = {0, 0, 1}, .distance_mm = 4, .prior_mm = 2});
+    for (int i = 0; i < 3; ++i)
+        points.push_back({.position = {2.0 * i, 0, 0}, .normal = {0, 0, 1}, .distance_mm = 4, .prior_mm = 2});
     OffsetEvidence e = evidence(3, 16, 0.25, [](double u) { return -8 * (u - 1.5) * (u - 1.5); });
     e.log_likelihood[1].assign(e.log_likelihood[1].size(), 0);
     const OffsetPrior prior{.length_mm = 10};

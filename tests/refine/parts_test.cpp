@@ -36,7 +36,8 @@ TEST(IntensityScale, OfNothingIsTheMiddle) {
 }
 
 TEST(Appearance, FindsTheOffsetOfABorderThatItHasLearnt) {
-    const Image image = image_of(cube_grid(1), [](const Vec3& p) { return two_tissues(30 - norm(p)); }, 5);
+    const Image image = image_of(
+        cube_grid(1), [](const Vec3& p) { return two_tissues(30 - norm(p)); }, 5);
     const Intensities intensities(image);
     const double step = intensities.step_mm();
     std::vector<MovingPoint> examples;
@@ -57,7 +58,8 @@ TEST(Appearance, FindsTheOffsetOfABorderThatItHasLearnt) {
 
 TEST(Walls, AreTheDrawnPlanesAndBeyondTheEndsOfAStack) {
     const Walls walls{Drawing(drawn_on(stacked_planes()))};  // at -21, -11, 0, 10, 20: the median gap is 10
-    std::vector<MovingPoint> points{{{30, 0, 5}, {0, 0, 1}}, {{0, 0, 24}, {0, 0, 1}}, {{0, 0, 24}, {1, 0, 0}}, {{0, 0, 29}, {0, 0, 1}}};
+    std::vector<MovingPoint> points{
+        {{30, 0, 5}, {0, 0, 1}}, {{0, 0, 24}, {0, 0, 1}}, {{0, 0, 24}, {1, 0, 0}}, {{0, 0, 29}, {0, 0, 1}}};
     walls.limit(points);
     EXPECT_NEAR(points[0].least_mm, -5, 1e-9);
     EXPECT_NEAR(points[0].most_mm, 5, 1e-9);

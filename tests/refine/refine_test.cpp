@@ -19,7 +19,8 @@ TEST(Refine, MovesTheSurfaceBetweenContoursToTheBorderInTheImage) {
     EXPECT_EQ(r.refined.report.use, ImageUse::used);
     EXPECT_EQ(r.refined.report.planes_left_out, 4U);
     EXPECT_LT(r.refined.report.error_with_mm, 0.5 * r.refined.report.error_without_mm);
-    const double without = surface_error(r.plain.function, contours), with = surface_error(r.refined.fitted.function, contours);
+    const double without = surface_error(r.plain.function, contours),
+                 with = surface_error(r.refined.fitted.function, contours);
     EXPECT_LT(with, 0.5 * without) << without << " mm without the image";
     EXPECT_LT(with, 0.45) << "a third of a voxel";
 }

@@ -79,7 +79,8 @@ TEST(Segment, ReportSaysWhatWasDone) {
         EXPECT_EQ(report.solver, Solver::iterative);
         EXPECT_EQ(report.solves, normals == Normals::surface ? 3 : 1);
         EXPECT_GE(report.iterations, report.solves);
-        EXPECT_NEAR(report.normal_offset_mm, (normals == Normals::surface ? 1.35e-2 : 4.5e-3) * diameter_mm(contours), 1e-12);
+        EXPECT_NEAR(report.normal_offset_mm, (normals == Normals::surface ? 1.35e-2 : 4.5e-3) * diameter_mm(contours),
+                    1e-12);
         EXPECT_EQ(report.smoothing, normals == Normals::surface ? 1e-5 : 0);
         const Residual measured = residual(result.function, contours);
         EXPECT_EQ(report.residual.max_mm, measured.max_mm);

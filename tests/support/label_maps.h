@@ -23,8 +23,7 @@ inline Image label_map(const Grid& grid, const std::function<int(const Index3&)>
     std::vector<std::uint8_t> samples;
     for (std::int64_t k = 0; k < grid.size.k; ++k)
         for (std::int64_t j = 0; j < grid.size.j; ++j)
-            for (std::int64_t i = 0; i < grid.size.i; ++i)
-                samples.push_back(static_cast<std::uint8_t>(label_at({i, j, k})));
+            for (std::int64_t i = 0; i < grid.size.i; ++i) samples.push_back(static_cast<std::uint8_t>(label_at({i, j, k})));
     return {grid, samples};
 }
 

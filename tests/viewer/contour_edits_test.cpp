@@ -157,12 +157,14 @@ TEST_F(ContourEdits, ARedrawnPartReplacesTheShorterSide) {
 
 TEST_F(ContourEdits, AWholeLineIsReplacedByTheOneThatIsGiven) {
     std::vector<Vec3> square;
-    for (const auto& [u, v] : {std::pair{-9., -9.}, {0., -9.}, {9., -9.}, {9., 9.}, {-9., 9.}}) square.push_back(kPlane.from_uv(u, v));
+    for (const auto& [u, v] : {std::pair{-9., -9.}, {0., -9.}, {9., -9.}, {9., 9.}, {-9., 9.}})
+        square.push_back(kPlane.from_uv(u, v));
     for (const DrawnContour& contour : {free, round}) {
         const DrawnContour changed = redraw_whole(contour, square, edges);
         expect_sound(changed, contour);
         EXPECT_EQ(kind_name(changed), "freehand");
-        for (const Vec3& corner : square) EXPECT_LT(distance(changed.points[nearest_point(changed.points, corner)], corner), 0.11);
+        for (const Vec3& corner : square)
+            EXPECT_LT(distance(changed.points[nearest_point(changed.points, corner)], corner), 0.11);
         for (const Vec3& p : changed.points) EXPECT_LT(distance(p, kPlane.origin), 13);
     }
     EXPECT_KONTUR_ERROR(redraw_whole(free, {square[0], square[1]}, edges), ErrorKind::invalid_input, "fewer than 3");

@@ -95,12 +95,10 @@ void append_flat(const ContourSet& set, const Section& region, const Continuatio
     constexpr double kEdge = 0.1, kBeyond = 0.005;  // of the inscribed radius
     const Vec3 up = sign * region.plane.normal, beyond = kBeyond * deepest(inside) * up;
     for (const std::size_t c : region.contours)
-        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond,
-                   ends);
+        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond, ends);
     const auto contour = static_cast<std::int32_t>(region.contours.front());
     for (const Probe& probe : inside)
-        ends.lids.push_back(
-            {.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour});
+        ends.lids.push_back({.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour});
 }
 
 void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {

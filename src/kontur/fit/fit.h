@@ -36,12 +36,12 @@ struct FittedFunction {
     ImplicitFunction function;
     SolveReport report;  ///< of the last solve
     int solves = 0;
-    int iterations = 0;              ///< over all solves
-    std::size_t merged = 0;          ///< near-duplicate constraints left out
-    std::size_t bounded = 0;         ///< bounds at which f is held
-    std::size_t constraints = 0;     ///< kept
-    double tilt_change_degrees = 0;  ///< mean change of the tilts in the last round
-    std::vector<double> slopes;      ///< cosine of the surface's tilt, one per boundary point
+    int iterations = 0;                 ///< over all solves
+    std::size_t merged = 0;             ///< near-duplicate constraints left out
+    std::size_t bounded = 0;            ///< bounds at which f is held
+    std::size_t constraints = 0;        ///< kept
+    double tilt_change_degrees = 0;     ///< mean change of the tilts in the last round
+    std::vector<double> slopes;         ///< cosine of the surface's tilt, one per boundary point
     std::vector<PointConstraint> held;  ///< the bounds at which f is held, as they took part in the last solve
 };
 

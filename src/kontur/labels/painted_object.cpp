@@ -15,8 +15,8 @@ void mark_whole(PaintedObject& object, const Grid& image) {
     for (int axis = 0; axis < 3; ++axis)
         object.is_whole[static_cast<std::size_t>(axis)].assign(static_cast<std::size_t>(image.size[axis]), false);
     for (const PaintedSlice& slice : object.slices)
-        object.is_whole[static_cast<std::size_t>(slice.axis)][static_cast<std::size_t>(slice.index + object.box.low[slice.axis])] =
-            slice.whole;
+        object.is_whole[static_cast<std::size_t>(slice.axis)]
+                       [static_cast<std::size_t>(slice.index + object.box.low[slice.axis])] = slice.whole;
 }
 
 /// Whether each object that reaches a slice was painted on it as a whole.

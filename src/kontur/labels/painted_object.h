@@ -17,9 +17,9 @@ namespace kontur {
 struct PaintedObject {
     std::int64_t label = 0;
     LabelBox found;
-    IndexBox box;                      ///< of the image; what `slices` count from
-    Grid grid;                         ///< of the box
-    std::vector<PaintedSlice> slices;  ///< on `grid`, sorted by axis and index
+    IndexBox box;                                 ///< of the image; what `slices` count from
+    Grid grid;                                    ///< of the box
+    std::vector<PaintedSlice> slices;             ///< on `grid`, sorted by axis and index
     std::array<std::vector<bool>, 3> is_whole{};  ///< by axis and index of the image: whether a slice was painted as a whole
 
     /// Whether a slice says what the voxel of the image is.

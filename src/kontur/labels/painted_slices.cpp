@@ -56,7 +56,8 @@ std::vector<Length> runs_across_planes(const Mask& mask) {
 
 std::uint8_t shortest(Length i, Length j, Length k) {
     const Length least = std::min({i, j, k});
-    return static_cast<std::uint8_t>((i == least) | (j == least) << 1 | (k == least) << 2 | (least >= kLeastOfSolid ? kSolid : 0));
+    return static_cast<std::uint8_t>((i == least) | (j == least) << 1 | (k == least) << 2 |
+                                     (least >= kLeastOfSolid ? kSolid : 0));
 }
 
 class Painted {
@@ -68,8 +69,10 @@ public:
         std::size_t rank = 0;
         for (std::int64_t k = 0; k < size_.k; ++k) {
             const std::uint8_t* const values = mask.values.data() + k * plane;
-            for (std::int64_t j = 0; j < size_.j; ++j) measure_runs(values + j * size_.i, &along_i[static_cast<std::size_t>(j * size_.i)], size_.i, 1);
-            for (std::int64_t i = 0; i < size_.i; ++i) measure_runs(values + i, &along_j[static_cast<std::size_t>(i)], size_.j, size_.i);
+            for (std::int64_t j = 0; j < size_.j; ++j)
+                measure_runs(values + j * size_.i, &along_i[static_cast<std::size_t>(j * size_.i)], size_.i, 1);
+            for (std::int64_t i = 0; i < size_.i; ++i)
+                measure_runs(values + i, &along_j[static_cast<std::size_t>(i)], size_.j, size_.i);
             for (std::int64_t n = 0; n < plane; ++n)
                 if (values[n])
                     known_[static_cast<std::size_t>(k * plane + n)] =
@@ -84,7 +87,8 @@ public:
         take_what_is_left();
         std::vector<PaintedSlice> slices;
         for (auto& [key, slice] : taken_) {
-            slice.whole = std::equal(slice.section.begin(), slice.section.end(), painted_in(slice.axis, slice.index).begin());
+            slice.whole =
+                std::equal(slice.section.begin(), slice.section.end(), painted_in(slice.axis, slice.index).begin());
             slices.push_back(std::move(slice));
         }
         return slices;
@@ -123,8 +127,8 @@ private:
         return painted;
     }
 
-    /// The axis for which a voxel counts; -1 for none: it isn't painted, or several are as short. Solids may be cut along any
-    /// axis: along the one of the label's other slices.
+    /// The axis for which a voxel counts; -1 for none: it isn't painted, or several are as short. Solids may be cut along
+    /// any axis: along the one of the label's other slices.
     int vote(std::uint8_t known) const {
         if (known & kSolid && main_axis_ >= 0) return main_axis_;
         switch (known & kShortest) {
@@ -142,7 +146,8 @@ private:
     void count_votes() {
         count_all();
         std::array<std::int64_t, 3> sums{};
-        for (std::size_t axis = 0; axis < 3; ++axis) sums[axis] = std::accumulate(votes_[axis].begin(), votes_[axis].end(), std::int64_t{0});
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sums[axis] = std::accumulate(votes_[axis].begin(), votes_[axis].end(), std::int64_t{0});
         main_axis_ = 2;
         for (const int axis : {1, 0})
             if (sums[static_cast<std::size_t>(axis)] > sums[static_cast<std::size_t>(main_axis_)]) main_axis_ = axis;
@@ -224,7 +229,8 @@ private:
 
     /// Adds what is painted and connected with the section by no more than `steps` steps.
     void grow(PaintedSlice& slice, const std::vector<std::uint8_t>& painted, std::int64_t steps) const {
-        const std::int64_t width = size_[slice_axes(slice.axis)[0]], height = static_cast<std::int64_t>(painted.size()) / width;
+        const std::int64_t width = size_[slice_axes(slice.axis)[0]],
+                           height = static_cast<std::int64_t>(painted.size()) / width;
         std::vector<std::int64_t> front, next;
         for (std::size_t n = 0; n < painted.size(); ++n)
             if (slice.section[n]) front.push_back(static_cast<std::int64_t>(n));
@@ -244,7 +250,8 @@ private:
 
     /// Adds what is painted between two voxels of the section without a gap: slices of other directions that cross it.
     void fill_between(PaintedSlice& slice, const std::vector<std::uint8_t>& painted) const {
-        const std::int64_t width = size_[slice_axes(slice.axis)[0]], height = static_cast<std::int64_t>(painted.size()) / width;
+        const std::int64_t width = size_[slice_axes(slice.axis)[0]],
+                           height = static_cast<std::int64_t>(painted.size()) / width;
         const auto fill_row = [&](std::int64_t first, std::int64_t count, std::int64_t stride) {
             std::int64_t last = -1;  // of the section in this run
             for (std::int64_t n = 0; n < count; ++n) {
@@ -252,7 +259,8 @@ private:
                 if (!painted[place]) last = -1;
                 if (!slice.section[place]) continue;
                 if (last >= 0)
-                    for (std::int64_t m = last + 1; m < n; ++m) slice.section[static_cast<std::size_t>(first + m * stride)] = 1;
+                    for (std::int64_t m = last + 1; m < n; ++m)
+                        slice.section[static_cast<std::size_t>(first + m * stride)] = 1;
                 last = n;
             }
         };
@@ -281,8 +289,9 @@ private:
                     if (known == 0 || known & kExplained) continue;
                     const Index3 at{i, j, k};
                     const bool beside = is_in_section(at, -1) || is_in_section(at, 1);
-                    add_voxel(beside ? main_axis_
-                                     : *std::find_if(order.begin(), order.end(), [&](int axis) { return known >> axis & 1; }),
+                    add_voxel(beside
+                                  ? main_axis_
+                                  : *std::find_if(order.begin(), order.end(), [&](int axis) { return known >> axis & 1; }),
                               at);
                 }
     }

@@ -11,9 +11,9 @@ namespace kontur {
 
 /// A slice of a grid on which an object was painted.
 struct PaintedSlice {
-    int axis = 2;             ///< of the grid, across the slice
-    std::int64_t index = 0;   ///< along that axis
-    bool whole = true;        ///< all that the mask has in this slice is its section: the rest of the slice lies outside
+    int axis = 2;            ///< of the grid, across the slice
+    std::int64_t index = 0;  ///< along that axis
+    bool whole = true;       ///< all that the mask has in this slice is its section: the rest of the slice lies outside
     std::vector<std::uint8_t> section{};  ///< 1 where it was painted; the first axis of the slice is fastest
 };
 

@@ -54,7 +54,8 @@ std::vector<double> smoothed(const std::vector<double>& values, std::int64_t cou
         double sum = 0;
         for (std::int64_t m = -radius; m <= radius; ++m) {
             const std::int64_t other = std::clamp<std::int64_t>(at + m, 0, count - 1);
-            sum += weights[static_cast<std::size_t>(m + radius)] * values[static_cast<std::size_t>(n + (other - at) * stride)];
+            sum +=
+                weights[static_cast<std::size_t>(m + radius)] * values[static_cast<std::size_t>(n + (other - at) * stride)];
         }
         result[static_cast<std::size_t>(n)] = sum;
     }

@@ -18,6 +18,7 @@ struct SectionContourOptions {
 /// centres: the 0.5 level of the section smoothed, on the grid lines between voxels inside and outside, so that contours
 /// enclose exactly the voxel centres that were painted. `hole` is set on those around an outside region. A section that the
 /// grid cuts off ends half a voxel beyond its outermost centres.
-std::vector<Contour> section_contours(const Grid& grid, const PaintedSlice& slice, const SectionContourOptions& options = {});
+std::vector<Contour> section_contours(const Grid& grid, const PaintedSlice& slice,
+                                      const SectionContourOptions& options = {});
 
 }  // namespace kontur

@@ -33,22 +33,27 @@ void transform_row(double* values, std::int64_t count, std::int64_t stride, doub
     }
     if (parabolas.empty()) return;
     for (std::int64_t n = 0, which = 0; n < count; ++n) {
-        while (which + 1 < static_cast<std::int64_t>(parabolas.size()) && borders[static_cast<std::size_t>(which + 1)] < place(n)) ++which;
+        while (which + 1 < static_cast<std::int64_t>(parabolas.size()) &&
+               borders[static_cast<std::size_t>(which + 1)] < place(n))
+            ++which;
         const std::int64_t m = parabolas[static_cast<std::size_t>(which)];
         values[n * stride] = (place(n) - place(m)) * (place(n) - place(m)) + at(m);
     }
 }
 
 /// Squared distances to the nearest voxel that is set.
-std::vector<double> squared_distances(const std::vector<std::uint8_t>& section, std::uint8_t set, std::int64_t width, double step_u_mm,
-                                      double step_v_mm) {
+std::vector<double> squared_distances(const std::vector<std::uint8_t>& section, std::uint8_t set, std::int64_t width,
+                                      double step_u_mm, double step_v_mm) {
     std::vector<double> squared(section.size());
-    std::transform(section.begin(), section.end(), squared.begin(), [&](std::uint8_t value) { return value == set ? 0.0 : kFar; });
+    std::transform(section.begin(), section.end(), squared.begin(),
+                   [&](std::uint8_t value) { return value == set ? 0.0 : kFar; });
     const std::int64_t height = static_cast<std::int64_t>(section.size()) / width;
     std::vector<double> row, borders;
     std::vector<std::int64_t> parabolas;
-    for (std::int64_t b = 0; b < height; ++b) transform_row(squared.data() + b * width, width, 1, step_u_mm, row, parabolas, borders);
-    for (std::int64_t a = 0; a < width; ++a) transform_row(squared.data() + a, height, width, step_v_mm, row, parabolas, borders);
+    for (std::int64_t b = 0; b < height; ++b)
+        transform_row(squared.data() + b * width, width, 1, step_u_mm, row, parabolas, borders);
+    for (std::int64_t a = 0; a < width; ++a)
+        transform_row(squared.data() + a, height, width, step_v_mm, row, parabolas, borders);
     return squared;
 }
 
@@ -67,7 +72,10 @@ std::vector<double> section_distances(const Grid& grid, const PaintedSlice& slic
 }
 
 ShapeInterpolation::ShapeInterpolation(const Grid& grid, const PaintedSlice& low, const PaintedSlice& high)
-    : axis_(low.axis), low_(low.index), high_(high.index), width_(grid.size[slice_axes(low.axis)[0]]),
+    : axis_(low.axis),
+      low_(low.index),
+      high_(high.index),
+      width_(grid.size[slice_axes(low.axis)[0]]),
       gap_mm_(grid.spacing_mm()[low.axis] * static_cast<double>(high.index - low.index)) {
     const std::vector<double> first = section_distances(grid, low), second = section_distances(grid, high);
     low_mm_.assign(first.begin(), first.end());
@@ -84,7 +92,8 @@ double ShapeInterpolation::depth_mm(const Index3& at) const {
 }
 
 double ShapeInterpolation::trust() const {
-    const double low = *std::max_element(low_mm_.begin(), low_mm_.end()), high = *std::max_element(high_mm_.begin(), high_mm_.end());
+    const double low = *std::max_element(low_mm_.begin(), low_mm_.end()),
+                 high = *std::max_element(high_mm_.begin(), high_mm_.end());
     const double relative_gap = 2 * gap_mm_ / (low + high);
     return 1 / (1 + 2 * relative_gap * relative_gap);  // the 2 was chosen on three sarcomas and a brain (docs/fill.md)
 }

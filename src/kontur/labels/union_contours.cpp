@@ -24,7 +24,8 @@ std::vector<Plane> planes_of(std::span<const ContourSet* const> structures) {
     std::vector<Plane> planes;
     for (const ContourSet* set : structures)
         for (const Contour& contour : set->contours)
-            if (std::none_of(planes.begin(), planes.end(), [&](const Plane& plane) { return is_same(plane, contour.plane); }))
+            if (std::none_of(planes.begin(), planes.end(),
+                             [&](const Plane& plane) { return is_same(plane, contour.plane); }))
                 planes.push_back(contour.plane);
     return planes;
 }
@@ -39,7 +40,8 @@ ContourSet closed_contours_in(const ContourSet& set, const Plane& plane) {
 bool lies_on_one_side(const ContourSet& set, const Plane& plane) {
     double low = 0, high = 0;
     for (const Contour& contour : set.contours)
-        for (const Vec3& p : contour.points) low = std::min(low, plane.distance_to(p)), high = std::max(high, plane.distance_to(p));
+        for (const Vec3& p : contour.points)
+            low = std::min(low, plane.distance_to(p)), high = std::max(high, plane.distance_to(p));
     constexpr double kNear = 0.02;
     return low > -kNear || high < kNear;
 }
@@ -55,9 +57,11 @@ Grid pixels_around(const std::vector<ContourSet>& sections, const Plane& plane, 
                 low_v = std::min(low_v, v), high_v = std::max(high_v, v);
             }
     const double margin = 4 * options.step_mm + options.close_mm;
-    const double across = (high_u - low_u + 2 * margin) / options.step_mm, down = (high_v - low_v + 2 * margin) / options.step_mm;
+    const double across = (high_u - low_u + 2 * margin) / options.step_mm,
+                 down = (high_v - low_v + 2 * margin) / options.step_mm;
     if (constexpr double kMost = 1 << 28; !(across * down < kMost))
-        throw Error(ErrorKind::too_large, fmt::format("a plane of the union has {:.0f} pixels; the limit is {:.0f}", across * down, kMost));
+        throw Error(ErrorKind::too_large,
+                    fmt::format("a plane of the union has {:.0f} pixels; the limit is {:.0f}", across * down, kMost));
     Grid grid{{static_cast<std::int64_t>(across) + 1, static_cast<std::int64_t>(down) + 1, 1}, {}};
     grid.index_to_mm.set_column(0, options.step_mm * plane.u);
     grid.index_to_mm.set_column(1, options.step_mm * plane.v);
@@ -78,12 +82,14 @@ PaintedSlice united(const std::vector<ContourSet>& sections, const Grid& grid, d
         if (!(close_mm > 0)) continue;
         const std::vector<double> distances = section_distances(grid, own);
         for (std::size_t n = 0; n < near.size(); ++n)
-            if (distances[n] > -close_mm) near[n] = static_cast<std::uint8_t>(std::min(2, near[n] + 1)), grown.section[n] = 1;
+            if (distances[n] > -close_mm)
+                near[n] = static_cast<std::uint8_t>(std::min(2, near[n] + 1)), grown.section[n] = 1;
     }
     if (!(close_mm > 0)) return all;
     // Shrunk again, so that nothing stands out where two structures meet at the rim.
     const std::vector<double> depths = section_distances(grid, grown);
-    for (std::size_t n = 0; n < near.size(); ++n) all.section[n] |= near[n] > 1 && depths[n] > close_mm - grid.spacing_mm().x;
+    for (std::size_t n = 0; n < near.size(); ++n)
+        all.section[n] |= near[n] > 1 && depths[n] > close_mm - grid.spacing_mm().x;
     return all;
 }
 

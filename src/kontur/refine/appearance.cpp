@@ -37,7 +37,8 @@ struct Binned {
 std::vector<float> gaussian(double deviation) {
     const int reach = static_cast<int>(4 * deviation + 0.5);
     std::vector<float> taps;
-    for (int i = -reach; i <= reach; ++i) taps.push_back(static_cast<float>(std::exp(-0.5 * i * i / (deviation * deviation))));
+    for (int i = -reach; i <= reach; ++i)
+        taps.push_back(static_cast<float>(std::exp(-0.5 * i * i / (deviation * deviation))));
     const float sum = std::accumulate(taps.begin(), taps.end(), 0.0F);
     for (float& tap : taps) tap /= sum;
     return taps;
@@ -48,11 +49,13 @@ void blur(Histograms& h, int count, int along, int lines, int apart, const std::
     const int reach = static_cast<int>(taps.size()) / 2;
     std::array<float, std::max(kOffsets, kBins)> line{};
     for (int l = 0; l < lines; ++l) {
-        for (int i = 0; i < count; ++i) line[static_cast<std::size_t>(i)] = h[static_cast<std::size_t>(l * apart + i * along)];
+        for (int i = 0; i < count; ++i)
+            line[static_cast<std::size_t>(i)] = h[static_cast<std::size_t>(l * apart + i * along)];
         for (int i = 0; i < count; ++i) {
             float sum = 0;
             for (int t = -reach; t <= reach; ++t)
-                sum += taps[static_cast<std::size_t>(t + reach)] * line[static_cast<std::size_t>(std::clamp(i + t, 0, count - 1))];
+                sum += taps[static_cast<std::size_t>(t + reach)] *
+                       line[static_cast<std::size_t>(std::clamp(i + t, 0, count - 1))];
             h[static_cast<std::size_t>(l * apart + i * along)] = sum;
         }
     }
@@ -153,7 +156,8 @@ std::vector<double> Appearance::log_likelihood(const MovingPoint& point, int mos
         // Far inside and far outside it looks as at the ends of what was learnt.
         std::array<double, kOffsets> by_offset;
         for (int t = 0; t < kOffsets; ++t)
-            by_offset[static_cast<std::size_t>(t)] = (1 - bin.weight) * entry(log, t, bin.first) + bin.weight * entry(log, t, bin.second);
+            by_offset[static_cast<std::size_t>(t)] =
+                (1 - bin.weight) * entry(log, t, bin.first) + bin.weight * entry(log, t, bin.second);
         for (int u = -most; u <= most; ++u)
             likelihood[static_cast<std::size_t>(u + most)] +=
                 by_offset[static_cast<std::size_t>(std::clamp(at - u + kHalf, 0, kOffsets - 1))];

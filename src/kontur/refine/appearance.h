@@ -20,8 +20,8 @@ public:
                int threads);
 
     /// For offsets -most .. most, in steps, of the surface from the point along its normal: the logarithm of the probability
-    /// of the intensities around the point, up to a constant. Every offset is judged by the same intensities; what lies outside
-    /// of the image says nothing. The examples nearby teach it, those most that face the same way.
+    /// of the intensities around the point, up to a constant. Every offset is judged by the same intensities; what lies
+    /// outside of the image says nothing. The examples nearby teach it, those most that face the same way.
     std::vector<double> log_likelihood(const MovingPoint& point, int most) const;
 
     static constexpr int kHalf = 8;  ///< offsets on each side that describe the border

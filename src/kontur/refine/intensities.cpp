@@ -45,7 +45,8 @@ double IntensityScale::operator()(double value) const {
     if (quantiles_.empty()) return 0.5;
     // Of equal quantiles the middle one counts, so that an inverted image has the mirrored ranks.
     const auto [first, last] = std::equal_range(quantiles_.begin(), quantiles_.end(), value);
-    const double before = static_cast<double>(first - quantiles_.begin()), after = static_cast<double>(last - quantiles_.begin());
+    const double before = static_cast<double>(first - quantiles_.begin()),
+                 after = static_cast<double>(last - quantiles_.begin());
     double rank = (before + after - 1) / 2;
     if (first == last) {
         if (first == quantiles_.begin()) rank = 0;

@@ -25,9 +25,9 @@ private:
     double voxel_mm_, step_mm_;
 };
 
-/// Maps intensities to [0, 1], as a straight line between the 1st and 99th percentile of some of them and, to equal shares, by
-/// their ranks: so contrasts are told apart wherever they are, and any image's intensities are the same when they are scaled
-/// and, mirrored, when they are inverted.
+/// Maps intensities to [0, 1], as a straight line between the 1st and 99th percentile of some of them and, to equal shares,
+/// by their ranks: so contrasts are told apart wherever they are, and any image's intensities are the same when they are
+/// scaled and, mirrored, when they are inverted.
 class IntensityScale {
 public:
     /// Values that are not finite are left out; without any, and where all are the same, everything is 1/2.

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::size_t kMostPlanes = 10, kLeastPlanes = 3, kLeastPoints = 10;
 constexpr std::size_t kSamples = 300;
-constexpr double kHeldOutPoints = 500;  // of all planes together
-constexpr double kDeviation = 1.4826;   // standard deviation over the median of absolute values of a normal distribution
-constexpr double kMostSlope = 0.25;     // prior standard deviation over the distance
-constexpr double kHelps = 0.95;         // of the mean error without the image
-constexpr double kDoubt = 1.3;          // errors with the image count as that much larger
-constexpr std::size_t kNear = 40;       // held-out points that speak for a place
-constexpr double kLeastImage = 0.25;    // voxels: no image is better known than this
+constexpr double kHeldOutPoints = 500;    // of all planes together
+constexpr double kDeviation = 1.4826;     // standard deviation over the median of absolute values of a normal distribution
+constexpr double kMostSlope = 0.25;       // prior standard deviation over the distance
+constexpr double kHelps = 0.95;           // of the mean error without the image
+constexpr double kDoubt = 1.3;            // errors with the image count as that much larger
+constexpr std::size_t kNear = 40;         // held-out points that speak for a place
+constexpr double kLeastImage = 0.25;      // voxels: no image is better known than this
 constexpr double kSurfaceSpacing = 0.04;  // of the drawing's diameter
 
 double median(std::vector<double> values) {
@@ -58,9 +58,9 @@ struct Fold {
     ImplicitFunction function;
     DrawnOnImage others;
     std::vector<Vec3> samples;
-    std::vector<Vec3> held_out;       ///< drawn points
+    std::vector<Vec3> held_out;           ///< drawn points
     std::vector<MovingPoint> on_surface;  ///< the points of the surface nearest to them
-    std::vector<double> errors_mm;    ///< how far the surface has to move there
+    std::vector<double> errors_mm;        ///< how far the surface has to move there
 };
 
 std::optional<Fold> leave_out(const ContourSet& drawn, const std::vector<std::size_t>& group, const Image& image,

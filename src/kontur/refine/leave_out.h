@@ -16,18 +16,18 @@ namespace kontur {
 
 /// A point of a drawn contour and how far the surface through the contours of the other planes passes from it.
 struct HeldOut {
-    Vec3 position;         ///< mm
-    double distance_mm;    ///< to the nearest contour of the other planes
-    double without_mm;     ///< error of what the contours alone make, along the normal, positive outwards
-    double with_mm;        ///< and of what the image makes of it
+    Vec3 position;       ///< mm
+    double distance_mm;  ///< to the nearest contour of the other planes
+    double without_mm;   ///< error of what the contours alone make, along the normal, positive outwards
+    double with_mm;      ///< and of what the image makes of it
 };
 
 /// Measured on the drawn contours themselves: how far off the surface between them is, without the image and with it.
 class HeldOutErrors {
 public:
     /// `held_out`: points at least a voxel from the other planes' contours; at least 10.
-    HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm, std::size_t planes,
-                  std::int64_t intensities);
+    HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm,
+                  std::size_t planes, std::int64_t intensities);
 
     double without_mm() const { return without_mm_; }  ///< means of the absolute errors
     double with_mm() const { return with_mm_; }
@@ -48,8 +48,9 @@ private:
     double median_without_ = 0, median_with_ = 0, median_distance_ = 0;
 };
 
-/// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and looks
-/// how far it passes from the contours left out. Nothing where fewer than 3 planes were drawn or too little of them is left.
+/// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and
+/// looks how far it passes from the contours left out. Nothing where fewer than 3 planes were drawn or too little of them is
+/// left.
 std::optional<HeldOutErrors> leave_planes_out(const ContourSet& drawn, const Image& image, const FitContours& fit,
                                               int threads, const Progress& progress);
 

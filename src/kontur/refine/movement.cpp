@@ -12,7 +12,7 @@ namespace kontur {
 namespace {
 
 constexpr double kMostPoints = 4000, kMostExamples = 700;  // along the contours
-constexpr double kOnContour = 0.75;  // voxels: nearer points stay where they are
+constexpr double kOnContour = 0.75;                        // voxels: nearer points stay where they are
 constexpr std::size_t kLeastPoints = 10;
 constexpr double kLeastPrior = 0.08;  // voxels
 constexpr double kCorrelation = 0.8;  // of the median distance to the contours, at least two voxels
@@ -53,12 +53,12 @@ int search_width(std::vector<MovingPoint>& points, double step_mm) {
 }
 
 /// Beyond half a voxel before a drawn plane an offset is all but impossible.
-void add_walls(const MovingPoint& point, double margin_mm, const OffsetEvidence& evidence, std::vector<double>& log_likelihood) {
+void add_walls(const MovingPoint& point, double margin_mm, const OffsetEvidence& evidence,
+               std::vector<double>& log_likelihood) {
     for (int u = -evidence.most; u <= evidence.most; ++u) {
         if (u == 0) continue;
         const double offset = u * evidence.step_mm;
-        const double beyond =
-            std::max({point.least_mm + margin_mm - offset, offset - point.most_mm + margin_mm, 0.0});
+        const double beyond = std::max({point.least_mm + margin_mm - offset, offset - point.most_mm + margin_mm, 0.0});
         const double off = beyond / (kWallSoftness * evidence.step_mm);
         log_likelihood[static_cast<std::size_t>(u + evidence.most)] -= 0.5 * off * off;
     }
@@ -77,7 +77,8 @@ Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& functi
     Movement movement{moving_points(drawn, function, points, beliefs, threads), {}, {}, 0};
     if (movement.points.size() < kLeastPoints) return {};
     const double step = drawn.image.step_mm();
-    OffsetEvidence evidence{.step_mm = step, .most = search_width(movement.points, step), .log_likelihood = {}, .image_sd_mm = {}};
+    OffsetEvidence evidence{
+        .step_mm = step, .most = search_width(movement.points, step), .log_likelihood = {}, .image_sd_mm = {}};
 
     const std::vector<MovingPoint> examples = with_normals(function, drawn.examples, threads);
     const IntensityScale scale(intensities_across(drawn.image, examples, step, threads));

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr double kDamping = 0.7;
-constexpr double kJitter = 1e-6;     // of the mean prior variance
-constexpr double kSharpest = 0.3;    // of a step: the smallest standard deviation that is believed of one point
+constexpr double kJitter = 1e-6;   // of the mean prior variance
+constexpr double kSharpest = 0.3;  // of a step: the smallest standard deviation that is believed of one point
 constexpr double kLeastCavity = 1e-9;
 
 std::vector<double> covariances(std::span<const MovingPoint> points, const OffsetPrior& prior) {

@@ -18,7 +18,7 @@ constexpr double kSurfaceSpacing = 0.025;  // of the drawing's diameter: where t
 constexpr double kLater = 0.7;             // of the prior's standard deviation, in later rounds
 constexpr double kCautiousSlope = 0.12;    // without the gate: prior standard deviation over the distance ...
 constexpr double kCautiousImage = 0.7;     // ... and the image's error in voxels
-constexpr double kFollow = 0.05;       // noise of a moved point over its posterior standard deviation
+constexpr double kFollow = 0.05;           // noise of a moved point over its posterior standard deviation
 constexpr double kLeastDeviation = 0.2;    // voxels
 constexpr double kBeside = 2.24;           // how much noisier f is before and behind a moved point
 constexpr double kAnchorNoise = 0.1;       // voxels
@@ -101,7 +101,8 @@ public:
     }
 
 private:
-    /// Points that yield where contours contradict each other yield to those, and not to the image: f stays there what it was.
+    /// Points that yield where contours contradict each other yield to those, and not to the image: f stays there what it
+    /// was.
     void hold_contours(ConstraintSet& constraints) const {
         std::size_t place = 0;
         for (const BoundaryPoint& point : prepared_.points) {
@@ -175,9 +176,10 @@ std::string sentence(const RefineReport& report) {
         case ImageUse::unknown:
             return "too little is drawn to tell whether the image helps between the contours; not used";
         case ImageUse::no_help:
-            return fmt::format("the image does not help between the contours ({:.2g} mm off at left-out contours without it, "
-                               "{:.2g} with it); not used",
-                               report.error_without_mm, report.error_with_mm);
+            return fmt::format(
+                "the image does not help between the contours ({:.2g} mm off at left-out contours without it, "
+                "{:.2g} with it); not used",
+                report.error_without_mm, report.error_with_mm);
         case ImageUse::used:
             break;
     }
@@ -197,13 +199,12 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
         return move_surface(drawn, drawing, prepared, fitted, cautious, options, progress);
     }
-    const std::optional<HeldOutErrors> errors = leave_planes_out(drawing.contours, image, fit_contours,
-                                                                 options.fit.solve.threads, progress);
+    const std::optional<HeldOutErrors> errors =
+        leave_planes_out(drawing.contours, image, fit_contours, options.fit.solve.threads, progress);
     RefinedFunction result{fitted, {}};
     if (errors && errors->image_helps())
         result = move_surface(drawn, drawing, prepared, fitted, errors->beliefs(), options, progress);
-    else
-        result.report.use = errors ? ImageUse::no_help : ImageUse::unknown;
+    else result.report.use = errors ? ImageUse::no_help : ImageUse::unknown;
     if (errors) {
         result.report.intensities += errors->intensities();
         result.report.planes_left_out = errors->planes();

@@ -34,9 +34,9 @@ struct RefineOptions {
 
 /// What became of the image.
 enum class ImageUse {
-    none,        ///< there was none, or it was not to be used
-    unknown,     ///< too few planes were drawn to tell whether it helps; not used
-    no_help,     ///< it does not help at contours left out; not used
+    none,     ///< there was none, or it was not to be used
+    unknown,  ///< too few planes were drawn to tell whether it helps; not used
+    no_help,  ///< it does not help at contours left out; not used
     used,
 };
 std::string_view name(ImageUse use) noexcept;
@@ -44,11 +44,11 @@ std::string_view name(ImageUse use) noexcept;
 struct RefineReport {
     ImageUse use = ImageUse::none;
     std::size_t planes_left_out = 0;
-    double error_without_mm = 0;  ///< mean distance of contours left out from the surface through the others
-    double error_with_mm = 0;     ///< the same with the image
-    double largest_move_mm = 0;   ///< of the surface, at the points asked
+    double error_without_mm = 0;   ///< mean distance of contours left out from the surface through the others
+    double error_with_mm = 0;      ///< the same with the image
+    double largest_move_mm = 0;    ///< of the surface, at the points asked
     std::int64_t intensities = 0;  ///< read from the image
-    double on_contours_mm = 0;    ///< the largest change of f at any drawn point
+    double on_contours_mm = 0;     ///< the largest change of f at any drawn point
 };
 
 /// One sentence for people.
@@ -60,8 +60,8 @@ struct RefinedFunction {
 };
 
 /// Moves the surface between the contours to where the image shows the border, and leaves it where they were drawn. What the
-/// border looks like is learnt along the contours (appearance.h); how far the contours alone are off and how far the image is,
-/// is measured by leaving out one drawn plane after another (leave_out.h), and where the image does not help, nothing is
+/// border looks like is learnt along the contours (appearance.h); how far the contours alone are off and how far the image
+/// is, is measured by leaving out one drawn plane after another (leave_out.h), and where the image does not help, nothing is
 /// changed. f stays one function: the moved points are more data with noise, beside those of the fit, of one more solve. An
 /// image that says nothing changes nothing. `fit_contours` fits a part of the drawing. The same bytes for any number of
 /// threads, on one type of processor. Throws Error as `solve` does, Error(invalid_input) as `check_image` does.

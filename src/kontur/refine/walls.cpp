@@ -10,8 +10,8 @@
 namespace kontur {
 namespace {
 
-constexpr double kEndGaps = 0.6;    // beyond the last plane of a stack
-constexpr double kGrazing = 0.05;   // cosine: a path flatter than this against a plane does not meet it
+constexpr double kEndGaps = 0.6;   // beyond the last plane of a stack
+constexpr double kGrazing = 0.05;  // cosine: a path flatter than this against a plane does not meet it
 
 /// Closed planes: all contours of a section's plane are closed.
 std::vector<Plane> complete_planes(const Drawing& drawing) {

@@ -23,7 +23,7 @@ public:
 private:
     /// Beyond an end of a stack. Points that lie behind it may not move on.
     struct EndWall {
-        Vec3 direction;   ///< unit, out of the stack
+        Vec3 direction;    ///< unit, out of the stack
         double height_mm;  ///< along it
     };
 

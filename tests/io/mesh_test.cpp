@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -178,7 +180,8 @@ TEST(MeshFile, ReadsBigEndianPlyWithFacesBeforeThePoints) {
     const auto append = [&](auto value) {
         std::array<char, sizeof value> raw;
         std::memcpy(raw.data(), &value, sizeof value);
-        bytes.append(raw.rbegin(), raw.rend());
+        std::reverse(raw.begin(), raw.end());
+        for (const char byte : raw) bytes.push_back(byte);
     };
     append(std::uint8_t{3});
     for (const int corner : {2, 0, 1}) append(static_cast<std::uint16_t>(corner));

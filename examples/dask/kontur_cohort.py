@@ -20,7 +20,7 @@ import distributed
 import kontur
 
 OPTIONS = [name for name, p in inspect.signature(kontur.segment).parameters.items()
-           if p.kind is p.KEYWORD_ONLY and name not in ("progress", "stop", "mesh", "threads")]
+           if p.kind is p.KEYWORD_ONLY and name not in ("image", "progress", "stop", "mesh", "threads")]
 COLUMNS = ["case", "contours", "image", "spacing_mm", "margin_mm", "output", "mesh", "report", "label_value", "roi", "name", *OPTIONS]
 
 
@@ -63,7 +63,8 @@ def segment_case(row, folder, threads):
         spacing = [float(word) for word in row["spacing_mm"].split(",")]
         grid = kontur.grid_around(contours.bounding_box, spacing * (3 // len(spacing)), float(row.get("margin_mm", 10)))
     options = {name: number(row[name]) for name in OPTIONS if name in row}
-    made = kontur.segment(contours, grid, mesh="mesh" in row, threads=threads, **options)
+    image = kontur.read_image(folder / row["image"]) if "image" in row and options.get("use_image") == "auto" else None
+    made = kontur.segment(contours, grid, image=image, mesh="mesh" in row, threads=threads, **options)
     provenance = kontur.provenance(contours, grid, made.report) | digests
     names = {"segment_name": contours.name} if contours.name else {}
     kontur.write_mask(folder / row["output"], made.mask, provenance=provenance,

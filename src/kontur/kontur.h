@@ -72,12 +72,12 @@
 #include "kontur/extract/voxelize.h"
 
 // How sure the surface is, and where to draw next.
-#include "kontur/refine/area_samples.h"
 #include "kontur/refine/candidate_planes.h"
 #include "kontur/refine/drawn_lines.h"
 #include "kontur/refine/expected_dice.h"
 #include "kontur/refine/suggest_plane.h"
 #include "kontur/refine/surface_evidence.h"
+#include "kontur/refine/surface_samples.h"
 #include "kontur/refine/surface_uncertainty.h"
 #include "kontur/refine/uncertainty_map.h"
 

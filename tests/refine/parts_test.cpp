@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kontur/refine/appearance.h"
-#include "kontur/refine/surface_samples.h"
+#include "kontur/refine/spread_points.h"
 #include "kontur/refine/walls.h"
 #include "refine/lobed_body.h"
 

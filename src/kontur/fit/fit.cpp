@@ -10,6 +10,7 @@
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/fit/active_bounds.h"
+#include "kontur/fit/solve_placed.h"
 #include "kontur/fit/thin.h"
 
 namespace kontur {
@@ -63,15 +64,7 @@ public:
         result_.bounded = single_points.size();
         result_.held = single_points;
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
-        SolveOptions in_ball = solving;
-        if (solving.kernel == Kernel::screened && !solving.ball) in_ball.ball = ball_;
-        const Solution solution = solve(placed.constraints, in_ball, progress_of_next_solve(), &previous_);
-        result_.function = solution.function;
-        result_.report = solution.report;
-        result_.iterations += solution.report.iterations;
-        result_.merged = placed.merged;
-        result_.constraints = placed.constraints.size();
-        ++result_.solves;
+        solve_placed(placed, solving, ball_, progress_of_next_solve(), previous_, result_);
         return bounds_.update(result_.function, 2 * solving.tolerance_mm, options_.solve.threads);
     }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "kontur/base/error.h"
+#include "kontur/refine/spread_points.h"
 
 namespace kontur {
 namespace {
@@ -95,13 +96,6 @@ PlaneStack slice_stack(const std::vector<Vec3>& points, const Grid& grid, int ax
         stack.offsets_mm.push_back(dot(slice_plane(grid, slice).origin, stack.normal));
     }
     return stack;
-}
-
-double length_mm(const Contour& contour) {
-    double sum = 0;
-    for (std::size_t n = 1; n < contour.points.size(); ++n) sum += distance(contour.points[n - 1], contour.points[n]);
-    if (contour.closed && !contour.points.empty()) sum += distance(contour.points.back(), contour.points.front());
-    return sum;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
-#include "kontur/refine/surface_samples.h"
+#include "kontur/refine/spread_points.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {

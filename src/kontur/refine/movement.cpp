@@ -6,7 +6,7 @@
 
 #include "kontur/base/parallel.h"
 #include "kontur/refine/appearance.h"
-#include "kontur/refine/surface_samples.h"
+#include "kontur/refine/spread_points.h"
 
 namespace kontur {
 namespace {

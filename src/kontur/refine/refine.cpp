@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "kontur/fit/constraints.h"
+#include "kontur/fit/solve_placed.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/movement.h"
-#include "kontur/refine/surface_samples.h"
+#include "kontur/refine/spread_points.h"
 
 namespace kontur {
 namespace {
@@ -87,16 +88,8 @@ public:
         single.insert(single.end(), more.begin(), more.end());
         PlacedConstraints placed = place_constraints(prepared_.points, fitted_.slopes, single, options_.place);
         hold_contours(placed.constraints);
-        SolveOptions solving = options_.solve;
-        if (solving.kernel == Kernel::screened && !solving.ball) solving.ball = prepared_.ball;
-        const Solution solution = solve(placed.constraints, solving, progress, &previous_);
         FittedFunction result = fitted_;
-        result.function = solution.function;
-        result.report = solution.report;
-        result.iterations += solution.report.iterations;
-        result.merged = placed.merged;
-        result.constraints = placed.constraints.size();
-        ++result.solves;
+        solve_placed(placed, options_.solve, prepared_.ball, progress, previous_, result);
         return result;
     }
 

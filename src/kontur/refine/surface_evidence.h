@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "kontur/refine/area_samples.h"
 #include "kontur/refine/drawn_lines.h"
+#include "kontur/refine/surface_samples.h"
 #include "kontur/shape/crossings.h"
 
 namespace kontur {

@@ -2,118 +2,150 @@
 #include "kontur/refine/surface_samples.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <map>
+#include <numeric>
 
-#include "kontur/extract/preview.h"
+#include "kontur/extract/lattice.h"
 
 namespace kontur {
 namespace {
 
-/// Of each cell of a lattice that holds any, the first.
-std::vector<Vec3> one_per_cell(std::span<const Vec3> points, const Vec3& corner, double edge_mm) {
-    std::map<std::array<std::int64_t, 3>, std::size_t> first;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec3 at = (points[i] - corner) / edge_mm;
-        const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
-        first.try_emplace({cell(at.x), cell(at.y), cell(at.z)}, i);
+/// Lattice edges that the surface crosses, each with the measure with which it counts.
+class EdgeCrossings {
+public:
+    explicit EdgeCrossings(const SurfaceLattice& surface) : surface_(surface), grid_(surface.lattice.grid()) {
+        const double cell_mm3 = grid_.voxel_volume_mm3();
+        for (int axis = 0; axis < 3; ++axis) {
+            directions_[axis] = normalized(grid_.index_to_mm.column(axis));
+            measures_[axis] = cell_mm3 / norm(grid_.index_to_mm.column(axis));
+        }
     }
-    std::vector<Vec3> kept;
-    for (const auto& entry : first) kept.push_back(points[entry.second]);
-    return kept;
-}
 
-double side(const Contour& contour, std::size_t i) {
-    return distance(contour.points[i], contour.points[(i + 1) % contour.points.size()]);
-}
+    /// Each crossed edge is the cell's whose lowest corner it begins at. Edges that leave the grid are no surface of f.
+    template <class Visit>
+    void visit(const Visit& visit) const {
+        for (const Index3& cell : surface_.cells) {
+            const double here = surface_.lattice.value(cell);
+            if (!std::isfinite(here)) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                Index3 next = cell;
+                ++next[axis];
+                const double there = surface_.lattice.value(next);
+                if (!std::isfinite(there) || (here > 0) == (there > 0)) continue;
+                Vec3 at{static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
+                at[axis] += here / (here - there);
+                visit(at, measures_[axis]);
+            }
+        }
+    }
 
-std::size_t sides(const Contour& contour) { return contour.points.size() - (contour.closed ? 0 : 1); }
+    Vec3 to_mm(const Vec3& index) const { return grid_.index_to_mm.apply(index); }
+    double step_mm() const { return 0.5 * norm(grid_.spacing_mm()); }
 
-double length_mm(const Contour& contour) {
-    double sum = 0;
-    for (std::size_t i = 0; i < sides(contour); ++i) sum += side(contour, i);
-    return sum;
+    /// Measure of the edges that a unit of area with this normal crosses.
+    double density(const Vec3& normal) const {
+        double sum = 0;
+        for (const Vec3& direction : directions_) sum += std::abs(dot(normal, direction));
+        return sum;
+    }
+
+private:
+    const SurfaceLattice& surface_;
+    const Grid& grid_;
+    std::array<Vec3, 3> directions_;
+    std::array<double, 3> measures_{};
+};
+
+/// Where a running sum passes one place in each of `count` equal steps. The places lie elsewhere in every step, or they
+/// would keep time with the rows of the lattice.
+class EqualSteps {
+public:
+    EqualSteps(double total, std::size_t count) : step_(total / static_cast<double>(count)) {}
+    /// Adds to the sum; true when that passed a place.
+    bool passes(double more) {
+        sum_ += more;
+        const std::size_t before = passed_;
+        while (sum_ >= place()) ++passed_;
+        return passed_ > before;
+    }
+
+private:
+    double place() const {
+        constexpr double kGoldenRatio = 0.6180339887498949;
+        const auto n = static_cast<double>(passed_);
+        return (n + std::fmod(0.5 + n * kGoldenRatio, 1.0)) * step_;
+    }
+
+    double step_, sum_ = 0;
+    std::size_t passed_ = 0;
+};
+
+Vec3 newton_step(double value, const Vec3& gradient, double most_mm) {
+    const double slope = norm(gradient);
+    if (!(slope > 0)) return {};
+    return std::clamp(-value / slope, -most_mm, most_mm) * normalized(gradient);
 }
 
 }  // namespace
 
-std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const ContourSet& contours, std::size_t count,
-                                      double spacing_mm, int threads) {
-    std::vector<Vec3> starts;
-    for (const Contour& contour : contours.contours)
-        starts.insert(starts.end(), contour.points.begin(), contour.points.end());
-    const TriangleMesh mesh = preview_surface(function, starts, {.spacing_mm = spacing_mm, .threads = threads});
-    if (mesh.points.size() <= count) return mesh.points;
-    const Box3 box = bounding_box(mesh.points);
-    double fine = 0, coarse = box.diagonal();
-    std::vector<Vec3> kept;
-    for (int halving = 0; halving < 12; ++halving) {
-        const double edge = (fine + coarse) / 2;
-        std::vector<Vec3> found = one_per_cell(mesh.points, box.min, edge);
-        if (found.size() > count) {
-            fine = edge;
-        } else {
-            coarse = edge;
-            kept = std::move(found);
-        }
+double SurfaceSamples::area_mm2() const { return std::accumulate(areas_mm2.begin(), areas_mm2.end(), 0.0); }
+
+SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunction& function, std::size_t most,
+                              int threads) {
+    const EdgeCrossings crossings(surface);
+    double total = 0;
+    std::size_t count = 0;
+    crossings.visit([&](const Vec3&, double measure) {
+        total += measure;
+        ++count;
+    });
+    SurfaceSamples samples;
+    most = std::min(most, count);
+    if (most == 0) return samples;
+    EqualSteps steps(total, most);
+    crossings.visit([&](const Vec3& index, double measure) {
+        if (steps.passes(measure)) samples.points.push_back(crossings.to_mm(index));
+    });
+
+    std::vector<double> values(samples.points.size());
+    std::vector<Vec3> gradients(samples.points.size());
+    function.values_and_gradients(samples.points, values, gradients, threads);
+    const double measure = total / static_cast<double>(samples.points.size());
+    for (std::size_t n = 0; n < samples.points.size(); ++n) {
+        samples.points[n] += newton_step(values[n], gradients[n], crossings.step_mm());
+        samples.areas_mm2.push_back(measure / std::max(crossings.density(normalized(gradients[n])), 0.5));
+        samples.slopes.push_back(norm(gradients[n]));
     }
-    return kept;
+    return samples;
 }
 
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, int threads) {
-    constexpr int kSteps = 3;
-    constexpr double kLeastSlope2 = 0.09;
-    std::vector<double> values(points.size());
-    std::vector<Vec3> gradients(points.size());
-    for (int step = 0; step < kSteps; ++step) {
-        function.values_and_gradients(points, values, gradients, threads);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Vec3 move = -values[i] / std::max(dot(gradients[i], gradients[i]), kLeastSlope2) * gradients[i];
-            const double far = norm(move);
-            points[i] += (far > reach_mm ? reach_mm / far : 1.0) * move;
-        }
-    }
-}
-
-std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, int threads) {
-    std::vector<Vec3> gradients(points.size());
-    function.gradients(points, gradients, threads);
-    std::vector<MovingPoint> result(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) result[i] = {points[i], -normalized(gradients[i])};
-    return result;
-}
-
-std::vector<Vec3> along_contours(const ContourSet& contours, double step_mm) {
-    constexpr double kLeast = 8;
-    std::vector<Vec3> points;
-    for (const Contour& contour : contours.contours) {
-        const double length = length_mm(contour);
-        const double count = std::max(kLeast, std::round(length / step_mm));
-        const double step = length / count;
-        double next = 0, before = 0;
-        for (std::size_t i = 0; i < sides(contour); ++i) {
-            const Vec3 &a = contour.points[i], &b = contour.points[(i + 1) % contour.points.size()];
-            const double along = side(contour, i);
-            for (; next < before + along; next += step) points.push_back(a + (next - before) / along * (b - a));
-            before += along;
-        }
-    }
-    return points;
-}
-
-double length_mm(const ContourSet& contours) {
+SurfaceSamples sample_surface(const TriangleMesh& mesh, const ImplicitFunction& function, std::size_t most, int threads) {
+    // Fractions of the plastic number's powers fill a square evenly (Roberts 2018).
+    constexpr double kAlongU = 0.7548776662466927, kAlongV = 0.5698402909980532;
+    const auto area_vector = [&](const std::array<std::uint32_t, 3>& t) {
+        return 0.5 * cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+    };
+    double total = 0;
+    for (const auto& t : mesh.triangles) total += norm(area_vector(t));
+    SurfaceSamples samples;
+    if (!(total > 0) || most == 0) return samples;
+    const double step = total / static_cast<double>(most);
     double sum = 0;
-    for (const Contour& contour : contours.contours) sum += length_mm(contour);
-    return sum;
-}
-
-double nearest_distance(const Vec3& p, std::span<const Vec3> points) {
-    double least2 = std::numeric_limits<double>::infinity();
-    for (const Vec3& q : points) least2 = std::min(least2, dot(q - p, q - p));
-    return std::sqrt(least2);
+    for (const auto& t : mesh.triangles) {
+        sum += norm(area_vector(t));
+        while (samples.points.size() < most && sum >= (static_cast<double>(samples.points.size()) + 0.5) * step) {
+            const auto n = static_cast<double>(samples.points.size());
+            double u = std::fmod(0.5 + n * kAlongU, 1.0), v = std::fmod(0.5 + n * kAlongV, 1.0);
+            if (u + v > 1) u = 1 - u, v = 1 - v;
+            samples.points.push_back(mesh.points[t[0]] + u * (mesh.points[t[1]] - mesh.points[t[0]]) +
+                                     v * (mesh.points[t[2]] - mesh.points[t[0]]));
+        }
+    }
+    std::vector<Vec3> gradients(samples.points.size());
+    function.gradients(samples.points, gradients, threads);
+    samples.areas_mm2.assign(samples.points.size(), total / static_cast<double>(samples.points.size()));
+    for (const Vec3& gradient : gradients) samples.slopes.push_back(norm(gradient));
+    return samples;
 }
 
 }  // namespace kontur

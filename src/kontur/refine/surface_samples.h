@@ -1,32 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
-#include "kontur/drawing/drawing.h"
+#include "kontur/extract/track.h"
 #include "kontur/function/implicit_function.h"
-#include "kontur/refine/moving_point.h"
+#include "kontur/shape/mesh.h"
 
 namespace kontur {
 
-/// About `count` points on the surface of f through the contours, evenly spread, found on a lattice of `spacing_mm`.
-std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const ContourSet& contours, std::size_t count,
-                                      double spacing_mm, int threads);
+/// Points spread evenly over a fitted surface, each for a patch of it, so that sums over them are integrals.
+struct SurfaceSamples {
+    std::vector<Vec3> points;       ///< mm
+    std::vector<double> areas_mm2;  ///< of the patches
+    std::vector<double> slopes;     ///< |grad f| at the points, about 1 where f is like a distance
 
-/// Moves each point towards where f vanishes, no farther than `reach_mm` in each of three steps.
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, int threads);
+    double area_mm2() const;
+};
 
-/// The points with f's outward normals there; distances and offsets are left as they are.
-std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, int threads);
+/// Few are enough: all that is made of them are means over the surface and which planes are near.
+inline constexpr std::size_t kSurfaceSamples = 1200;
 
-/// Points along the contours, evenly, `step_mm` apart or somewhat less, at least 8 on each.
-std::vector<Vec3> along_contours(const ContourSet& contours, double step_mm);
+/// Some of the places where the surface crosses lattice edges, chosen at equal steps in the order of the cells, moved onto
+/// the surface by one step of Newton. A crossing stands for the area that crosses as many edges on average (Crofton), so
+/// that no mesh is needed. Where the grid's border cuts the object off there is none. `most` evaluations of f and its
+/// gradient. The samples move with the grid and do not depend on `threads`.
+SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunction& function,
+                              std::size_t most = kSurfaceSamples, int threads = 0);
 
-/// The length of all contours together.
-double length_mm(const ContourSet& contours);
-
-/// Distance to the nearest of some points.
-double nearest_distance(const Vec3& p, std::span<const Vec3> points);
+/// Points on the triangles at equal steps of area, in their order.
+SurfaceSamples sample_surface(const TriangleMesh& mesh, const ImplicitFunction& function, std::size_t most = kSurfaceSamples,
+                              int threads = 0);
 
 }  // namespace kontur

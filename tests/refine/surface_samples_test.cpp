@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/refine/area_samples.h"
+#include "kontur/refine/surface_samples.h"
 
 #include <gtest/gtest.h>
 

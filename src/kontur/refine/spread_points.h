@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kontur/drawing/drawing.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/refine/moving_point.h"
+
+namespace kontur {
+
+/// About `count` points on the surface of f through the contours, evenly spread, found on a lattice of `spacing_mm`.
+std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const ContourSet& contours, std::size_t count,
+                                      double spacing_mm, int threads);
+
+/// Moves each point towards where f vanishes, no farther than `reach_mm` in each of three steps.
+void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, int threads);
+
+/// The points with f's outward normals there; distances and offsets are left as they are.
+std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, int threads);
+
+/// Points along the contours, evenly, `step_mm` apart or somewhat less, at least 8 on each.
+std::vector<Vec3> along_contours(const ContourSet& contours, double step_mm);
+
+/// The length of a contour, with its closing edge if it has one, and of all contours together.
+double length_mm(const Contour& contour);
+double length_mm(const ContourSet& contours);
+
+/// Distance to the nearest of some points.
+double nearest_distance(const Vec3& p, std::span<const Vec3> points);
+
+}  // namespace kontur

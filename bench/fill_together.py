@@ -20,8 +20,9 @@ from scipy import ndimage
 import structures
 
 CASES = [
-    ("ventricles, caudates, callosum, axial", "06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", [1, 7, 8], 2, (3, 5)),
-    ("the same, coronal", "06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", [1, 7, 8], 1, (4, 7)),
+    ("ventricles, caudates, callosum, axial", "06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", [1, 7, 8], 2, (3, 4, 5, 7)),
+    ("the same, coronal", "06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", [1, 7, 8], 1, (3, 4, 7)),
+    ("the same, sagittal", "06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", [1, 7, 8], 0, (3, 5, 7)),
     ("vertebrae L3 to L5, sagittal", "01_ct_abdomen_totalseg_3mm/vertebrae_on_example_ct.nii.gz", [27, 28, 29], 0, (6, 9)),
     ("liver, kidney, gallbladder, stomach, axial", "02_ct_abdomen_torsoLabel_5mm/torsoLabel.nii.gz", [6, 2, 4, 7], 2, (10, 20)),
 ]

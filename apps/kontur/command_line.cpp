@@ -214,8 +214,15 @@ void add_segment(CLI::App& app, Invocation& invocation) {
         ->allow_extra_args(false);
     bind.flag("--all-rois", c.all_rois, "All structures of the RTSTRUCT that have contours, in its order")
         ->excludes(bind.sub->get_option("--roi"));
-    bind.flag("--together", c.together,
-              "Of several structures those that exclude each other share no voxel and leave no gap where they touch");
+    CLI::Option* together =
+        bind.flag("--together", c.together,
+                  "Of several structures those that exclude each other share no voxel and leave no gap where they touch");
+    const auto rule = [&](const char* name, std::vector<std::string>& rules, const char* help) {
+        bind.option(name, rules, "A:B", help)->allow_extra_args(false)->needs(together);
+    };
+    rule("--inside", c.inside, "The structure A lies in B: both have its voxels; again for more [as the fits lie]");
+    rule("--may-overlap", c.may_overlap, "The structures A and B may share voxels; again for more");
+    rule("--exclusive", c.exclusive, "The structures A and B share no voxel; again for more");
     bind.option("--name", c.name, "NAME", "The structure's name [from the contours]");
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);
@@ -300,7 +307,14 @@ void add_fill(CLI::App& app, Invocation& invocation) {
     bind.option("-o,--output", c.output, "FILE",
                 "Label map to write: .nii, .nii.gz, .nrrd, .seg.nrrd, .mha, .mgz or, with --image, .dcm (SEG)")
         ->required();
-    bind.option("--image", c.image, "DIR", "DICOM folder of the images that a SEG (.dcm) refers to");
+    CLI::Option* image =
+        bind.option("--image", c.image, "FILE",
+                    "Image that was painted on, for --use-image, or DICOM folder that a SEG (.dcm) refers to");
+    add_choice<UseImage>(
+        *bind.sub, "--use-image", c.options.use_image, {{"auto", UseImage::automatic}, {"off", UseImage::off}},
+        "Let the image tell how the surface runs between the slices: where it is shown, at slices left out, "
+        "that this helps; or never");
+    bind.sub->get_option("--use-image")->needs(image);
     bind.option("--label", c.options.labels, "N", "Fill only this label; again for more [all]")->allow_extra_args(false);
     add_choice<FillEnds>(*bind.sub, "--ends", c.options.ends,
                          {{"closed", FillEnds::closed}, {"half", FillEnds::half}, {"open", FillEnds::open}},

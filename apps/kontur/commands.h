@@ -32,6 +32,7 @@ struct SegmentCommand {
     std::vector<std::string> rois;   ///< several: each becomes a label of its own
     bool all_rois = false;           ///< all that have contours take the place of `rois`
     bool together = false;           ///< ROIs that exclude each other share no voxel and leave no gap
+    std::vector<std::string> inside, may_overlap, exclusive;  ///< rules for pairs of them: "NAME:NAME"
     ReadContoursOptions read;        ///< its `roi` is the only one of `rois`
     ImageInput image;                ///< its path is empty when `spacing_mm` gives the grid
     std::vector<double> spacing_mm;  ///< one number or three
@@ -95,7 +96,7 @@ void run(const TraceCommand& command, Console& console);
 /// Fills what was left out between the painted slices of a label map.
 struct FillCommand {
     ImageInput labels;
-    std::filesystem::path image;  ///< DICOM series that a SEG refers to; empty: not needed
+    std::filesystem::path image;  ///< what a SEG refers to, and what was painted on; empty: not needed
     std::filesystem::path output, report;
     FillOptions options;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "commands.h"
 #include "dicom_output.h"
@@ -22,8 +23,8 @@ namespace fs = std::filesystem;
 
 Provenance provenance_of(const FillCommand& command, const Progress& progress) {
     const FillOptions& o = command.options;
-    std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={}", name(o.ends), o.jointly,
-                                      o.shape_weight, o.smoothing_voxels);
+    std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={} use_image={}", name(o.ends),
+                                      o.jointly, o.shape_weight, o.smoothing_voxels, name(o.use_image));
     for (const std::int64_t label : o.labels) options += fmt::format(" label={}", label);
     return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, progress);
 }
@@ -37,8 +38,16 @@ void check(const FillCommand& command) {
     check_dicom_images(command.output, command.image);
     if (!command.report.empty() && !has_extension(command.report, ".json"))
         throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", command.report.string()));
-    if (!command.image.empty() && !is_dicom_name(command.output))
-        throw Error(ErrorKind::invalid_input, "--image is for DICOM (.dcm), which refers to images");
+    if (!command.image.empty() && !is_dicom_name(command.output) && command.options.use_image == UseImage::off)
+        throw Error(ErrorKind::invalid_input,
+                    "--image is for --use-image auto and for DICOM (.dcm), which refers to images");
+}
+
+Facts image_facts(const RefineReport& image) {
+    return {{"use", name(image.use)},
+            {"planes_left_out", image.planes_left_out},
+            {"error_without_mm", image.error_without_mm},
+            {"error_with_mm", image.error_with_mm}};
 }
 
 Facts report_of(const FillReport& report, const Provenance& made) {
@@ -48,6 +57,7 @@ Facts report_of(const FillReport& report, const Provenance& made) {
                           {"slices", one.slices},
                           {"painted_voxels", one.painted_voxels},
                           {"added_voxels", one.added_voxels},
+                          {"image", image_facts(one.image)},
                           {"warnings", one.warnings}});
     for (const auto& [name, value] : made) provenance[name] = value;
     for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
@@ -80,8 +90,10 @@ void run(const FillCommand& command, Console& console) {
             console.warn(note);
     const Filling filling = [&] {
         Image labels = read_labels(input, {}, progress);
+        std::optional<Image> image;
+        if (command.options.use_image != UseImage::off) image = kontur::read_image(images.path, images.options, progress);
         try {
-            return fill_labels(std::move(labels), command.options, progress);
+            return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, progress);
         } catch (const Error& error) {
             throw error.with_context(input.path.string());
         }
@@ -103,6 +115,7 @@ void run(const FillCommand& command, Console& console) {
         for (const std::string& warning : one.warnings) console.warn(fmt::format("label {}: {}", one.label, warning));
         text += fmt::format("label {}: {} slices painted; {} voxels painted, {} added\n", one.label, slices_of(one),
                             one.painted_voxels, one.added_voxels);
+        if (one.image.use != ImageUse::none) text += fmt::format("label {}: {}\n", one.label, sentence(one.image));
     }
     console.print(text);
 }

@@ -17,6 +17,7 @@ _Corners = Literal["rounded", "faithful"]
 _UseImage = Literal["off", "auto"]
 _Conflicts = Literal["reconcile", "newest-wins", "exact"]
 _FillRule = Literal["even-odd", "declared"]
+_Relation = Literal["exclusive", "inside", "overlap"]
 _FillEnds = Literal["closed", "half", "open"]
 _PlaneChoice = Literal["any", "image-slices"]
 _Voxelizer = Literal["adaptive", "tracked", "exhaustive"]
@@ -413,6 +414,8 @@ class FilledLabel:
     @property
     def added_voxels(self) -> int: ...
     @property
+    def image(self) -> RefineReport: ...
+    @property
     def label(self) -> int: ...
     @property
     def painted_voxels(self) -> int: ...
@@ -792,6 +795,18 @@ class SolveReport:
     @property
     def matrix_mb(self) -> float: ...
 
+class StructurePair:
+    @property
+    def first(self) -> int: ...
+    @property
+    def second(self) -> int: ...
+    @property
+    def relation(self) -> str: ...
+    @property
+    def shared_voxels(self) -> int: ...
+    @property
+    def is_given(self) -> bool: ...
+
 class StructureSet:
     def __init__(self, rois: Sequence[Roi], label: str = "") -> None: ...
     @property
@@ -862,6 +877,19 @@ class SurfaceUncertainty:
     def planes_to_95(self) -> int: ...
     @property
     def planes_to_98(self) -> int: ...
+
+class Together:
+    @property
+    def grid(self) -> Grid: ...
+    @property
+    def structures(self) -> list[Segmentation]: ...
+    @property
+    def pairs(self) -> list[StructurePair]: ...
+    @property
+    def contested_voxels(self) -> int: ...
+    @property
+    def closed_voxels(self) -> int: ...
+    def mask(self, structure: int) -> Mask: ...
 
 class TriangleMesh:
     def __init__(self, points: ArrayLike, triangles: ArrayLike, normals: ArrayLike | None = None) -> None: ...
@@ -936,12 +964,14 @@ def fill_labels(
     labels: Image,
     spacing: None = None,
     *,
+    image: Image | None = None,
     return_report: Literal[False] = False,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
+    use_image: _UseImage = "off",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -952,12 +982,14 @@ def fill_labels(
     labels: Image,
     spacing: None = None,
     *,
+    image: Image | None = None,
     return_report: Literal[True],
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
+    use_image: _UseImage = "off",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -968,12 +1000,14 @@ def fill_labels(
     labels: ArrayLike,
     spacing: Sequence[float],
     *,
+    image: Image | None = None,
     return_report: Literal[False] = False,
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
+    use_image: _UseImage = "off",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -984,12 +1018,14 @@ def fill_labels(
     labels: ArrayLike,
     spacing: Sequence[float],
     *,
+    image: Image | None = None,
     return_report: Literal[True],
     progress: _Progress | None = None,
     stop: _Stop | None = None,
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
+    use_image: _UseImage = "off",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -1306,6 +1342,31 @@ def segment(
     threads: int = 0,
     max_memory_mb: float | None = None,
 ) -> Segmentation: ...
+
+def segment_together(
+    contours: Sequence[ContourSet],
+    grid: Grid,
+    *,
+    image: Image | None = None,
+    rules: Sequence[tuple[int | str, _Relation, int | str]] = (),
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+    kernel: _Kernel = "screened",
+    normals: _Normals = "surface",
+    normal_offset_mm: float | None = None,
+    smoothing: float | None = None,
+    conflicts: _Conflicts = "reconcile",
+    fill_rule: _FillRule = "even-odd",
+    corners: _Corners = "rounded",
+    quality: float = 1.0,
+    solver: _Solver = "automatic",
+    tolerance_mm: float | None = None,
+    voxelizer: _Voxelizer = "adaptive",
+    use_image: _UseImage = "off",
+    mesh: bool = False,
+    threads: int = 0,
+    max_memory_mb: float | None = None,
+) -> Together: ...
 
 def select_label(image: Image, label: float) -> Mask: ...
 

@@ -7,6 +7,7 @@
 #include "kontur/base/checks.h"
 #include "kontur/fill_labels.h"
 #include "run.h"
+#include "segment_words.h"
 
 namespace kontur::python {
 
@@ -36,6 +37,9 @@ Keywords<FillOptions> fill_keywords() {
                "Fit labels that touch also as one object, so that no gaps stay between them.")
         .field("shape_weight", &FillOptions::shape_weight,
                "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone.")
+        .field("use_image", &FillOptions::use_image,
+               "'auto': where an image is given, let it tell how the surface runs between the slices, if it is shown, at "
+               "slices left out, that this helps.")
         .field("smoothing_voxels", &FillOptions::smoothing_voxels, "Of the painted outlines, standard deviation in voxels.")
         .field("only", &FillOptions::labels, "Only these labels; empty: all.")
         .field("threads", &FillOptions::threads, "0: the machine's. The result does not depend on it.")
@@ -65,6 +69,7 @@ void bind_report(py::module_& m) {
         .field("slices", &FilledLabel::slices, "list of 3 int: painted ones across the grid's axes i, j and k.")
         .field("painted_voxels", &FilledLabel::painted_voxels, "int")
         .field("added_voxels", &FilledLabel::added_voxels, "int")
+        .field("image", &FilledLabel::image, "RefineReport: what became of the image between the slices.")
         .field("warnings", &FilledLabel::warnings, "list of str: one sentence each.")
         .picklable();
     py::class_<FillReport> report(m, "FillReport", "What `fill_labels` did.");
@@ -97,6 +102,8 @@ labels : array_like of whole numbers, shape (z, y, x), or Image
     0 where nothing is painted.
 spacing : (float, float, float), optional
     Distance of the voxels in mm along the array's axes, in their order; an Image has its own.
+image : Image, optional
+    What was painted on, for `use_image`, on any grid of the same frame; an array of labels lies at the origin.
 return_report : bool
     Also return the FillReport.
 progress : callable, optional
@@ -124,8 +131,9 @@ Examples
 >>> bool(2 * (full & ball).sum() / (full.sum() + ball.sum()) > 0.97)
 True
 )",
-        [keywords](const py::object& labels, const std::optional<std::array<double, 3>>& spacing, bool return_report,
-                   const py::object& progress, const py::object& stop, const py::kwargs& given) -> py::object {
+        [keywords](const py::object& labels, const std::optional<std::array<double, 3>>& spacing, const Image* reference,
+                   bool return_report, const py::object& progress, const py::object& stop,
+                   const py::kwargs& given) -> py::object {
             const FillOptions options = keywords.parse("fill_labels", given);
             const bool is_image = py::isinstance<Image>(labels);
             if (is_image && spacing)
@@ -139,16 +147,16 @@ True
                 is_image
                     ? labels.cast<const Image&>()
                     : py::module_::import("kontur").attr("Image")(array, py::cast(grid_of(array, *spacing))).cast<Image>();
-            Filling filling =
-                run({progress, stop}, [&](const Progress& p) { return fill_labels(std::move(image), options, p); });
+            Filling filling = run({progress, stop},
+                                  [&](const Progress& p) { return fill_labels(std::move(image), reference, options, p); });
             FillReport report = std::move(filling.report);
             py::object full = py::cast(std::move(filling.labels));
             if (!is_image) full = full.attr("samples").attr("astype")(array.dtype());
             if (return_report) return py::make_tuple(full, report);
             return full;
         },
-        py::arg("labels"), py::arg("spacing") = py::none(), py::kw_only(), py::arg("return_report") = false, kProgress,
-        kStop, KeywordText(keywords));
+        py::arg("labels"), py::arg("spacing") = py::none(), py::kw_only(), py::arg("image") = py::none(),
+        py::arg("return_report") = false, kProgress, kStop, KeywordText(keywords));
 }
 
 }  // namespace kontur::python

@@ -57,6 +57,7 @@ PYBIND11_MODULE(_core, m) {
     bind_extraction(m);
     bind_uncertainty_types(m);
     bind_segment(m);
+    bind_together(m);
     bind_labels(m);
     bind_uncertainty(m);
     bind_editor(m);

@@ -6,40 +6,11 @@
 #include "kontur/report.h"
 #include "kontur/view/picture.h"
 #include "provenance.h"
+#include "segment_keywords.h"
 #include "segment_words.h"
 
 namespace kontur::python {
 namespace {
-
-Keywords<SegmentOptions> segment_keywords() {
-    return Keywords<SegmentOptions>()
-        .field("kernel", &SegmentOptions::kernel, "Radial function: r^3 that goes back to a mean outside, r^3 or r.")
-        .field("normals", &SegmentOptions::normals,
-               "Direction of the surface at a contour: from all contours together, or the contour's alone (the paper's).")
-        .field("normal_offset_mm", &SegmentOptions::normal_offset_mm,
-               "Length of the normal constraints; None: 1.35 % of the contours' diameter, in-plane normals 0.45 %.")
-        .field("smoothing", &SegmentOptions::smoothing,
-               "On unit coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
-        .field("conflicts", &SegmentOptions::conflicts,
-               "Where contours of different planes contradict each other: both yield, the earlier one, or none.")
-        .field("fill_rule", &SegmentOptions::fill_rule, "What contours inside others of their plane mean.")
-        .field("corners", &SegmentOptions::corners,
-               "Points at which a contour turns by 30 degrees or more: passed in a narrow bend, or followed into.")
-        .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
-        .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
-        .field("tolerance_mm", &SegmentOptions::tolerance_mm,
-               "Of the iterative solver, at all constraints; None: 1.5e-5 of the contours' diameter.")
-        .field("voxelizer", &SegmentOptions::voxelizer,
-               "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
-               "all voxels.")
-        .field("use_image", &SegmentOptions::use_image,
-               "'auto': where an image is given, let it tell how the surface runs between the contours, if it is shown, at "
-               "contours left out, that this helps.")
-        .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
-        .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.")
-        .field("max_memory_mb", &SegmentOptions::max_memory_mb,
-               "Refuse a run of which the process would hold more; None: the machine's memory.");
-}
 
 void bind_json(py::class_<SegmentReport>& type) {
     method(
@@ -180,6 +151,36 @@ void bind_segmentation(py::module_& m) {
 }
 
 }  // namespace
+
+Keywords<SegmentOptions> segment_keywords() {
+    return Keywords<SegmentOptions>()
+        .field("kernel", &SegmentOptions::kernel, "Radial function: r^3 that goes back to a mean outside, r^3 or r.")
+        .field("normals", &SegmentOptions::normals,
+               "Direction of the surface at a contour: from all contours together, or the contour's alone (the paper's).")
+        .field("normal_offset_mm", &SegmentOptions::normal_offset_mm,
+               "Length of the normal constraints; None: 1.35 % of the contours' diameter, in-plane normals 0.45 %.")
+        .field("smoothing", &SegmentOptions::smoothing,
+               "On unit coordinates; 0 passes through every point; None: 1e-5 with surface normals, else 0.")
+        .field("conflicts", &SegmentOptions::conflicts,
+               "Where contours of different planes contradict each other: both yield, the earlier one, or none.")
+        .field("fill_rule", &SegmentOptions::fill_rule, "What contours inside others of their plane mean.")
+        .field("corners", &SegmentOptions::corners,
+               "Points at which a contour turns by 30 degrees or more: passed in a narrow bend, or followed into.")
+        .field("quality", &SegmentOptions::quality, "Fraction of each contour's points that the fit uses, in (0, 1].")
+        .field("solver", &SegmentOptions::solver, "'automatic' is iterative; 'dense' is LAPACK's dsysv, the paper's.")
+        .field("tolerance_mm", &SegmentOptions::tolerance_mm,
+               "Of the iterative solver, at all constraints; None: 1.5e-5 of the contours' diameter.")
+        .field("voxelizer", &SegmentOptions::voxelizer,
+               "Follow the surface from the contours, computing values where needed or at every voxel it passes; or compute "
+               "all voxels.")
+        .field("use_image", &SegmentOptions::use_image,
+               "'auto': where an image is given, let it tell how the surface runs between the contours, if it is shown, at "
+               "contours left out, that this helps.")
+        .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
+        .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.")
+        .field("max_memory_mb", &SegmentOptions::max_memory_mb,
+               "Refuse a run of which the process would hold more; None: the machine's memory.");
+}
 
 void bind_segment(py::module_& m) {
     bind_refine_report(m);

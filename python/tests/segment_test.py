@@ -56,6 +56,49 @@ def test_of_two_contours_that_yield_the_heavier_yields_less():
     assert least_trust(9) > 3 * least_trust(1)
 
 
+def lens(center, radius):
+    """A ball as seven axial circles."""
+    turns = numpy.linspace(0, 2 * numpy.pi, 40, endpoint=False)
+    contours = []
+    for z in numpy.linspace(-0.9, 0.9, 7) * radius:
+        ring = (radius**2 - z**2) ** 0.5 * numpy.stack([numpy.cos(turns), numpy.sin(turns), 0 * turns], 1)
+        points = ring + center + [0, 0, z]
+        contours.append(kontur.Contour(points))
+    return contours
+
+
+def test_several_structures_become_a_partition():
+    sets = [kontur.ContourSet(lens(center, radius), name=name)
+            for name, center, radius in (("left", (-7, 0, 0), 12), ("right", (7, 0, 0), 12), ("core", (-10, 0, 0), 4))]
+    grid = kontur.grid_around(kontur.ContourSet([*sets[0], *sets[1]]).bounding_box, spacing_mm=[1, 1, 1], margin_mm=4)
+    made = kontur.segment_together(sets, grid, rules=[("right", "exclusive", 0)], quality=0.9)
+    assert {(pair.first, pair.relation, pair.second, pair.is_given) for pair in made.pairs} == {
+        (1, "exclusive", 0, True), (2, "inside", 0, False)}
+    left, right, core = (made.mask(n).values.astype(bool) for n in range(3))
+    assert left.shape == grid.shape and not (left & right).any() and (core & left).sum() == core.sum() > 0
+    assert made.contested_voxels == [pair.shared_voxels for pair in made.pairs if pair.relation == "exclusive"][0] > 0
+    assert made.structures[2].mask.values.size < left.size / 10
+    assert [one.report.mask_voxels for one in made.structures] == [mask.sum() for mask in (left, right, core)]
+    overlapping = kontur.segment_together(sets[:2], grid, rules=[(0, "overlap", 1)], quality=0.9)
+    for n in range(2):
+        alone = kontur.segment(sets[n], grid, quality=0.9).mask.values
+        assert (overlapping.mask(n).values != alone).sum() <= 2  # found in a smaller box
+    with pytest.raises(IndexError):
+        made.mask(3)
+
+
+@pytest.mark.parametrize("rules, sentence", [
+    ([("left", "inside", "top")], "a rule is about 'top', which 0 structures are called; 1 is needed"),
+    ([("left", "inside")], "a rule has 2 parts; 3 are needed"),
+    ([(0, "inside", 2)], "the structures 0 and 2; there are 2"),
+    ([(0, "inside", 1), (1, "overlap", 0)], "2 rules are about the structures 1 and 0; 1 is possible"),
+])
+def test_rules_that_make_no_sense(rules, sentence):
+    sets = [kontur.ContourSet(lens((x, 0, 0), 6), name=name) for x, name in ((0, "left"), (9, "right"))]
+    with pytest.raises(kontur.InvalidInputError, match=sentence):
+        kontur.segment_together(sets, kontur.grid_around(sets[0].bounding_box, [1, 1, 1], 5), rules=rules)
+
+
 def test_values_and_gradients(case, kidney):
     points = numpy.concatenate([contour.points for contour in case.contours.contours])
     assert abs(kidney.function(points)).max() < 0.02

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <span>
 
@@ -13,6 +12,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/labels/filled_map.h"
+#include "kontur/labels/gaps.h"
 #include "kontur/labels/painted_object.h"
 #include "kontur/labels/shape_interpolation.h"
 #include "kontur/segment.h"
@@ -65,6 +65,13 @@ bool is_anything_left_out(const PaintedObject& object, const IndexBox& range) {
     return true;
 }
 
+/// By which factor the image makes the variance of the fit smaller; 1 where it is not used.
+double variance_left(const RefineReport& image) {
+    if (image.use != ImageUse::used || !(image.error_without_mm > 0)) return 1;
+    const double ratio = std::min(1.0, image.error_with_mm / image.error_without_mm);
+    return ratio * ratio;
+}
+
 /// What one fit leaves.
 struct Fitted {
     const PaintedObject* object = nullptr;
@@ -74,13 +81,14 @@ struct Fitted {
 
 class Filler {
 public:
-    Filler(Image labels, const FillOptions& options) : map_(std::move(labels)), options_(options) {}
+    Filler(Image labels, const Image* image, const FillOptions& options)
+        : map_(std::move(labels)), image_(image), options_(options) {}
 
     const Grid& grid() const { return map_.labels().grid; }
 
-    /// Fits one object and gives it what nobody painted and no deeper one has.
-    void add(const PaintedObject& object, const IndexBox& range, const Progress& progress) {
-        Segmentation result = fit(object, range, progress);
+    /// Fits one object and gives it what nobody painted and no deeper one has. Returns what became of the image.
+    RefineReport add(const PaintedObject& object, const IndexBox& range, const Progress& progress) {
+        Segmentation result = fit(object, range, image_, progress);
         follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -91,6 +99,7 @@ public:
         });
         fitted_.emplace(object.label, Fitted{&object, range, result.function});
         for (const auto& [other, voxels] : contested) contest(object.label, other, voxels);
+        return result.report.image;
     }
 
     /// Fits labels that touch as one object; what that claims and none of them has goes to the one that is nearest.
@@ -103,13 +112,13 @@ public:
         if (all.slices.size() < 2) return;
         const IndexBox range = range_of(all, grid(), options_.ends);
         if (!is_anything_left_out(all, range)) return;
-        Segmentation result = fit(all, range, progress);
+        Segmentation result = fit(all, range, nullptr, progress);
         follow_shapes(all, range, result);
         std::vector<std::size_t> gaps;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
             if (map_.label(n) == 0 && !all.is_known(at)) gaps.push_back(n);
         });
-        give_to_nearest(objects, gaps, largest_gap_mm(all) / 2);
+        give_to_nearest({result.function, {}, largest_gap_mm(all) / 2}, objects, gaps);
     }
 
     std::int64_t contested() const { return contested_; }
@@ -117,11 +126,13 @@ public:
     Image take() { return map_.take(); }
 
 private:
-    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Progress& progress) const {
+    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image,
+                     const Progress& progress) const {
         SegmentOptions segmenting;
+        segmenting.use_image = options_.use_image;
         segmenting.threads = options_.threads;
         segmenting.max_memory_mb = options_.max_memory_mb;
-        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), segmenting, progress);
+        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, progress);
     }
 
     /// Calls visit(index, offset), both of the image, for the voxels of a mask on a range.
@@ -165,9 +176,10 @@ private:
                     places.push_back(grid().center_mm(in_image.i, in_image.j, in_image.k));
                     shape_mm.push_back(depth);
                 }
+        const double weight = options_.shape_weight * shape.trust() * variance_left(result.report.image);
         const std::vector<double> fit_mm = depths_mm(result.function, places, options_.threads);
         for (std::size_t n = 0; n < differing.size(); ++n)
-            result.mask.values[differing[n]] = std::lerp(fit_mm[n], shape_mm[n], options_.shape_weight * shape.trust()) > 0;
+            result.mask.values[differing[n]] = std::lerp(fit_mm[n], shape_mm[n], weight) > 0;
     }
 
     std::vector<Vec3> centers_mm(const std::vector<std::size_t>& voxels) const {
@@ -188,35 +200,24 @@ private:
         contested_ += static_cast<std::int64_t>(voxels.size());
     }
 
-    /// Only where two of them are no farther away than `reach_mm`: what lies beside one alone is no gap.
-    void give_to_nearest(const std::vector<const PaintedObject*>& objects, const std::vector<std::size_t>& voxels,
-                         double reach_mm) {
-        struct Nearest {
-            std::int64_t label = 0;
-            double depth_mm = -std::numeric_limits<double>::infinity(), next_mm = depth_mm;
+    void give_to_nearest(TouchingStructures structures, const std::vector<const PaintedObject*>& objects,
+                         const std::vector<std::size_t>& voxels) {
+        for (const PaintedObject* object : objects) structures.each.push_back(fitted_.at(object->label).function);
+        const auto may_own = [&](std::size_t n, std::size_t structure) {
+            const Index3 at = map_.index(voxels[n]);
+            const PaintedObject& object = *objects[structure];
+            return fitted_.at(object.label).range.contains(at) && !object.is_known(at);
         };
-        std::vector<Nearest> nearest(voxels.size());
-        for (const PaintedObject* object : objects) {
-            const Fitted& fitted = fitted_.at(object->label);
-            std::vector<std::size_t> own, which;
-            for (std::size_t n = 0; n < voxels.size(); ++n)
-                if (const Index3 at = map_.index(voxels[n]); fitted.range.contains(at) && !object->is_known(at))
-                    own.push_back(voxels[n]), which.push_back(n);
-            const std::vector<double> depths = depths_mm(fitted.function, centers_mm(own), options_.threads);
-            for (std::size_t m = 0; m < own.size(); ++m) {
-                Nearest& best = nearest[which[m]];
-                if (depths[m] > best.depth_mm) best = {object->label, depths[m], best.depth_mm};
-                else best.next_mm = std::max(best.next_mm, depths[m]);
-            }
-        }
+        const auto owners = owners_of_gaps(structures, centers_mm(voxels), may_own, options_.threads);
         for (std::size_t n = 0; n < voxels.size(); ++n) {
-            if (!(nearest[n].next_mm > -reach_mm)) continue;
-            map_.set_label(voxels[n], nearest[n].label);
+            if (!owners[n]) continue;
+            map_.set_label(voxels[n], objects[*owners[n]]->label);
             ++closed_;
         }
     }
 
     FilledMap map_;
+    const Image* image_;
     FillOptions options_;
     std::map<std::int64_t, Fitted> fitted_;
     std::int64_t contested_ = 0, closed_ = 0;
@@ -230,6 +231,18 @@ void check(const std::map<std::int64_t, LabelBox>& boxes, const FillOptions& opt
     for (const std::int64_t label : options.labels)
         if (!boxes.contains(label))
             throw Error(ErrorKind::invalid_input, fmt::format("the label {} is to be filled, but no voxel has it", label));
+}
+
+void check_image_near(const Image* image, const Grid& labels) {
+    if (!image) return;
+    check_image(*image);
+    const Box3 a = image->grid.bounds_mm(), b = labels.bounds_mm();
+    for (int axis = 0; axis < 3; ++axis)
+        if (a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis])
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the label map and the image lie {:.0f} mm apart; are they of one patient and in one "
+                                    "frame of reference?",
+                                    std::max(b.min[axis] - a.max[axis], a.min[axis] - b.max[axis])));
 }
 
 std::vector<PaintedObject> look(const Image& labels, const std::map<std::int64_t, LabelBox>& boxes,
@@ -272,23 +285,28 @@ std::string_view name(FillEnds ends) noexcept {
 }
 
 Filling fill_labels(Image labels, const FillOptions& options, const Progress& progress) {
+    return fill_labels(std::move(labels), nullptr, options, progress);
+}
+
+Filling fill_labels(Image labels, const Image* image, const FillOptions& options, const Progress& progress) {
     FillReport report;
     Stopwatch watch(report.seconds);
     const std::map<std::int64_t, LabelBox> boxes = label_boxes(labels);
     check(boxes, options);
+    check_image_near(image, labels.grid);
     const std::vector<PaintedObject> objects = look(labels, boxes, options, progress);
     const std::vector<std::vector<std::int64_t>> touching =
         options.jointly ? touching_labels(labels) : std::vector<std::vector<std::int64_t>>{};
     watch.lap("find slices");
 
-    Filler filler(std::move(labels), options);
+    Filler filler(std::move(labels), image, options);
     for (const PaintedObject& object : objects) {
         FilledLabel& filled = report.labels.emplace_back();
         filled.label = object.label, filled.painted_voxels = object.found.voxels;
         for (const PaintedSlice& slice : object.slices) ++filled.slices[static_cast<std::size_t>(slice.axis)];
         const IndexBox range = range_of(object, filler.grid(), options.ends);
         if (is_anything_left_out(object, range))
-            or_warn(object.label, filled.warnings, [&] { filler.add(object, range, progress); });
+            or_warn(object.label, filled.warnings, [&] { filled.image = filler.add(object, range, progress); });
         else filled.warnings.push_back("no slice was left out");
     }
     watch.lap("fill");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kontur/base/progress.h"
+#include "kontur/refine/refine.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -30,6 +31,7 @@ struct FillOptions {
     /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where
     /// the slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).
     double shape_weight = 0.7;
+    UseImage use_image = UseImage::off;     ///< between the painted slices; where an image is given
     double smoothing_voxels = 0.7;          ///< of the painted outlines, see SectionContourOptions
     std::vector<std::int64_t> labels{};     ///< only these; empty: all
     int threads = 0;                        ///< 0: the machine's
@@ -42,6 +44,7 @@ struct FilledLabel {
     std::array<std::int64_t, 3> slices{};  ///< painted ones across the grid's axes i, j and k
     std::int64_t painted_voxels = 0;
     std::int64_t added_voxels = 0;
+    RefineReport image{};               ///< what became of the image between the slices
     std::vector<std::string> warnings;  ///< one sentence each
 };
 
@@ -63,8 +66,11 @@ struct Filling {
 /// and a slice that was painted as a whole gets nothing more. Where several labels claim a voxel, it goes to the one that it
 /// lies deepest in, f / |grad f|. A label painted on one slice alone, and one of whose slices none was left out, stay as
 /// they are. Throws Error(invalid_input) for an image that is no label map (see count_labels), one without labels, a label
-/// to fill that is not in it and a smoothing below 0; Error(too_large) as `segment` does. Works within the labels' boxes.
-/// The same bytes for any number of threads.
+/// to fill that is not in it, a smoothing below 0 and an image that lies apart; Error(too_large) as `segment` does. Works
+/// within the labels' boxes. With `use_image` the image (on any grid of the same frame) tells, where it helps, how each
+/// label's surface runs between the slices; the shape-based interpolation then counts less, by the square of how much
+/// smaller the image makes the error at slices left out. The same bytes for any number of threads.
 Filling fill_labels(Image labels, const FillOptions& options = {}, const Progress& progress = {});
+Filling fill_labels(Image labels, const Image* image, const FillOptions& options = {}, const Progress& progress = {});
 
 }  // namespace kontur

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kontur/base/progress.h"
+#include "kontur/labels/label_boxes.h"
 #include "kontur/segment.h"
 
 namespace kontur {
@@ -15,16 +16,17 @@ namespace kontur {
 /// How two structures lie to each other.
 enum class Relation {
     exclusive,  ///< no voxel belongs to both, and where they touch no gap stays between them
-    inside,     ///< one lies in the other: both keep what they have
+    inside,     ///< the first lies in the second: both have its voxels
     overlap,    ///< they may share voxels
 };
 std::string_view name(Relation relation) noexcept;
 
-/// Two structures, counted from 0, the first before the second.
+/// Two structures, counted from 0.
 struct StructurePair {
     std::size_t first = 0, second = 0;
     Relation relation = Relation::exclusive;
     std::int64_t shared_voxels = 0;  ///< of the two masks fitted each alone
+    bool is_given = false;           ///< by a rule; else the relation follows from the masks
 };
 
 struct TogetherOptions {
@@ -34,21 +36,30 @@ struct TogetherOptions {
 
 /// Structures of one grid, in the order of their contours.
 struct Together {
-    std::vector<Segmentation> structures;
-    std::vector<StructurePair> pairs;   ///< those whose masks share voxels or faces
-    std::int64_t contested_voxels = 0;  ///< claimed by two that exclude each other
-    std::int64_t closed_voxels = 0;     ///< of gaps between them
+    Grid grid;
+    std::vector<Segmentation> structures;  ///< each with its mask on the box around it, grid_of(grid, boxes[n])
+    std::vector<IndexBox> boxes;           ///< of the grid; a single voxel where a mask is empty
+    std::vector<StructurePair> pairs;      ///< those whose masks share voxels or faces, and those of the rules
+    std::int64_t contested_voxels = 0;     ///< claimed by two that exclude each other
+    std::int64_t closed_voxels = 0;        ///< of gaps between them
 };
+
+/// The mask of one of them on the whole grid. Throws std::out_of_range for one that is not there.
+Mask whole_mask(const Together& together, std::size_t structure);
 
 /// Segments several structures so that those that exclude each other become a partition. Each is fitted by itself; a voxel
 /// that two of them claim goes to the one that it lies deepest in, f / |grad f|. Those that touch are fitted as one object,
-/// too, from the outlines of their union in the planes that show all of them as far as they reach; a voxel in that and in
-/// none of them goes to the nearest, where two are near. Functions stay those of the single fits. Where no rule is given,
-/// structures that share more than 80 % of the smaller one lie inside each other, from 25 % on they may overlap, else they
-/// are exclusive. A group with open contours gets no union. Throws as `segment` does, with the structure's name or number
-/// in front, and Error(invalid_input) for a rule about structures that are not there. The same bytes for any number of
-/// threads.
+/// too, from the outlines of their union in the planes that show all of them as far as they reach; what that has and none of
+/// them goes to the nearest, as far as the union is surer of it than the nearest is of the contrary (owners_of_gaps).
+/// Functions stay those of the single fits. Where no rule is given, structures that share more than 80 % of the smaller one
+/// lie inside each other, from 25 % on they may overlap, else they are exclusive. By a rule that one lies inside another,
+/// the outer one gets what the inner one has. A group with open contours gets no union. With an image it is asked as in
+/// `segment`, for each structure. Memory is that of the structures' boxes. Throws as `segment` does, with the structure's
+/// name or number in front, and Error(invalid_input) for no structures, for a rule about structures that are not there and
+/// for two rules about one pair. The same bytes for any number of threads.
 Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const TogetherOptions& options = {},
                           const Progress& progress = {});
+Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const Image* image,
+                          const TogetherOptions& options = {}, const Progress& progress = {});
 
 }  // namespace kontur

@@ -178,11 +178,42 @@ def test_together_no_voxel_has_two_structures_that_exclude_each_other(tmp_path, 
     assert (masks["PTV"].sum() > 0) and pydicom.dcmread(tmp_path / "all_rs.dcm").Modality == "RTSTRUCT"
 
 
+def masks_together(tmp_path, structures, images, *rules):
+    """The mask of each ROI, all segmented together by these rules, and the report."""
+    words = ("--all-rois", "--together", *rules, "--image", images, "--output", tmp_path / "all.dcm", "--report", tmp_path / "all.json")
+    result = kontur("segment", structures, *words)
+    assert result.returncode == 0, result
+    masks = {}
+    for number, name in enumerate(BALLS, 1):
+        assert kontur("convert", tmp_path / "all.dcm", tmp_path / f"{name}.nii", "--label", number).returncode == 0
+        masks[name] = read_nifti(tmp_path / f"{name}.nii") != 0
+    return masks, json.loads((tmp_path / "all.json").read_text())["together"]
+
+
+def test_rules_say_what_two_structures_are_to_each_other(tmp_path, structures, images):
+    alone = one_by_one(tmp_path, structures, images)
+    both = numpy.count_nonzero(alone["Bladder"] & alone["rectum"])
+    masks, together = masks_together(tmp_path, structures, images, "--may-overlap", "bladder:RECTUM", "--inside", "3:1")
+    assert numpy.count_nonzero(masks["Bladder"] & masks["rectum"]) == both
+    assert not (masks["PTV"] & ~masks["Bladder"]).any() and (masks["PTV"] == alone["PTV"]).all()
+    relations = {(pair["first"], pair["second"]): (pair["relation"], pair["given"], pair["shared_voxels"]) for pair in together["pairs"]}
+    assert relations[("Bladder", "rectum")] == ("overlap", True, both)
+    assert relations[("PTV", "Bladder")][:2] == ("inside", True)
+
+    masks, together = masks_together(tmp_path, structures, images, "--exclusive", "rectum:Bladder")
+    assert not (masks["Bladder"] & masks["rectum"]).any()
+    assert together["contested_voxels"] >= both
+    assert not ((alone["Bladder"] | alone["rectum"]) & ~(masks["Bladder"] | masks["rectum"] | masks["PTV"])).any()
+
+
 @pytest.mark.parametrize("words, code, sentence", [
     (("--together", "--roi", "PTV"), 65, "--together is for several ROIs"),
     (("--all-rois", "--roi", "PTV"), 64, "--roi excludes --all-rois"),
     (("--all-rois", "--mesh", "out.stl"), 65, "--mesh has room for one structure"),
-    (("--all-rois", "--together", "--use-image", "auto"), 65, "--together does not ask the image yet"),
+    (("--all-rois", "--inside", "PTV:Bladder"), 64, "--inside requires --together"),
+    (("--all-rois", "--together", "--inside", "PTV:CTV"), 65, "--inside is 'PTV:CTV'; two different ROIs of 'Bladder', 'rectum', 'PTV' are needed"),
+    (("--all-rois", "--together", "--exclusive", "PTV"), 65, "--exclusive is 'PTV'; two different ROIs"),
+    (("--all-rois", "--together", "--inside", "PTV:Bladder", "--may-overlap", "1:3"), 65, "2 rules are about 'Bladder' and 'PTV'; 1 is possible"),
 ])
 def test_words_about_all_rois_that_make_no_sense(tmp_path, structures, images, words, code, sentence):
     result = kontur("segment", structures, *words, "--image", images, "--output", tmp_path / "out.nii")

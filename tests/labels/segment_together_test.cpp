@@ -48,7 +48,7 @@ Grid grid_here() {
 }
 
 /// Voxels in the barrel, 2 mm within its wall, by how many structures they belong to.
-std::array<std::int64_t, 3> counts(const std::vector<Segmentation>& structures, double step_z) {
+std::array<std::int64_t, 3> counts(const std::vector<Mask>& structures, double step_z) {
     const Grid grid = grid_here();
     std::array<std::int64_t, 3> found{};
     for (std::int64_t k = 0; k < grid.size.k; ++k)
@@ -57,19 +57,26 @@ std::array<std::int64_t, 3> counts(const std::vector<Segmentation>& structures, 
                 const Vec3 p = grid.center_mm(i, j, k);
                 if (std::hypot(p.x, p.y) > 16 - 0.005 * p.z * p.z || std::fmod(std::abs(p.z), step_z) != 0) continue;
                 std::size_t owners = 0;
-                for (const Segmentation& one : structures) owners += one.mask.values[grid.offset(i, j, k)];
+                for (const Mask& one : structures) owners += one.values[grid.offset(i, j, k)];
                 ++found[std::min<std::size_t>(owners, 2)];
             }
     return found;
 }
 
+/// On the whole grid.
+std::vector<Mask> masks_of(const Together& together) {
+    std::vector<Mask> masks;
+    for (std::size_t n = 0; n < together.structures.size(); ++n) masks.push_back(whole_mask(together, n));
+    return masks;
+}
+
 TEST(SegmentTogether, MakesAPartition) {
     for (const double gap : {0.05, 0.4}) {
         const auto sets = sectors(gap);
-        std::vector<Segmentation> alone;
-        for (const ContourSet& set : sets) alone.push_back(segment(set, grid_here()));
+        std::vector<Mask> alone;
+        for (const ContourSet& set : sets) alone.push_back(segment(set, grid_here()).mask);
         const Together together = segment_together(sets, grid_here());
-        const auto before = counts(alone, 1), after = counts(together.structures, 1), drawn = counts(together.structures, 8);
+        const auto before = counts(alone, 1), after = counts(masks_of(together), 1), drawn = counts(masks_of(together), 8);
         EXPECT_GT(before[0] + before[2], 100) << gap;
         EXPECT_EQ(after[2], 0) << gap;
         EXPECT_LE(after[0], before[0] / 5) << gap;
@@ -98,8 +105,7 @@ TEST(SegmentTogether, OneInsideAnotherAndTwoThatOverlapKeepTheirVoxels) {
     const Together inside = segment_together(nested, grid_here());
     ASSERT_EQ(inside.pairs.size(), 1U);
     EXPECT_EQ(inside.pairs[0].relation, Relation::inside);
-    for (std::size_t n = 0; n < 2; ++n)
-        EXPECT_EQ(inside.structures[n].mask.values, segment(nested[n], grid_here()).mask.values);
+    for (std::size_t n = 0; n < 2; ++n) EXPECT_EQ(masks_of(inside)[n].values, segment(nested[n], grid_here()).mask.values);
     const std::vector<ContourSet> crossing{ball({-4, 0, 0}, 12), ball({4, 0, 0}, 12)};
     EXPECT_EQ(segment_together(crossing, grid_here()).pairs.at(0).relation, Relation::overlap);
     const Together parted =
@@ -108,13 +114,48 @@ TEST(SegmentTogether, OneInsideAnotherAndTwoThatOverlapKeepTheirVoxels) {
     EXPECT_GT(parted.contested_voxels, 1000);
     // By symmetry the border is the plane x = 0.
     const Grid grid = grid_here();
+    const std::vector<Mask> masks = masks_of(parted);
     for (std::int64_t k = 10; k < 39; ++k)
         for (std::int64_t j = 0; j < 44; ++j)
             for (std::int64_t i = 0; i < 44; ++i) {
                 const std::size_t n = grid.offset(i, j, k);
-                ASSERT_FALSE(parted.structures[0].mask.values[n] && parted.structures[1].mask.values[n]);
-                ASSERT_FALSE(grid.center_mm(i, j, k).x > 1 && parted.structures[0].mask.values[n]);
+                ASSERT_FALSE(masks[0].values[n] && masks[1].values[n]);
+                ASSERT_FALSE(grid.center_mm(i, j, k).x > 1 && masks[0].values[n]);
             }
+}
+
+TEST(SegmentTogether, ByARuleTheOuterOneGetsWhatTheInnerOneHas) {
+    const std::vector<ContourSet> sets{ball({-4, 0, 0}, 12), ball({8, 0, 0}, 6)};
+    const Together together = segment_together(sets, grid_here(), {.segment = {}, .rules = {{1, 0, Relation::inside}}});
+    const std::vector<Mask> masks = masks_of(together);
+    EXPECT_EQ(masks[1].values, segment(sets[1], grid_here()).mask.values);
+    const Mask outer = segment(sets[0], grid_here()).mask;
+    std::int64_t added = 0;
+    for (std::size_t n = 0; n < outer.values.size(); ++n) {
+        ASSERT_EQ(masks[0].values[n], outer.values[n] | masks[1].values[n]);
+        added += masks[0].values[n] && !outer.values[n];
+    }
+    EXPECT_GT(added, 50);
+    EXPECT_EQ(together.structures[0].report.mask_voxels, std::count(masks[0].values.begin(), masks[0].values.end(), 1));
+}
+
+TEST(SegmentTogether, MasksLieOnBoxesAroundTheStructures) {
+    Grid wide = test::index_grid({300, 300, 60});
+    wide.index_to_mm.translation = {-40, -40, -30};
+    const std::vector<ContourSet> sets{ball({0, 0, 0}, 9), ball({200, 200, 0}, 9)};
+    const Together together = segment_together(sets, wide);
+    EXPECT_TRUE(together.pairs.empty());
+    for (std::size_t n = 0; n < 2; ++n) {
+        EXPECT_LT(together.structures[n].mask.values.size(), 22U * 22U * 22U);
+        EXPECT_EQ(whole_mask(together, n).values, segment(sets[n], wide).mask.values);
+    }
+}
+
+TEST(SegmentTogether, AnObjectThatReachesBeyondItsFirstBoxIsFoundWhole) {
+    ContourSet disc = ball({0, 0, 0}, 12);
+    disc.contours.resize(1);  // a cap alone: how far it reaches is a guess
+    const Together together = segment_together({&disc, 1}, grid_here());
+    EXPECT_EQ(whole_mask(together, 0).values, segment(disc, grid_here()).mask.values);
 }
 
 TEST(SegmentTogether, SameBytesForAnyNumberOfThreads) {
@@ -128,6 +169,7 @@ TEST(SegmentTogether, RefusesRulesAboutStructuresThatAreNotThere) {
     const std::vector<ContourSet> one{ball({0, 0, 0}, 10)};
     EXPECT_KONTUR_ERROR(segment_together(one, grid_here(), {.segment = {}, .rules = {{0, 1, Relation::overlap, 0}}}),
                         ErrorKind::invalid_input, "the structures 0 and 1; there are 1");
+    EXPECT_KONTUR_ERROR(segment_together({}, grid_here()), ErrorKind::invalid_input, "there are 0 structures");
 }
 
 TEST(UnionContours, OfTwoHalvesIsTheWhole) {

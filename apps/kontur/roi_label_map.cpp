@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "roi_label_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace kontur::app {
+
+void RoiLabelMap::add(const Mask& mask, const IndexBox& box, std::uint16_t label) {
+    std::size_t n = 0;
+    for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
+        for (std::int64_t j = box.low.j; j <= box.high.j; ++j) {
+            std::uint16_t* const row = labels_.data() + grid_.offset(0, j, k);
+            for (std::int64_t i = box.low.i; i <= box.high.i; ++i) {
+                if (mask.values[n++] == 0) continue;
+                const std::uint16_t other = row[i];
+                const bool is_kept = other != 0 && !inner_.contains({label, other});
+                if (other != 0) ++shared_[is_kept ? Pair{other, label} : Pair{label, other}];
+                if (!is_kept) row[i] = label;
+            }
+        }
+    most_ = std::max(most_, label);
+}
+
+Image RoiLabelMap::image() const {
+    if (most_ > std::numeric_limits<std::uint8_t>::max()) return {grid_, labels_};
+    return {grid_, std::vector<std::uint8_t>(labels_.begin(), labels_.end())};
+}
+
+std::vector<std::string> RoiLabelMap::notes(const std::vector<std::string>& names) const {
+    std::vector<std::string> notes;
+    for (const auto& [labels, voxels] : shared_) {
+        const char* const s = voxels == 1 ? "s" : "";
+        notes.push_back(fmt::format(
+            "{} voxel{} of '{}' lie{} in '{}', too, and keep{} its label {}; a DICOM SEG (.dcm) has room for both", voxels,
+            voxels == 1 ? "" : "s", names[labels.second - 1u], s, names[labels.first - 1u], s, labels.first));
+    }
+    return notes;
+}
+
+}  // namespace kontur::app

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Label maps of which some slices are left, filled by `kontur fill` and by its peers: docs/fill.md.
 
-Usage: bench/fill.py DATA OUTPUT --kontur build/release/bin/kontur [--every N] [--jobs N] [--only real|report|tune]
+Usage: bench/fill.py DATA OUTPUT --kontur build/release/bin/kontur [--every N] [--jobs N] [--only real|report|tune] [--images]
 
 Of every structure that organ_sources.py finds every second, fourth and eighth slice is kept along the image's third axis, and
 the others are filled again. Of the structures of label maps, sorted by name, the first, third, ... are for reports, the second,
-fourth, ... for choosing constants. Writes OUTPUT/fill.csv and prints tables. Dice counts all slices of the structure.
+fourth, ... for choosing constants. With --images only structures whose image is there are filled, once without and once with it.
+Writes OUTPUT/fill.csv and prints tables. Dice counts all slices of the structure.
 """
 import argparse
 import csv
@@ -28,6 +29,17 @@ import plain
 import slices
 import structures
 
+# The image that a structure was drawn on, by how its name begins.
+IMAGES = {
+    "sarcoma_STS_002": "03_sarcoma_STS_002/CT/image",
+    "sarcoma_STS_040": "04_sarcoma_STS_040/CT/image",
+    "sarcoma_STS_008": "05_sarcoma_STS_008/CT/image",
+    "abdomen": "01_ct_abdomen_totalseg_3mm/example_ct_sm.nii.gz",
+    "vertebrae": "01_ct_abdomen_totalseg_3mm/example_ct.nii.gz",
+    "brain": "06_mr_brain_MRIcrop/MRIcrop-orig.nii.gz",
+    "tumour_0": "07_mr_brain_tumour_brain1/brain1_image.nrrd",
+    "cord": "13_mr_spinal_cord_t2/t2.nii.gz",
+}
 FIELDS = ["set", "structure", "step", "method", "dice", "dice_left_out", "roughness_mm2", "seconds"]
 
 
@@ -48,11 +60,21 @@ def sparse_map(truth, kept):
     return sparse
 
 
-def methods(options):
+def image_of(name, data):
+    """The image of a structure; None without one."""
+    found = [data / file for start, file in IMAGES.items() if name.startswith(start) and (data / file).exists()]
+    return found[0] if found else None
+
+
+def methods(options, name):
     found = {"shape-based": lambda truth, affine, kept: slices.shape_based(truth, kept, np.linalg.norm(affine[:3, :3], axis=0))}
     for words in options.words or [""]:
         found[f"kontur fill {words}".strip()] = lambda truth, affine, kept, words=words: filled(
             options.kontur, sparse_map(truth, kept), affine, words.split())
+    if options.images:
+        asked = ["--image", image_of(name, options.data), "--use-image", "auto"]
+        found["kontur fill --use-image auto"] = lambda truth, affine, kept: filled(
+            options.kontur, sparse_map(truth, kept), affine, asked)
     return found
 
 
@@ -71,7 +93,7 @@ def measure(task):
         if not len(kept):
             continue
         left_out = [k for k in range(kept[0], kept[-1]) if k not in kept]
-        for method, make in methods(options).items():
+        for method, make in methods(options, name).items():
             start = time.perf_counter()
             mask = make(truth, affine, kept)
             seconds = time.perf_counter() - start
@@ -121,10 +143,12 @@ def main():
     parser.add_argument("--every", type=int, default=1, metavar="N", help="only every N-th structure of the label maps")
     parser.add_argument("--only", choices=["real", "report", "tune"])
     parser.add_argument("--words", action="append", metavar="OPTIONS", help="options of `kontur fill` to try; again for more")
+    parser.add_argument("--images", action="store_true", help="fill without and with the image, where there is one")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    tasks = [(*found, options) for found in structures_of(options)]
+    tasks = [(*found, options) for found in structures_of(options)
+             if not options.images or image_of(found[1], options.data) is not None]
     rows = []
     with multiprocessing.Pool(options.jobs) as pool, open(options.output / "fill.csv", "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)

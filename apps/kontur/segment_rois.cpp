@@ -14,17 +14,17 @@
 #include "facts.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
-#include "kontur/base/machine_memory.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/labels/boxed_mask.h"
 #include "kontur/labels/section_contours.h"
+#include "kontur/labels/shared_surface.h"
 #include "kontur/report.h"
 #include "kontur/segment_together.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
 #include "roi_drawings.h"
-#include "roi_label_map.h"
+#include "roi_outputs.h"
 
 namespace kontur::app {
 namespace {
@@ -37,20 +37,12 @@ namespace fs = std::filesystem;
 constexpr std::array<std::array<std::uint8_t, 3>, 6> kColors{
     {{230, 179, 77}, {77, 153, 230}, {102, 191, 102}, {217, 102, 102}, {166, 128, 204}, {128, 204, 204}}};
 
-/// What one fit leaves.
-struct Fitted {
-    DicomSegment segment;
-    Roi roi;  ///< the surface on the slices, where an RTSTRUCT is asked for
-    SegmentReport report;
-    Provenance made;
-};
-
 /// What all fits say once, what differs with the label's number behind its name.
-Provenance together(const std::vector<Fitted>& all) {
+Provenance together(const std::vector<FittedRoi>& all) {
     Provenance made = all.front().made;
     Provenance others;
     for (auto& [name, value] : made) {
-        const auto same = [&, &name = name, &value = value](const Fitted& one) {
+        const auto same = [&, &name = name, &value = value](const FittedRoi& one) {
             return std::find(one.made.begin(), one.made.end(), std::pair{name, value}) != one.made.end();
         };
         if (std::all_of(all.begin(), all.end(), same)) continue;
@@ -81,9 +73,9 @@ ContourSet slice_outlines(const BoxedMask& object, const Grid& grid) {
 }
 
 /// What is said about a structure beside its voxels.
-Fitted fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& result) {
+FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& result) {
     const Roi& roi = drawings.rois[n];
-    Fitted fitted;
+    FittedRoi fitted;
     fitted.segment = {.number = static_cast<std::int64_t>(n + 1),
                       .label = roi.name,
                       .algorithm_name = "kontur",
@@ -98,26 +90,8 @@ Fitted fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& res
     return fitted;
 }
 
-/// What all ROIs became.
-struct Result {
-    std::vector<Fitted> all;
-    RoiLabelMap labels;                ///< unless a SEG is asked for
-    Structures structures;             ///< of a SEG, which keeps all voxels
-    std::optional<Together> together;  ///< without the structures: what they are to each other
-    std::vector<std::string> notes;
-
-    void add(const SegmentCommand& command, Fitted one, ContourSet outlines, Mask mask, const IndexBox& box) {
-        one.roi.contours = std::move(outlines);
-        one.roi.contours.name = one.roi.name;
-        all.push_back(std::move(one));
-        if (!is_dicom_name(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
-        structures.segments.push_back(all.back().segment);
-        structures.masks.push_back(std::move(mask));
-    }
-};
-
-Result fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Progress& progress) {
-    Result result{{}, RoiLabelMap(drawings.grid), {}, {}, drawings.notes};
+RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Progress& progress) {
+    RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
     const Image* const image = drawings.image ? &*drawings.image : nullptr;
     const Index3& size = drawings.grid.size;
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
@@ -126,7 +100,7 @@ Result fit_each(const SegmentCommand& command, const RoiDrawings& drawings, cons
             ContourSet outlines;
             if (!command.rtstruct.empty())
                 outlines = slice_contours(made.mask, made.function, command.options.threads, progress);
-            Fitted one = fitted_from(drawings, n, made);
+            FittedRoi one = fitted_from(drawings, n, made);
             result.add(command, std::move(one), std::move(outlines), std::move(made.mask),
                        {{0, 0, 0}, {size.i - 1, size.j - 1, size.k - 1}});
         } catch (const Error& error) {
@@ -142,8 +116,18 @@ std::string sentence(const StructurePair& pair, const std::vector<Roi>& rois) {
                        pair.is_given ? " by rule" : "", pair.shared_voxels, pair.shared_voxels == 1 ? "" : "s");
 }
 
-Result fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Progress& progress) {
-    Result result{{}, RoiLabelMap(drawings.grid), {}, {}, drawings.notes};
+SharedSurface surface_of_all(const Together& all, int threads) {
+    std::vector<BoxedMask> objects;
+    std::vector<ImplicitFunction> functions;
+    for (std::size_t n = 0; n < all.structures.size(); ++n) {
+        objects.push_back({all.boxes[n], all.structures[n].mask});
+        functions.push_back(all.structures[n].function);
+    }
+    return shared_surface(objects, functions, all.grid, threads);
+}
+
+RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Progress& progress) {
+    RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
     std::vector<ContourSet> contours;
     for (const Roi& roi : drawings.rois) contours.push_back(roi.contours);
     const TogetherOptions options{.segment = command.options, .rules = roi_rules(command, drawings.rois)};
@@ -156,65 +140,16 @@ Result fit_together(const SegmentCommand& command, const RoiDrawings& drawings, 
     }
     result.notes.push_back(
         fmt::format("{} voxels between structures that touch were given to the nearest", all.closed_voxels));
+    if (!command.mesh.empty()) result.surface = surface_of_all(all, command.options.threads);
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);
-        Fitted one = fitted_from(drawings, n, all.structures[n]);
+        FittedRoi one = fitted_from(drawings, n, all.structures[n]);
         result.add(command, std::move(one), std::move(outlines), std::move(object.mask), object.box);
     }
     all.structures.clear();
     result.together = std::move(all);
     return result;
-}
-
-Facts pairs_of(const std::vector<StructurePair>& pairs, const std::vector<Fitted>& all) {
-    Facts facts = Facts::array();
-    for (const StructurePair& pair : pairs)
-        facts.push_back({{"first", all[pair.first].segment.label},
-                         {"second", all[pair.second].segment.label},
-                         {"relation", name(pair.relation)},
-                         {"given", pair.is_given},
-                         {"shared_voxels", pair.shared_voxels}});
-    return facts;
-}
-
-Facts report_of(const Result& result, const Provenance& made) {
-    Facts structures = Facts::array();
-    for (const Fitted& one : result.all) {
-        Facts facts{{"label", one.segment.number}, {"name", one.segment.label}};
-        facts.update(Facts::parse(kontur::to_json(one.report, one.made)));
-        structures.push_back(std::move(facts));
-    }
-    Facts provenance = Facts::object();
-    for (const auto& [name, value] : made) provenance[name] = value;
-    Facts report{
-        {"version", KONTUR_VERSION}, {"provenance", provenance}, {"structures", structures}, {"warnings", result.notes}};
-    if (result.together)
-        report["together"] = {{"pairs", pairs_of(result.together->pairs, result.all)},
-                              {"contested_voxels", result.together->contested_voxels},
-                              {"closed_voxels", result.together->closed_voxels},
-                              {"peak_memory_mb", peak_memory_mb()}};
-    return report;
-}
-
-std::vector<std::string> write_labels(const fs::path& path, const Result& result, const Provenance& made) {
-    std::vector<LabelName> names;
-    std::vector<std::string> words;
-    for (const Fitted& one : result.all) {
-        words.push_back(one.segment.label);
-        const auto& color = *one.segment.color;
-        names.push_back({one.segment.number, one.segment.label, {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0}});
-    }
-    kontur::write_image(path, result.labels.image(), {names, made});
-    return result.labels.notes(words);
-}
-
-std::vector<std::string> write_rois(const fs::path& path, const SegmentCommand& command, const std::vector<Fitted>& all,
-                                    const Provenance& made) {
-    StructureSet set{"kontur", {}};
-    for (const Fitted& one : all) set.rois.push_back(one.roi);
-    const DicomSeries series = read_dicom_grid(command.image.path, command.image.options.dicom).series;
-    return write_rtstruct(path, set, series, rtstruct_options(command.holes, made));
 }
 
 }  // namespace
@@ -225,7 +160,10 @@ void check_roi_words(const SegmentCommand& command) {
     const auto refuse_one = [](const char* option) {
         refuse(fmt::format("{} has room for one structure; several ROIs go into a mask's labels and an RTSTRUCT", option));
     };
-    if (!command.mesh.empty()) refuse_one("--mesh");
+    if (!command.mesh.empty() && !command.together) refuse_one("--mesh");
+    if (!command.mesh.empty() && !has_extension(command.mesh, ".ply"))
+        refuse(fmt::format("{}: the surfaces of several ROIs share their borders; only a .ply has room for that",
+                           command.mesh.string()));
     if (!command.picture.empty()) refuse_one("--picture");
     if (!command.uncertainty.empty()) refuse_one("--uncertainty");
     if (!command.name.empty()) refuse_one("--name");
@@ -241,8 +179,8 @@ void check_roi_words(const SegmentCommand& command) {
 void segment_rois(const SegmentCommand& command, Console& console) {
     const Progress progress = console.progress();
     const RoiDrawings drawings = read_roi_drawings(command, progress);
-    Result result = command.together ? fit_together(command, drawings, progress) : fit_each(command, drawings, progress);
-    const std::vector<Fitted>& all = result.all;
+    RoiResults result = command.together ? fit_together(command, drawings, progress) : fit_each(command, drawings, progress);
+    const std::vector<FittedRoi>& all = result.all;
 
     Provenance made = together(all);
     for (auto& digest : input_digests(command, progress)) made.push_back(std::move(digest));
@@ -254,24 +192,26 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
         add(is_dicom_name(path) ? write_structures(path, result.structures, command.image, made, progress)
-                                : write_labels(path, result, made));
+                                : write_label_map(path, result, made));
     });
     if (!command.rtstruct.empty())
-        outputs.write(command.rtstruct, [&](const fs::path& path) { add(write_rois(path, command, all, made)); });
+        outputs.write(command.rtstruct, [&](const fs::path& path) { add(write_roi_contours(path, command, all, made)); });
+    if (!command.mesh.empty())
+        outputs.write(command.mesh, [&](const fs::path& path) { write_roi_surfaces(path, result, made); });
     if (!command.report.empty())
         outputs.write(command.report,
-                      [&](const fs::path& path) { write_file_atomically(path, to_json_text(report_of(result, made))); });
+                      [&](const fs::path& path) { write_file_atomically(path, to_json_text(roi_report(result, made))); });
     outputs.commit();
 
-    for (const Fitted& one : all)
+    for (const FittedRoi& one : all)
         for (const std::string& warning : one.report.warnings)
             console.warn(fmt::format("{}: {}", one.segment.label, warning));
     for (const std::string& note : result.notes) console.warn(note);
     std::string text = fmt::format("{}: {} structures\n", command.output.string(), all.size());
-    for (const Fitted& one : all)
+    for (const FittedRoi& one : all)
         text += fmt::format("{} {}: {} voxels, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
                             one.report.mask_voxels, in_ml(one.report.mask_volume_ml), one.report.residual.max_mm);
-    for (const fs::path& path : {command.rtstruct, command.report})
+    for (const fs::path& path : {command.rtstruct, command.mesh, command.report})
         if (!path.empty()) text += path.string() + "\n";
     console.print(text);
 }

@@ -191,7 +191,8 @@ private:
         }
         const Vec3 spacing = grid_.spacing_mm();
         const double least = std::min({spacing.x, spacing.y, spacing.z});
-        const ContourSet outline = union_contours(sets, {.step_mm = least / 2, .close_mm = least});
+        const ContourSet outline =
+            union_contours(sets, {.step_mm = least / 2, .spacing_mm = point_spacing_mm(sets), .close_mm = least});
         if (outline.contours.empty()) return;
         Segmentation all = fit(outline, nullptr, progress);
         const BoxedMask mask = take_mask(all);

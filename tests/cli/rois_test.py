@@ -206,10 +206,42 @@ def test_rules_say_what_two_structures_are_to_each_other(tmp_path, structures, i
     assert not ((alone["Bladder"] | alone["rectum"]) & ~(masks["Bladder"] | masks["rectum"] | masks["PTV"])).any()
 
 
+def read_region_mesh(path):
+    """Points, triangles with the regions behind and in front of them, and the regions' names."""
+    header, body = path.read_bytes().split(b"end_header\n", 1)
+    lines = header.decode().splitlines()
+    points, faces = (int(next(line for line in lines if line.startswith(f"element {name}")).split()[2]) for name in ("vertex", "face"))
+    names = {int(line.split()[3][:-1]): line.split(": ", 1)[1] for line in lines if line.startswith("comment kontur region")}
+    rows = numpy.frombuffer(body, [("n", "u1"), ("corners", "<u4", 3), ("sides", "<u4", 2)], faces, 24 * points)
+    assert (rows["n"] == 3).all() and len(body) == 24 * points + 21 * faces
+    return numpy.frombuffer(body, "<f8", 3 * points).reshape(-1, 3), rows["corners"], rows["sides"], names
+
+
+def test_surfaces_of_structures_that_touch_share_their_border(tmp_path, structures, images):
+    words = ("--all-rois", "--together", "--exclusive", "1:2", "--may-overlap", "1:3", "--image", images, "--output", tmp_path / "all.nii")
+    result = kontur("segment", structures, *words, "--mesh", tmp_path / "all.ply")
+    assert result.returncode == 0, result
+    points, corners, sides, names = read_region_mesh(tmp_path / "all.ply")
+    assert names[0] == "outside" and {"Bladder", "rectum", "PTV"} <= {part for name in names.values() for part in name.split(" and ")}
+    assert len(numpy.unique(points, axis=0)) == len(points) and corners.max() == len(points) - 1
+    for structure in BALLS:
+        inside = numpy.array([structure in names[n].split(" and ") for n in range(len(names))])
+        own = inside[sides[:, 0]] != inside[sides[:, 1]]
+        turned = numpy.where(inside[sides[own, 1]][:, None], corners[own][:, ::-1], corners[own])
+        edges = numpy.concatenate([turned[:, [0, 1]], turned[:, [1, 2]], turned[:, [2, 0]]])
+        forward, backward = (sorted(map(tuple, pair)) for pair in (edges, edges[:, ::-1]))
+        assert forward == backward and own.any()
+        a, b, c = (points[turned[:, n]] for n in range(3))
+        assert (a * numpy.cross(b, c)).sum() > 0  # turned outward
+    pair = [n for n, name in names.items() if name in ("Bladder", "rectum")]
+    assert (numpy.isin(sides, pair).all(axis=1)).any()  # triangles known from both sides
+
+
 @pytest.mark.parametrize("words, code, sentence", [
     (("--together", "--roi", "PTV"), 65, "--together is for several ROIs"),
     (("--all-rois", "--roi", "PTV"), 64, "--roi excludes --all-rois"),
     (("--all-rois", "--mesh", "out.stl"), 65, "--mesh has room for one structure"),
+    (("--all-rois", "--together", "--mesh", "out.stl"), 65, "out.stl: the surfaces of several ROIs share their borders; only a .ply"),
     (("--all-rois", "--inside", "PTV:Bladder"), 64, "--inside requires --together"),
     (("--all-rois", "--together", "--inside", "PTV:CTV"), 65, "--inside is 'PTV:CTV'; two different ROIs of 'Bladder', 'rectum', 'PTV' are needed"),
     (("--all-rois", "--together", "--exclusive", "PTV"), 65, "--exclusive is 'PTV'; two different ROIs"),

@@ -181,6 +181,17 @@ TEST(UnionContours, OfTwoHalvesIsTheWhole) {
         for (const Vec3& p : contour.points) EXPECT_NEAR(std::hypot(p.x, p.y), 18 - 0.005 * p.z * p.z, 0.75);
 }
 
+TEST(UnionContours, PointsAreAsFarApartAsAskedFor) {
+    const auto sets = sectors(0.2);
+    const std::array<const ContourSet*, 3> structures{&sets[0], &sets[1], &sets[2]};
+    const ContourSet dense = union_contours(structures, {.step_mm = 0.5, .close_mm = 1});
+    const ContourSet sparse = union_contours(structures, {.step_mm = 0.5, .spacing_mm = 3, .close_mm = 1});
+    EXPECT_LT(5 * point_count(sparse), point_count(dense));
+    for (const Contour& contour : sparse.contours)
+        for (std::size_t n = 1; n < contour.points.size(); ++n)
+            EXPECT_LT(distance(contour.points[n - 1], contour.points[n]), 3.8);
+}
+
 TEST(UnionContours, LeavesOutPlanesThatShowSomeOnly) {
     auto sets = sectors(0.2);
     sets[1].contours.erase(sets[1].contours.begin() + 3);

@@ -8,77 +8,18 @@
 #include <queue>
 #include <utility>
 
+#include "kontur/labels/painted_runs.h"
+
 namespace kontur {
 namespace {
 
-using Length = std::uint16_t;  // of runs; longer ones count as this long
-constexpr Length kLongest = std::numeric_limits<Length>::max();
-
-// What is known of a voxel: bit a is set where its run along axis a is the shortest, others when it is explained and where
-// all its runs are long, as they are within a solid.
-constexpr std::uint8_t kShortest = 7;
+// One more bit of what is known of a voxel: it is explained by a slice.
 constexpr std::uint8_t kExplained = 8;
-constexpr std::uint8_t kSolid = 16;
-constexpr Length kLeastOfSolid = 3;
-
-Length one_more(Length length) { return length == kLongest ? length : static_cast<Length>(length + 1); }
-
-/// Lengths of the runs of set values along a row of a plane, given with its stride.
-void measure_runs(const std::uint8_t* values, Length* lengths, std::int64_t count, std::int64_t stride) {
-    for (std::int64_t n = 0; n < count;) {
-        std::int64_t end = n;
-        while (end < count && values[end * stride]) ++end;
-        for (std::int64_t m = n; m < end; ++m)
-            lengths[m * stride] = static_cast<Length>(std::min<std::int64_t>(end - n, kLongest));
-        n = std::max(end, n + 1);
-    }
-}
-
-/// Lengths of the runs along k of the painted voxels, in memory order.
-std::vector<Length> runs_across_planes(const Mask& mask) {
-    const auto plane = static_cast<std::size_t>(mask.grid.size.i * mask.grid.size.j);
-    std::vector<Length> lengths, along(plane);
-    for (std::size_t n = 0; n < mask.values.size(); ++n) {
-        Length& length = along[n % plane];
-        length = mask.values[n] ? one_more(length) : Length{0};
-        if (length > 0) lengths.push_back(length);
-    }
-    // Back, so that each voxel learns how long its run became.
-    std::fill(along.begin(), along.end(), Length{0});
-    std::size_t rank = lengths.size();
-    for (std::size_t n = mask.values.size(); n-- > 0;) {
-        Length& length = along[n % plane];
-        if (!mask.values[n]) length = 0;
-        else lengths[rank - 1] = length = std::max(length, lengths[rank - 1]), --rank;
-    }
-    return lengths;
-}
-
-std::uint8_t shortest(Length i, Length j, Length k) {
-    const Length least = std::min({i, j, k});
-    return static_cast<std::uint8_t>((i == least) | (j == least) << 1 | (k == least) << 2 |
-                                     (least >= kLeastOfSolid ? kSolid : 0));
-}
+static_assert((kExplained & (kShortest | kSolid)) == 0);
 
 class Painted {
 public:
-    explicit Painted(const Mask& mask) : size_(mask.grid.size), known_(mask.values.size()) {
-        const std::vector<Length> across = runs_across_planes(mask);
-        const std::int64_t plane = size_.i * size_.j;
-        std::vector<Length> along_i(static_cast<std::size_t>(plane)), along_j(along_i.size());
-        std::size_t rank = 0;
-        for (std::int64_t k = 0; k < size_.k; ++k) {
-            const std::uint8_t* const values = mask.values.data() + k * plane;
-            for (std::int64_t j = 0; j < size_.j; ++j)
-                measure_runs(values + j * size_.i, &along_i[static_cast<std::size_t>(j * size_.i)], size_.i, 1);
-            for (std::int64_t i = 0; i < size_.i; ++i)
-                measure_runs(values + i, &along_j[static_cast<std::size_t>(i)], size_.j, size_.i);
-            for (std::int64_t n = 0; n < plane; ++n)
-                if (values[n])
-                    known_[static_cast<std::size_t>(k * plane + n)] =
-                        shortest(along_i[static_cast<std::size_t>(n)], along_j[static_cast<std::size_t>(n)], across[rank++]);
-        }
-    }
+    explicit Painted(const Mask& mask) : size_(mask.grid.size), known_(shortest_runs(mask)) {}
 
     std::vector<PaintedSlice> slices() {
         count_votes();

@@ -93,7 +93,36 @@ PaintedSlice united(const std::vector<ContourSet>& sections, const Grid& grid, d
     return all;
 }
 
+/// Leaves out points that follow another too closely, but never more than leave four.
+void space_out(Contour& contour, double spacing_mm) {
+    constexpr std::size_t kLeast = 4;
+    double length = 0;
+    for (std::size_t n = 0; n < contour.points.size(); ++n)
+        length += distance(contour.points[n], contour.points[(n + 1) % contour.points.size()]);
+    const double least = std::min(spacing_mm, length / (2 * kLeast));
+    std::vector<Vec3> kept;
+    double since = least;
+    for (std::size_t n = 0; n < contour.points.size(); ++n) {
+        if (n > 0) since += distance(contour.points[n - 1], contour.points[n]);
+        if (since < least) continue;
+        kept.push_back(contour.points[n]), since = 0;
+    }
+    if (kept.size() >= kLeast) contour.points = std::move(kept);
+}
+
 }  // namespace
+
+double point_spacing_mm(std::span<const ContourSet* const> structures) {
+    std::vector<double> lengths;
+    for (const ContourSet* set : structures)
+        for (const Contour& contour : set->contours)
+            for (std::size_t n = 1; n < contour.points.size(); ++n)
+                lengths.push_back(distance(contour.points[n - 1], contour.points[n]));
+    if (lengths.empty()) return 0;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
 
 ContourSet union_contours(std::span<const ContourSet* const> structures, const UnionOptions& options) {
     ContourSet all;
@@ -108,6 +137,7 @@ ContourSet union_contours(std::span<const ContourSet* const> structures, const U
         if (!shows_all || sections.empty()) continue;
         const Grid grid = pixels_around(sections, plane, options);
         std::vector<Contour> contours = section_contours(grid, united(sections, grid, options.close_mm));
+        for (Contour& contour : contours) space_out(contour, options.spacing_mm);
         std::move(contours.begin(), contours.end(), std::back_inserter(all.contours));
     }
     return all;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "roi_outputs.h"
+
+#include "kontur/base/machine_memory.h"
+#include "kontur/io/region_mesh.h"
+#include "kontur/report.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Facts pairs_of(const std::vector<StructurePair>& pairs, const std::vector<FittedRoi>& all) {
+    Facts facts = Facts::array();
+    for (const StructurePair& pair : pairs)
+        facts.push_back({{"first", all[pair.first].segment.label},
+                         {"second", all[pair.second].segment.label},
+                         {"relation", name(pair.relation)},
+                         {"given", pair.is_given},
+                         {"shared_voxels", pair.shared_voxels}});
+    return facts;
+}
+
+}  // namespace
+
+Facts roi_report(const RoiResults& result, const Provenance& made) {
+    Facts structures = Facts::array();
+    for (const FittedRoi& one : result.all) {
+        Facts facts{{"label", one.segment.number}, {"name", one.segment.label}};
+        facts.update(Facts::parse(kontur::to_json(one.report, one.made)));
+        structures.push_back(std::move(facts));
+    }
+    Facts provenance = Facts::object();
+    for (const auto& [name, value] : made) provenance[name] = value;
+    Facts report{
+        {"version", KONTUR_VERSION}, {"provenance", provenance}, {"structures", structures}, {"warnings", result.notes}};
+    if (result.together)
+        report["together"] = {{"pairs", pairs_of(result.together->pairs, result.all)},
+                              {"contested_voxels", result.together->contested_voxels},
+                              {"closed_voxels", result.together->closed_voxels},
+                              {"peak_memory_mb", peak_memory_mb()}};
+    return report;
+}
+
+std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& made) {
+    std::vector<LabelName> names;
+    std::vector<std::string> words;
+    for (const FittedRoi& one : result.all) {
+        words.push_back(one.segment.label);
+        const auto& color = *one.segment.color;
+        names.push_back({one.segment.number, one.segment.label, {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0}});
+    }
+    kontur::write_image(path, result.labels.image(), {names, made});
+    return result.labels.notes(words);
+}
+
+std::vector<std::string> write_roi_contours(const fs::path& path, const SegmentCommand& command,
+                                            const std::vector<FittedRoi>& all, const Provenance& made) {
+    StructureSet set{"kontur", {}};
+    for (const FittedRoi& one : all) set.rois.push_back(one.roi);
+    const DicomSeries series = read_dicom_grid(command.image.path, command.image.options.dicom).series;
+    return write_rtstruct(path, set, series, rtstruct_options(command.holes, made));
+}
+
+void write_roi_surfaces(const fs::path& path, const RoiResults& result, const Provenance& made) {
+    MeshRegions regions{{}, result.surface->sides};
+    for (const std::vector<std::size_t>& members : result.surface->regions) {
+        std::string& name = regions.names.emplace_back();
+        for (const std::size_t n : members) name += (name.empty() ? "" : " and ") + result.all[n].segment.label;
+        if (members.empty()) name = "outside";
+    }
+    write_region_mesh(path, result.surface->mesh, regions, made);
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "dicom_output.h"
+#include "facts.h"
+#include "kontur/io/rtstruct.h"
+#include "kontur/labels/shared_surface.h"
+#include "kontur/segment_together.h"
+#include "roi_label_map.h"
+
+namespace kontur::app {
+
+/// What one fit leaves.
+struct FittedRoi {
+    DicomSegment segment;
+    Roi roi;  ///< the surface on the slices, where an RTSTRUCT is asked for
+    SegmentReport report;
+    Provenance made;
+};
+
+/// What all ROIs became.
+struct RoiResults {
+    std::vector<FittedRoi> all;
+    RoiLabelMap labels;                    ///< unless a SEG is asked for
+    Structures structures;                 ///< of a SEG, which keeps all voxels
+    std::optional<SharedSurface> surface;  ///< where a mesh is asked for
+    std::optional<Together> together;      ///< without the structures: what they are to each other
+    std::vector<std::string> notes;
+
+    void add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box) {
+        one.roi.contours = std::move(outlines);
+        one.roi.contours.name = one.roi.name;
+        all.push_back(std::move(one));
+        if (!is_dicom_name(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
+        structures.segments.push_back(all.back().segment);
+        structures.masks.push_back(std::move(mask));
+    }
+};
+
+/// The content of --report.
+Facts roi_report(const RoiResults& results, const Provenance& made);
+
+/// Write one output and return what the user should know.
+std::vector<std::string> write_label_map(const std::filesystem::path& path, const RoiResults& results,
+                                         const Provenance& made);
+std::vector<std::string> write_roi_contours(const std::filesystem::path& path, const SegmentCommand& command,
+                                            const std::vector<FittedRoi>& all, const Provenance& made);
+
+/// Regions are named by the structures that they belong to.
+void write_roi_surfaces(const std::filesystem::path& path, const RoiResults& results, const Provenance& made);
+
+}  // namespace kontur::app

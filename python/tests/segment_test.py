@@ -99,6 +99,20 @@ def test_rules_that_make_no_sense(rules, sentence):
         kontur.segment_together(sets, kontur.grid_around(sets[0].bounding_box, [1, 1, 1], 5), rules=rules)
 
 
+def test_labels_are_filled_by_what_the_image_shows():
+    z, y, x = numpy.mgrid[:43, :40, :44]
+    inside = (y - 20) ** 2 + (x - 22 - 3 * numpy.sin(0.55 * z)) ** 2 < 100
+    full = (inside & (z > 3) & (z < 41)).astype("uint8")
+    sparse = numpy.where(z % 6 == 4, full, 0)
+    grid = kontur.Grid.from_spacing(full.shape[::-1], [1, 1, 1])
+    image = kontur.Image(numpy.where(inside, 180, 60).astype("int16"), grid)
+    filled, report = kontur.fill_labels(sparse, (1, 1, 1), image=image, use_image="auto", return_report=True)
+    alone = kontur.fill_labels(sparse, (1, 1, 1))
+    assert report.labels[0].image.use == "used"
+    assert (filled != full).sum() < 0.8 * (alone != full).sum()
+    assert (filled[sparse > 0] == 1).all()
+
+
 def test_values_and_gradients(case, kidney):
     points = numpy.concatenate([contour.points for contour in case.contours.contours])
     assert abs(kidney.function(points)).max() < 0.02

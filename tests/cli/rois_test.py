@@ -206,6 +206,12 @@ def test_rules_say_what_two_structures_are_to_each_other(tmp_path, structures, i
     assert not ((alone["Bladder"] | alone["rectum"]) & ~(masks["Bladder"] | masks["rectum"] | masks["PTV"])).any()
 
 
+def test_the_image_is_asked_for_each_structure(tmp_path, structures, images):
+    masks_together(tmp_path, structures, images, "--use-image", "auto")
+    report = json.loads((tmp_path / "all.json").read_text())
+    assert [one["image"]["use"] in ("used", "no_help", "unknown") for one in report["structures"]] == [True] * 3
+
+
 def read_region_mesh(path):
     """Points, triangles with the regions behind and in front of them, and the regions' names."""
     header, body = path.read_bytes().split(b"end_header\n", 1)

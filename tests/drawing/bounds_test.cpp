@@ -57,6 +57,17 @@ TEST(EndHeight, IsAboutTheGapBeforeAndNeverMoreThanOneAndAHalfRadii) {
     EXPECT_LE(end_of({0, 100}), 15);
 }
 
+/// Whoever draws slice after slice from the middle of an organ must not see it shrink.
+TEST(EndHeight, ClosePlanesSayLittleUntilTheyAreManyOrGoFar) {
+    EXPECT_GT(end_of({0, 0.5}), 9.5);
+    EXPECT_GT(end_of({0, 0.5, 1, 1.5}), 8.5);
+    std::vector<double> all;
+    for (double at = 0; at < 20; at += 0.5) all.push_back(at);
+    EXPECT_NEAR(end_of(all), 0.85 * 0.5, 0.01);
+    EXPECT_LT(end_of({0, 0.1, 0.2, 5, 10, 15, 20}), 5) << "planes drawn again do not count";
+    EXPECT_NEAR(end_of({0, 5, 10, 15, 20}), end_of({0, 0, 5, 5, 10, 10, 15, 15, 20, 20}), 0.01);
+}
+
 TEST(EndHeight, FollowsTheDistanceOfPlanesContinuously) {
     double last = end_of({0, 10});
     for (double gap = 0; gap <= 10; gap += 0.05) {  // from a plane drawn twice to an even stack

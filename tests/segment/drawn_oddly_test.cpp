@@ -62,20 +62,24 @@ TEST(DrawnOddly, TwoPlanesAtTheSamePlaceAreOneEnd) {
     EXPECT_FALSE(warns(segmented(ball({-30.5, -30, 0, 30, 30.5}), 3, 40).report, "is a guess"));
 }
 
-// Neighbouring slices of a scanner may be 2 % of the object's width apart. Two of them hardly tell how far it goes on, and a
-// warning says so; with each slice more their distance is believed more.
+// Neighbouring slices of a scanner may be 2 % of the object's width apart. A few of them hardly tell how far it goes on, and
+// a warning says so; with each slice more their distance is believed more.
 TEST(DrawnOddly, NeighbouringSlicesEndTheSoonerTheMoreTheyAre) {
-    double most_height = kRadius;
-    for (const std::vector<double>& heights :
-         {std::vector<double>{-1, 1}, {-2, 0, 2}, {-4, -2, 0, 2, 4}, {-6, -4, -2, 0, 2, 4, 6}}) {
+    double last_height = kRadius;
+    for (const std::vector<double>& heights : {std::vector<double>{-1, 1},
+                                               {-2, 0, 2},
+                                               {-4, -2, 0, 2, 4},
+                                               {-6, -4, -2, 0, 2, 4, 6},
+                                               {-10, -8, -6, -4, -2, 0, 2, 4, 6, 8, 10}}) {
         const ContourSet set = ball(heights);
         const Segmentation result = segment(set, grid_around(bounding_box(set), {2, 2, 1}, kRadius));
-        EXPECT_EQ(warns(result.report, "is a guess from its width"), heights.size() == 2);
+        EXPECT_EQ(warns(result.report, "is a guess from its width"), heights.size() <= 5);
         EXPECT_EQ(result.report.mask_components, 1);
         double height = 0;
         while (result.function.value({0, 0, heights.back() + height}) > 0) height += 0.1;
-        EXPECT_LT(height, most_height) << heights.size();
-        most_height = std::max(most_height / 2, 4.0);
+        EXPECT_LT(height, last_height) << heights.size();
+        EXPECT_GT(height, heights.size() <= 5 ? 0.7 * kRadius : 2.0) << heights.size();
+        last_height = height;
         for (double x = 0; x < 0.95 * kRadius; x += 2)
             for (const double z : heights) EXPECT_GT(result.function.value({x, 0, z}), 0) << "a hole: " << x << ", " << z;
     }
@@ -87,7 +91,7 @@ TEST(DrawnOddly, APlaneNeedNotShowAllParts) {
     add_kidney(one_more, 120, {-40, -20, 0, 10, 20, 40});
     const Segmentation both = segmented(one_more, 3, 40);
     EXPECT_EQ(both.report.mask_components, 2);
-    EXPECT_NEAR(both.report.mask_volume_ml, 802, 10);
+    EXPECT_NEAR(both.report.mask_volume_ml, 790, 10);
 
     ContourSet in_turns;
     for (double z = -48; z <= 48; z += 4) {
@@ -141,7 +145,7 @@ TEST(DrawnOddly, ThePlanesOriginsMeanNothing) {
         return set;
     };
     const Segmentation here = segmented(stack(0), 3, 40), there = segmented(stack(300), 3, 40);
-    EXPECT_NEAR(here.report.mask_volume_ml, 515, 15);
+    EXPECT_NEAR(here.report.mask_volume_ml, 505, 15);
     EXPECT_EQ(here.mask.values, there.mask.values);
 }
 
@@ -159,7 +163,7 @@ TEST(DrawnOddly, HolesAreFoundInPlanesFittedToRoundedPoints) {
     const Segmentation result = segmented(tube, 1, 10);
     EXPECT_TRUE(warns(result.report, "5 contours inside others became holes"));
     EXPECT_EQ(result.report.mask_components, 1);
-    EXPECT_NEAR(result.report.mask_volume_ml, 7.1, 0.5);
+    EXPECT_NEAR(result.report.mask_volume_ml, 7.4, 0.5);
 }
 
 TEST(DrawnOddly, VeryManySmallContoursShareTheirPoints) {

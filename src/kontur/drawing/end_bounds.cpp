@@ -8,7 +8,9 @@ namespace kontur {
 namespace {
 
 constexpr double kParallelCosine = 0.9945, kSlantedCosine = 0.866;  // 6 and 30 degrees
-constexpr double kMostHeight = 1.5;                                 // radii of the largest inscribed circle
+constexpr double kGapShare = 0.85;                                  // of a gap: the object ends anywhere in it
+constexpr double kMostGaps = 100;                                   // no more can be told from these
+constexpr double kMostHeight = 1.5;                                 // guesses
 constexpr double kBeyondPoints = 1.25;
 constexpr double kLedOn = 0.35;     // of the height: the object surely goes on where a region lies so far ahead
 constexpr double kHitCosine = 0.9;  // planes tilted less than 26 degrees are met straight ahead
@@ -61,7 +63,8 @@ public:
         for (const Probe& probe : own_.inside)
             if (probe.outline == outline) deepest = std::max(deepest, probe.depth);
         if (deepest == 0) return false;
-        const auto [height, belief] = end_height(planes_, own_.section, sign_, deepest);
+        const Polygon2& line = own_.section.outlines[outline];
+        const auto [height, belief] = end_height(planes_, own_.section, sign_, std::sqrt(area(line) / M_PI));
         const double left = 1 - smooth_step(0, kLedByOthers * height, reach_of_others_);
         if (left < kLeastBelief) return false;
         const double noise = height * (belief * kNoise + (1 - belief) * kGuessNoise);
@@ -80,7 +83,6 @@ public:
             add(own_.section.plane.from_uv(probe.at), height * std::sqrt(1 - rim * rim), 0);
         }
         // The outline itself must not be carried on, neither straight nor flaring.
-        const Polygon2& line = own_.section.outlines[outline];
         for (std::size_t i = 0; i < line.size(); i += std::max<std::size_t>(1, line.size() / kRimPoints))
             add(own_.section.plane.from_uv(line[i]), height, -height / 4);
         return open > 0.5;
@@ -140,25 +142,30 @@ private:
 
 }  // namespace
 
-EndHeight end_height(const DrawnPlanes& planes, const Section& section, double sign, double inscribed_radius) {
-    std::vector<PlaneBefore> before = planes_before(planes, section, sign);
+EndHeight end_height(const DrawnPlanes& planes, const Section& section, double sign, double guess_mm) {
+    double thickness = 0, squares = 0;
     std::vector<double> gaps;
-    double last = 0;
+    const std::vector<PlaneBefore> before = planes_before(planes, section, sign);
     for (const PlaneBefore& plane : before) {
-        gaps.push_back(plane.distance - last);
-        last += plane.weight * gaps.back();
+        gaps.push_back(std::max(plane.distance - thickness, 0.0));
+        const double believed = plane.weight * gaps.back();
+        thickness += believed;
+        squares += believed * believed;
     }
-    EndHeight end{inscribed_radius, 0};
-    double scale = inscribed_radius;  // against which a gap is believed
+    double mean_gap = guess_mm, gap_before = 0;
     for (std::size_t k = before.size(); k-- > 0;) {
-        const double gap = std::max(gaps[k], 0.0), weight = before[k].weight;
-        const double belief = gap > 0 ? weight * gap / (gap + scale) : 0;
-        end = {belief * gap + (1 - belief) * end.height_mm, belief + (1 - belief) * end.belief};
-        scale = weight * gap + (1 - weight) * scale;
+        const double gap = gaps[k], weight = before[k].weight;
+        const double belief = gap > 0 ? weight * gap / (gap + gap_before) : 0;
+        mean_gap = belief * gap + (1 - belief) * mean_gap;
+        gap_before = weight * gap + (1 - weight) * gap_before;
     }
-    end.height_mm = std::max(std::min(end.height_mm, kMostHeight * inscribed_radius),
-                             kBeyondPoints * reach_of_points(planes.set, section.plane, sign));
-    return end;
+    const double count =
+        squares > 0 ? thickness * thickness / squares : 1;  // of gaps; those of planes drawn twice do not count
+    const double odds = std::pow(thickness / guess_mm, 2) * std::exp2(std::min(count, kMostGaps) - 1);
+    const double belief = odds / (1 + odds);
+    const double rest = guess_mm * guess_mm / (guess_mm + thickness / 2);
+    const double height = std::min(belief * kGapShare * mean_gap + (1 - belief) * rest, kMostHeight * guess_mm);
+    return {std::max(height, kBeyondPoints * reach_of_points(planes.set, section.plane, sign)), belief};
 }
 
 std::vector<Bound> end_bounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions, std::size_t region,

@@ -23,11 +23,7 @@ struct Outline {
 Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
     Outline outline;
     for (const Point2& vertex : polygon) outline.box.extend(axes.from_plane(vertex));
-    const Point2& origin = polygon.front();
-    for_each_edge(polygon, [&](const Point2& a, const Point2& b) {
-        outline.area += ((a[0] - origin[0]) * (b[1] - origin[1]) - (b[0] - origin[0]) * (a[1] - origin[1])) / 2;
-    });
-    outline.area = std::abs(outline.area);
+    outline.area = area(polygon);
     return outline;
 }
 

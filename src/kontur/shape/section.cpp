@@ -58,6 +58,15 @@ Vec3 middle_of_lines(const ContourSet& set, const std::vector<std::size_t>& cont
 
 }  // namespace
 
+double area(const Polygon2& outline) {
+    double twice = 0;
+    const Point2& origin = outline.front();
+    for_each_edge(outline, [&](const Point2& a, const Point2& b) {
+        twice += (a[0] - origin[0]) * (b[1] - origin[1]) - (b[0] - origin[0]) * (a[1] - origin[1]);
+    });
+    return std::abs(twice) / 2;
+}
+
 bool Section::contains(const Point2& p) const {
     int layers = 0;
     for (std::size_t o = 0; o < outlines.size(); ++o)

@@ -11,6 +11,9 @@
 
 namespace kontur {
 
+/// What a closed polygon encloses, mm2.
+double area(const Polygon2& outline);
+
 /// The contours drawn in one plane, as the region that they enclose: where more of them than holes lie around a point; each
 /// by itself by the even-odd rule. So what is drawn twice is there once. In the plane's (u, v), mm.
 struct Section {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -70,12 +71,14 @@ Ball3 ball_of(const ContourSet& set) {
     return smallest_ball(points);
 }
 
-/// Contradictory contours, stretches, clicks: whatever is drawn, the object ends.
+/// Contradictory contours, stretches, clicks: whatever is drawn, the object ends. KONTUR_DRAWINGS says of how many.
 TEST(RandomMixes, AreNowhereInsideBeyondTwiceTheBallOfWhatWasDrawn) {
     std::mt19937 random = test::random_of_this_test();
     std::normal_distribution<double> normal;
+    const char* asked = std::getenv("KONTUR_DRAWINGS");
+    const int mixes = asked ? std::atoi(asked) : 60;
     int fitted = 0;
-    for (int mix = 0; mix < 60; ++mix) {
+    for (int mix = 0; mix < mixes; ++mix) {
         const std::vector<std::uint8_t> bytes = random_bytes(6000, random);
         Choices choose(bytes);
         const ContourSet set = mixed_drawing(choose);
@@ -95,7 +98,7 @@ TEST(RandomMixes, AreNowhereInsideBeyondTwiceTheBallOfWhatWasDrawn) {
                 ASSERT_LT(f.value(ball.center + reach * ball.radius * d), 0) << "mix " << mix << " at " << reach << " radii";
             }
     }
-    EXPECT_GT(fitted, 30);
+    EXPECT_GT(fitted, mixes / 2);
 }
 
 }  // namespace

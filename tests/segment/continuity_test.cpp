@@ -126,5 +126,58 @@ TEST(Continuity, VolumeChangesLittleWithTheDistanceOfALastPlane) {
     EXPECT_LT(apart.worst_step, 0.02) << "at " << apart.worst_at << " mm";
 }
 
+/// Scaled about its centre.
+Contour scaled(Contour contour, double factor) {
+    Vec3 center;
+    for (const Vec3& p : contour.points) center += p / static_cast<double>(contour.points.size());
+    for (Vec3& p : contour.points) p = center + factor * (p - center);
+    return contour;
+}
+
+/// Down to a fortieth. Where it is taken away, nothing says any more that the rest of its plane is empty: that is a step.
+TEST(Continuity, VolumeChangesLittleAsTheLastContourShrinks) {
+    const auto drawing = [](double gone) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        set.contours.back() = scaled(set.contours.back(), 1 - gone);
+        return set;
+    };
+    const Sweep shrunk = sweep(0, 0.976, 0.025, drawing);
+    EXPECT_LT(shrunk.worst_step, 0.02) << "at " << shrunk.worst_at;
+}
+
+TEST(Continuity, VolumeChangesLittleAsAHoleShrinksToNothing) {
+    const auto drawing = [](double gone) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        if (gone < 1) {
+            set.contours.push_back(scaled(set.contours[2], 0.4 * (1 - gone)));
+            set.contours.back().hole = true;
+        }
+        return set;
+    };
+    const Sweep shrunk = sweep(0, 1, 0.05, drawing);
+    EXPECT_LT(shrunk.worst_step, 0.02) << "at " << shrunk.worst_at;
+}
+
+TEST(Continuity, VolumeChangesLittleAsAContourLosesItsWeight) {
+    const auto drawing = [](double lost) {  // a contradiction: much smaller than those beside it
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        set.contours[2] = scaled(set.contours[2], 0.8);
+        set.contours[2].weight = std::pow(10, -lost);
+        return set;
+    };
+    const Sweep lighter = sweep(0, 2, 0.1, drawing);
+    EXPECT_LT(lighter.worst_step, 0.02) << "at 10^-" << lighter.worst_at;
+}
+
+TEST(Continuity, VolumeChangesLittleAsAPointIsDraggedAcrossAContour) {
+    const auto drawing = [](double mm) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        set.surface.push_back({.position = {mm, 0, 0}});
+        return set;
+    };
+    const Sweep dragged = sweep(30, 52, 1.6, drawing);
+    EXPECT_LT(dragged.worst_step, 0.02) << "at " << dragged.worst_at << " mm";
+}
+
 }  // namespace
 }  // namespace kontur

@@ -171,7 +171,7 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
     const std::string without = scores(mask_of(fitted.function), structure.truth);
     const auto print = [&](const char* method, const RefineReport& r, double seconds, const std::string& with) {
         fmt::print("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.2f},{:.2f}\n", structure.name, kind, count,
-                   by_hand ? "hand" : "exact", method, without, with, name(r.use), r.error_without_mm, r.error_with_mm,
+                   by_hand ? "hand" : "exact", method, without, with, name(r.verdict), r.error_without_mm, r.error_with_mm,
                    r.largest_move_mm, r.on_contours_mm / voxel, fit_seconds, seconds);
         std::fflush(stdout);
     };
@@ -184,7 +184,7 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
                    [&](const ContourSet& part) { return fit_coarsely(part, stages); }, {.fit = stages.fit, .gate = gate});
         const double seconds = cpu_seconds() - refine_start;
         print(gate ? "gated" : "ungated", refined.report, seconds,
-              refined.report.use == ImageUse::used ? scores(mask_of(refined.fitted.function), structure.truth) : without);
+              refined.report.verdict == ImageVerdict::used ? scores(mask_of(refined.fitted.function), structure.truth) : without);
     }
 }
 
@@ -215,7 +215,7 @@ int run(const std::vector<std::string>& words) {
     const Structure structure = read_structure(words);
     const char* chosen = std::getenv("KONTUR_IMAGES");
     for (const char* kind : {"axial", "ortho", "oblique"})
-        for (const int count : {3, 5, 7, 10})
+        for (const int count : {3, 4, 5, 7, 10})
             for (const bool by_hand : {false, true}) {
                 const std::string drawing = fmt::format("{},{},{}", kind, count, by_hand ? "hand" : "exact");
                 if (chosen && std::string(chosen).find(drawing) == std::string::npos) continue;

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the image between the contours is worth: structures cut by few planes, segmented without and with their image.
 
-Usage: bench/images.py --program build/release/bin/kontur_images --data FOLDER --csv FILE [--set tune|report] [--only NAME]...
-                       [--drawings "axial,5,exact;..."] [--methods gated,ungated] [--jobs 1]
+Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--set tune|report|fresh]
+                       [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1]
        bench/images.py --csv FILE --tables
 
-FOLDER is laid out as the scans of bench/organ_sources.py; what is not there is left out, which is said. Objects are sorted by
-name; the first, third, ... are to report on, the second, fourth, ... to choose constants on; images of one object go together.
-Rows already in FILE are not measured again. With --tables the tables of docs/accuracy.md are printed.
+SCANS and FRESH are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
+orthogonal and oblique planes; 3, 4, 5, 7, 10 of them; exact and by hand) --share 3 takes every third, another third for the next
+structure. Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
+docs/accuracy.md.
 """
 import argparse
 import collections
@@ -20,45 +21,17 @@ import statistics
 import subprocess
 import sys
 
-ABDOMEN = "01_ct_abdomen_totalseg_3mm/"
-BRAIN = "06_mr_brain_MRIcrop/"
-CINE = "10_cine_mr_SC-HF-I-1/"
-# Every label of at least 300 voxels; vertebrae are whole in the map of their own.
-ABDOMEN_LABELS = [1, 2, 3, 4, 5, 6, 7, 11, 14, 18, 19, 20, 52, 63, 64, 79, 86, 87, 88, 89, 117]
+import image_sources
+
 FIELDS = ["structure", "kind", "planes", "hand", "method", "dice_without", "hd95_without_mm", "mean_without_mm", "dice", "hd95_mm",
           "mean_mm", "use", "error_without_mm", "error_with_mm", "largest_move_mm", "on_contours_voxels", "fit_cpu_s", "refine_cpu_s"]
-
-
-def structures():
-    """{structure: (object, words for kontur_images)}; files relative to the data."""
-    found = {f"abdomen_{label:03d}": (ABDOMEN + "example_ct_sm.nii.gz", ABDOMEN + "example_seg.nii.gz", str(label))
-             for label in ABDOMEN_LABELS}
-    found |= {f"vertebra_{label:03d}": (ABDOMEN + "example_ct.nii.gz", ABDOMEN + "vertebrae_on_example_ct.nii.gz", str(label))
-              for label in range(26, 33)}
-    found |= {f"brain_{label:03d}": (BRAIN + "MRIcrop-orig.nii.gz", BRAIN + "MRIcrop-seg.nii.gz", str(label))
-              for label in range(1, 9)}
-    for number, patient in ("03", "002"), ("04", "040"), ("05", "008"):
-        for modality in "CT", "MR_T1":
-            folder = f"{number}_sarcoma_STS_{patient}/{modality}/"
-            found[f"sarcoma{patient}/{modality}"] = (folder + "image", folder + f"{modality}_mask.nii.gz", "")
-    found["tumour"] = ("07_mr_brain_tumour_brain1/brain1_image.nrrd", "07_mr_brain_tumour_brain1/brain1_label.nrrd", "")
-    found["cord"] = ("13_mr_spinal_cord_t2/t2.nii.gz", "13_mr_spinal_cord_t2/t2_seg-manual.nii.gz", "")
-    for wall in "endo", "epi":
-        found[f"ventricle_{wall}"] = (CINE + "cine4d_crop.nii.gz", CINE + f"mask_ED_{wall}.nii.gz", "", "0")
-    found |= {f"phantom_{organ}": ("phantom", organ, spacing)
-              for organ, spacing in (("liver", "3"), ("kidney", "1.5"), ("metastasis", "1"), ("vertebra", "1.5"))}
-    return dict(sorted((name, (name.split("/")[0], words)) for name, words in found.items()))
-
-
-def sets():
-    """{structure: "report" or "tune"}."""
-    objects = sorted({own for own, _ in structures().values()})
-    return {name: ("tune" if objects.index(own) % 2 else "report") for name, (own, _) in structures().items()}
 
 
 def command(program, data, name, words):
     if words[0] == "phantom":
         return [program, name, *words]
+    if data is None:
+        return None
     files = [data / word for word in words[:2]]
     missing = [file for file in files if not file.exists()]
     if missing:
@@ -75,18 +48,21 @@ def measured(file):
 
 
 def all_drawings():
-    return [f"{kind},{count},{hand}" for kind in ("axial", "ortho", "oblique") for count in (3, 5, 7, 10) for hand in ("exact", "hand")]
+    return [f"{kind},{count},{hand}" for kind in ("axial", "ortho", "oblique") for count in (3, 4, 5, 7, 10) for hand in ("exact", "hand")]
 
 
 def measure(options):
     done = {(row["structure"], f"{row['kind']},{row['planes']},{row['hand']}") for row in measured(options.csv)}
+    sets = image_sources.sets()
     wanted = options.drawings.split(";") if options.drawings else all_drawings()
     tasks = []
-    for name, (_, words) in structures().items():
-        if (options.set and sets()[name] != options.set) or (options.only and name not in options.only):
+    sources = [(options.data, item) for item in image_sources.scans().items()]
+    sources += [(options.fresh, item) for item in image_sources.fresh().items()]
+    for number, (data, (name, words)) in enumerate(sources):
+        if (options.set and sets[name] != options.set) or (options.only and name not in options.only):
             continue
-        missing = [drawing for drawing in wanted if (name, drawing) not in done]
-        call = command(options.program, options.data, name, words) if missing else None
+        missing = [drawing for drawing in wanted[number % options.share::options.share] if (name, drawing) not in done]
+        call = command(options.program, data, name, words) if missing else None
         if call:
             tasks.append((call, ";".join(missing)))
     if not options.csv.exists():
@@ -114,15 +90,15 @@ def line(name, rows):
 
 
 def tables(options):
-    rows = measured(options.csv)
+    rows, sets = measured(options.csv), image_sources.sets()
     groups = collections.OrderedDict()
     for row in rows:
         if row["method"] not in options.methods.split(","):
             continue
-        which = sets()[row["structure"]]
+        which = sets[row["structure"]]
         for group in ("all", f"{row['planes']} planes, {row['hand']}", f"{row['kind']}, {row['hand']}"):
             groups.setdefault((row["method"], which, group), []).append(row)
-        if row["structure"].startswith("sarcoma"):
+        if "sarcoma" in row["structure"]:
             groups.setdefault((row["method"], which, "sarcomas"), []).append(row)
     print("| set, drawings | n | Dice without | with | mean gain | median | worst | worse by > .005 | by > .01 | mean distance mm | used | CPU s |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
@@ -131,7 +107,7 @@ def tables(options):
     worst = sorted((row for row in rows if row["method"] == "gated"), key=lambda row: float(row["dice"]) - float(row["dice_without"]))
     print("\n| worst and best | drawing | without | with | held-out error mm |\n|---|---|---|---|---|")
     for row in worst[:12] + worst[-8:]:
-        print(f"| {row['structure']} ({sets()[row['structure']]}) | {row['kind']} {row['planes']} {row['hand']} | {row['dice_without']} | "
+        print(f"| {row['structure']} ({sets[row['structure']]}) | {row['kind']} {row['planes']} {row['hand']} | {row['dice_without']} | "
               f"{row['dice']} | {row['error_without_mm']} -> {row['error_with_mm']} |")
 
 
@@ -139,8 +115,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", type=pathlib.Path)
     parser.add_argument("--data", type=pathlib.Path)
+    parser.add_argument("--fresh", type=pathlib.Path)
+    parser.add_argument("--share", type=int, default=1)
     parser.add_argument("--csv", type=pathlib.Path, required=True)
-    parser.add_argument("--set", choices=["tune", "report"])
+    parser.add_argument("--set", choices=["tune", "report", "fresh"])
     parser.add_argument("--only", action="append", default=[])
     parser.add_argument("--drawings", default="")
     parser.add_argument("--methods", default="gated")

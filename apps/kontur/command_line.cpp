@@ -342,6 +342,8 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
               "Contours of one object: .json, .mrk.json, .vtk, .vtp or RTSTRUCT; several files are merged");
     CLI::Option* image = bind.option("--image", c.image.path, "FILE", "Image or DICOM folder that was drawn on");
     bind.defaulted("--planes", c.planes, "N", "How many")->check(CLI::Range(1, kMostPlanes));
+    bind.defaulted("--skip", c.skip, "N", "Pass over the N best ones, and what runs along them")
+        ->check(CLI::Range(0, kMostPlanes));
     add_choice<PlaneChoice>(*bind.sub, "--among", c.among,
                             {{"any", PlaneChoice::any}, {"image-slices", PlaneChoice::image_slices}},
                             "Planes of any direction, or only slices across the axes of the image");

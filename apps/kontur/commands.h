@@ -108,6 +108,7 @@ struct SuggestCommand {
     ReadContoursOptions read;
     ImageInput image;  ///< its path is empty when there is none
     int planes = 1;    ///< how many
+    int skip = 0;      ///< best ones passed over
     PlaneChoice among = PlaneChoice::any;
     std::filesystem::path output, sketch;  ///< planes; predicted outlines in them; empty: not asked for
     bool json = false;

@@ -166,7 +166,7 @@ void print_summary(const SegmentCommand& command, const Segmentation& result, do
     text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,
                         r.points, r.centres, r.residual.max_mm, r.residual.rms_mm);
     if (!r.crossings.empty()) text += crossings_line(r.crossings);
-    if (r.image.use != ImageUse::none) text += sentence(r.image) + "\n";
+    if (r.image.verdict != ImageVerdict::none) text += sentence(r.image) + "\n";
     text += sentence(r.uncertainty) + "\n";
     console.print(text + fmt::format("{:.2f} s, {:.0f} MB\n", seconds, peak_memory_mb()));
 }

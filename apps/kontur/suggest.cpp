@@ -64,6 +64,17 @@ std::string line_of(std::size_t number, const SuggestedPlane& one) {
     return text + "\n";
 }
 
+/// One after another, each the best but for those before it.
+std::vector<Plane> skipped(int count, const SurfaceEvidence& evidence, const ContourSet& contours,
+                           SuggestPlaneOptions options) {
+    for (int n = 0; n < count; ++n) {
+        const PlaneSuggestions best = suggest_planes(evidence, contours, 1, options);
+        if (best.planes.empty()) break;
+        options.avoid.push_back(best.planes.front().plane);
+    }
+    return std::move(options.avoid);
+}
+
 /// The predicted outlines: to be corrected, not to be believed.
 ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const std::string& name) {
     ContourSet sketch;
@@ -98,8 +109,10 @@ void run(const SuggestCommand& command, Console& console) {
     SuggestPlaneOptions choose{.planes = command.among};
     if (has_image) choose.grid = grid;
     choose.threads = options.threads;
-    const PlaneSuggestions found = suggest_planes(gather_evidence(made, contours, options.threads), contours,
-                                                  static_cast<std::size_t>(command.planes), choose);
+    const SurfaceEvidence evidence = gather_evidence(made, contours, options.threads);
+    choose.avoid = skipped(command.skip, evidence, contours, choose);
+    const PlaneSuggestions found =
+        suggest_planes(evidence, contours, static_cast<std::size_t>(command.planes), choose);
 
     std::vector<Plane> planes;
     for (const SuggestedPlane& one : found.planes) planes.push_back(one.plane);
@@ -117,7 +130,7 @@ void run(const SuggestCommand& command, Console& console) {
     if (found.planes.size() < static_cast<std::size_t>(command.planes))
         console.warn(
             fmt::format("{} of {} planes are suggested: every other one that meets the object runs along one that "
-                        "was drawn or suggested",
+                        "was drawn, suggested or skipped",
                         found.planes.size(), command.planes));
     if (command.json) {
         Facts list = Facts::array();

@@ -63,7 +63,7 @@ void bind_refine_report(py::module_& m) {
     py::class_<RefineReport> type(m, "RefineReport", "What became of the image between the contours.");
     Fields(type)
         .field(
-            "use", &RefineReport::use,
+            "verdict", &RefineReport::verdict,
             "str: 'none' (no image, or not asked for), 'unknown' (too few planes to tell), 'no_help' (not used) or 'used'.")
         .field("planes_left_out", &RefineReport::planes_left_out, "int: one after another, to see whether the image helps.")
         .field("error_without_mm", &RefineReport::error_without_mm,

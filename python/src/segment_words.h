@@ -30,8 +30,8 @@ struct Words<UseImage> {
 };
 
 template <>
-struct Words<ImageUse> {
-    static constexpr std::array values{ImageUse::none, ImageUse::unknown, ImageUse::no_help, ImageUse::used};
+struct Words<ImageVerdict> {
+    static constexpr std::array values{ImageVerdict::none, ImageVerdict::unknown, ImageVerdict::no_help, ImageVerdict::used};
 };
 
 }  // namespace kontur::python
@@ -42,7 +42,7 @@ template <>
 struct type_caster<kontur::UseImage> : word_caster<kontur::UseImage> {};
 
 template <>
-struct type_caster<kontur::ImageUse> : word_caster<kontur::ImageUse> {};
+struct type_caster<kontur::ImageVerdict> : word_caster<kontur::ImageVerdict> {};
 
 template <>
 struct type_caster<kontur::Conflicts> : word_caster<kontur::Conflicts> {};

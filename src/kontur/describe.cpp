@@ -150,7 +150,7 @@ Provenance provenance(const ContourSet& contours, const Grid& grid, const Segmen
                                 "quality={} solver={} tolerance_mm={} voxelizer={} image={}",
                                 name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
                                 name(report.corners), report.normal_offset_mm, report.smoothing, report.quality,
-                                name(report.solver), report.tolerance_mm, name(report.voxelizer), name(report.image.use))},
+                                name(report.solver), report.tolerance_mm, name(report.voxelizer), name(report.image.verdict))},
     };
 }
 

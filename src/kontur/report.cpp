@@ -53,8 +53,8 @@ Facts mask_json(const SegmentReport& report) {
 /// What the image said between the contours; only its use where it was not asked.
 Facts image_json(const SegmentReport& report) {
     const RefineReport& image = report.image;
-    if (image.use == ImageUse::none) return {{"use", name(image.use)}};
-    return {{"use", name(image.use)},
+    if (image.verdict == ImageVerdict::none) return {{"verdict", name(image.verdict)}};
+    return {{"verdict", name(image.verdict)},
             {"sentence", sentence(image)},
             {"planes_left_out", image.planes_left_out},
             {"error_without_mm", image.error_without_mm},

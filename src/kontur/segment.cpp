@@ -32,7 +32,7 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     const FittedFunction by_contours = fit(prepared, stages.fit, progress);
     watch.lap("fit");
     const auto [fitted, image_report] = refine(drawing, prepared, by_contours, image, options.use_image, stages, progress);
-    if (image_report.use != ImageUse::none) watch.lap("refine");
+    if (image_report.verdict != ImageVerdict::none) watch.lap("refine");
 
     const std::vector<Vec3> starts =
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);

@@ -201,10 +201,10 @@ def test_an_interrupt_leaves_everything_as_it_was(folder, stop):
 
 def test_the_image_is_asked_between_the_contours_only_where_told_to(folder):
     segment(folder, *FROM_IMAGE, "--report", "report.json")
-    assert json.loads((folder / "report.json").read_text())["image"] == {"use": "none"}
+    assert json.loads((folder / "report.json").read_text())["image"] == {"verdict": "none"}
     said = segment(folder, *FROM_IMAGE, "--report", "report.json", "--use-image", "auto")
     image = json.loads((folder / "report.json").read_text())["image"]
-    assert image["use"] in ("used", "no_help") and image["planes_left_out"] == 9
+    assert image["verdict"] in ("used", "no_help") and image["planes_left_out"] == 9
     assert image["sentence"] in said
     alone = kontur("segment", "ball.json", "--spacing-mm", "1", "--output", "out.nii.gz", "--use-image", "auto", cwd=folder)
     assert alone.returncode != 0 and "--image" in alone.stderr

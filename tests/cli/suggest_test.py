@@ -64,6 +64,21 @@ def test_slices_of_the_image_are_whole_layers(drawn):
         assert suggested["expected_dice_with_it"]["value"] >= suggested["expected_dice"]["value"]
 
 
+def test_skipping_gives_other_planes_of_less_gain(drawn):
+    contours, mask = drawn(3)
+
+    def suggested(*words):
+        return json.loads(succeed("suggest", contours, "--image", mask, "--json", *words))["planes"]
+
+    [best], [second], [third] = suggested(), suggested("--skip", 1), suggested("--skip", 2)
+    assert best["gain"] >= second["gain"] >= third["gain"] > 0
+    for one, other in ((best, second), (best, third), (second, third)):
+        is_parallel = abs(numpy.dot(one["normal"], other["normal"])) > 1 - 1e-9
+        apart = abs(numpy.dot(one["normal"], numpy.subtract(one["origin_mm"], other["origin_mm"])))
+        assert not is_parallel or apart > 0.05 * RADIUS
+    assert suggested("--skip", 0) == [best]
+
+
 def test_works_without_an_image(drawn):
     contours, _ = drawn(3)
     assert "1: through" in kontur("suggest", contours).stdout

@@ -16,7 +16,7 @@ using namespace test;
 TEST(Refine, MovesTheSurfaceBetweenContoursToTheBorderInTheImage) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), body_look, 8));
-    EXPECT_EQ(r.refined.report.use, ImageUse::used);
+    EXPECT_EQ(r.refined.report.verdict, ImageVerdict::used);
     EXPECT_EQ(r.refined.report.planes_left_out, 4U);
     EXPECT_LT(r.refined.report.error_with_mm, 0.5 * r.refined.report.error_without_mm);
     const double without = surface_error(r.plain.function, contours),
@@ -31,7 +31,7 @@ TEST(Refine, LeavesTheDrawnContoursWhereTheyAre) {
     for (Vec3& p : contradictory.contours[2].points) p += Vec3{0, 2, 0.5};  // within its plane
     for (const ContourSet& contours : {drawn_on(orthogonal_planes()), drawn_on(stacked_planes()), contradictory}) {
         const Refinement r = refine_drawing(contours, image_of(cube_grid(voxel), body_look, 8));
-        ASSERT_EQ(r.refined.report.use, ImageUse::used);
+        ASSERT_EQ(r.refined.report.verdict, ImageVerdict::used);
         double largest = 0;
         for (const Contour& contour : contours.contours)
             for (const Vec3& p : contour.points)
@@ -60,9 +60,10 @@ TEST(Refine, ReadsAsManyIntensitiesFromAnImageOfAnySize) {
 }
 
 TEST(Refine, SaysThatTooLittleIsDrawnToTell) {
-    const ContourSet contours = drawn_on({make_plane({0, 0, 1}, {0, 0, 1}), make_plane({3, 0, 0}, {1, 0, 0})});
-    const Refinement r = refine_drawing(contours, image_of(cube_grid(3), body_look));
-    EXPECT_EQ(r.refined.report.use, ImageUse::unknown);
+    std::vector<Plane> planes = orthogonal_planes();
+    planes.pop_back();
+    const Refinement r = refine_drawing(drawn_on(planes), image_of(cube_grid(3), body_look));
+    EXPECT_EQ(r.refined.report.verdict, ImageVerdict::unknown);
     EXPECT_TRUE(std::ranges::equal(r.refined.fitted.function.weights(), r.plain.function.weights()));
     EXPECT_NE(sentence(r.refined.report).find("not used"), std::string::npos);
 }
@@ -74,8 +75,8 @@ TEST(Refine, SegmentUsesTheImageOnlyWhereAskedTo) {
     const Segmentation off = segment(contours, image.grid, &image, {.use_image = UseImage::off});
     const Segmentation with = segment(contours, image.grid, &image, {.use_image = UseImage::automatic});
     EXPECT_EQ(without.mask.values, off.mask.values);
-    EXPECT_EQ(off.report.image.use, ImageUse::none);
-    EXPECT_EQ(with.report.image.use, ImageUse::used);
+    EXPECT_EQ(off.report.image.verdict, ImageVerdict::none);
+    EXPECT_EQ(with.report.image.verdict, ImageVerdict::used);
     EXPECT_NE(without.mask.values, with.mask.values);
     std::int64_t wrong_without = 0, wrong_with = 0;
     for (std::int64_t k = 0; k < image.grid.size.k; ++k)

@@ -18,13 +18,14 @@ constexpr double kTolerance = 0.02;               // of values, in spacings
 constexpr std::int64_t kEvaluationsPerVoxel = 2;  // one value, one normal
 constexpr double kMostPoints = 1LL << 36;         // the lattice's table of blocks then takes 1 GB
 
-/// A lattice of cubes with points at multiples of the spacing, so that it does not move when the box grows.
-Grid lattice_about(const Box3& box, double spacing_mm) {
+/// A lattice of cubes with points at multiples of the spacing from the anchor, so that it does not move when the box grows.
+Grid lattice_about(const Box3& box, double spacing_mm, const Vec3& anchor_mm) {
     const Box3 covered = box.padded(std::max(kMarginFraction * box.diagonal(), 4 * spacing_mm));
     Grid grid;
     double points = 1;
     for (int axis = 0; axis < 3; ++axis) {
-        const double first = std::floor(covered.min[axis] / spacing_mm), last = std::ceil(covered.max[axis] / spacing_mm);
+        const double first = std::floor((covered.min[axis] - anchor_mm[axis]) / spacing_mm),
+                     last = std::ceil((covered.max[axis] - anchor_mm[axis]) / spacing_mm);
         points *= last - first + 1;
         if (!(points <= kMostPoints))
             throw Error(ErrorKind::too_large,
@@ -32,7 +33,7 @@ Grid lattice_about(const Box3& box, double spacing_mm) {
                                     spacing_mm, covered.size()[axis], kMostPoints));
         grid.size[axis] = static_cast<std::int64_t>(last - first) + 1;
         grid.index_to_mm.linear[static_cast<std::size_t>(axis)][static_cast<std::size_t>(axis)] = spacing_mm;
-        grid.index_to_mm.translation[axis] = first * spacing_mm;
+        grid.index_to_mm.translation[axis] = anchor_mm[axis] + first * spacing_mm;
     }
     return grid;
 }
@@ -46,18 +47,18 @@ Box3 box_of_finite(std::span<const Vec3> points) {
 
 }  // namespace
 
-std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing_mm) {
+std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing_mm, const Vec3& anchor_mm) {
     if (!(spacing_mm > 0 && std::isfinite(spacing_mm)))
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the preview's spacing is {} mm; it must be finite and above 0", spacing_mm));
     const Box3 box = box_of_finite(starts);
     if (box.is_empty()) return std::nullopt;
-    return lattice_about(box, spacing_mm);
+    return lattice_about(box, spacing_mm, anchor_mm);
 }
 
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
                              const Progress& progress) {
-    const std::optional<Grid> grid = preview_lattice(starts, options.spacing_mm);
+    const std::optional<Grid> grid = preview_lattice(starts, options.spacing_mm, options.anchor_mm);
     if (!grid) return {};
     FastFunction fast(function, {.tolerance_mm = kTolerance * options.spacing_mm,
                                  .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(*grid, starts),

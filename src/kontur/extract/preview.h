@@ -14,6 +14,7 @@ namespace kontur {
 struct PreviewOptions {
     double spacing_mm = 2;  ///< of the lattice on which the surface is found, > 0; finer ones show more and cost its square
     int threads = 0;        ///< 0: the machine's
+    Vec3 anchor_mm{};       ///< where one of the lattice's points lies: those of a box move with it
 };
 
 /// The surface through `starts` (mm; points on contours) on a lattice of its own, whatever grid a mask would have: closed,
@@ -24,8 +25,8 @@ struct PreviewOptions {
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts,
                              const PreviewOptions& options = {}, const Progress& progress = {});
 
-/// The lattice that preview_surface finds the surface on, its points at multiples of the spacing; nullopt without a finite
-/// start. Throws as preview_surface does.
-std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing_mm);
+/// The lattice that preview_surface finds the surface on, its points at multiples of the spacing from the anchor; nullopt
+/// without a finite start. Throws as preview_surface does.
+std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing_mm, const Vec3& anchor_mm = {});
 
 }  // namespace kontur

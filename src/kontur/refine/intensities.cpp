@@ -5,18 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "kontur/refine/quantile.h"
+
 namespace kontur {
 namespace {
 
 constexpr std::size_t kQuantiles = 65;
-
-/// Of sorted values, between them linearly.
-double quantile(const std::vector<double>& sorted, double fraction) {
-    const double at = fraction * static_cast<double>(sorted.size() - 1);
-    const auto first = std::min(static_cast<std::size_t>(at), sorted.size() - 1);
-    const std::size_t second = std::min(first + 1, sorted.size() - 1);
-    return std::lerp(sorted[first], sorted[second], at - static_cast<double>(first));
-}
 
 }  // namespace
 
@@ -35,10 +29,10 @@ IntensityScale::IntensityScale(std::vector<double> values) {
     if (values.empty()) return;
     std::sort(values.begin(), values.end());
     if (!(values.back() > values.front())) return;
-    low_ = quantile(values, 0.01);
-    high_ = quantile(values, 0.99);
+    low_ = quantile_of_sorted(values, 0.01);
+    high_ = quantile_of_sorted(values, 0.99);
     for (std::size_t q = 0; q < kQuantiles; ++q)
-        quantiles_.push_back(quantile(values, static_cast<double>(q) / (kQuantiles - 1)));
+        quantiles_.push_back(quantile_of_sorted(values, static_cast<double>(q) / (kQuantiles - 1)));
 }
 
 double IntensityScale::operator()(double value) const {

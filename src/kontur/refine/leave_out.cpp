@@ -3,19 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
+#include "kontur/refine/quantile.h"
 #include "kontur/refine/spread_points.h"
+#include "kontur/refine/surface_evidence.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 namespace {
 
-constexpr std::size_t kMostPlanes = 10, kLeastPlanes = 3, kLeastPoints = 10;
+constexpr std::size_t kMostPlanes = 10, kLeastPoints = 10;
+constexpr std::size_t kFewestPlanes = 4;  // two are too few to tell how a surface runs, when one of three is left out
 constexpr std::size_t kSamples = 300;
 constexpr double kHeldOutPoints = 500;    // of all planes together
 constexpr double kDeviation = 1.4826;     // standard deviation over the median of absolute values of a normal distribution
+constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
 constexpr double kMostSlope = 0.25;       // prior standard deviation over the distance
 constexpr double kHelps = 0.95;           // of the mean error without the image
 constexpr double kDoubt = 1.3;            // errors with the image count as that much larger
@@ -23,10 +28,9 @@ constexpr std::size_t kNear = 40;         // held-out points that speak for a pl
 constexpr double kLeastImage = 0.25;      // voxels: no image is better known than this
 constexpr double kSurfaceSpacing = 0.04;  // of the drawing's diameter
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+/// What is left of an error that the hand's own, independent of it, is part of: at least half of it.
+double without_hand(double error, double hand) {
+    return std::sqrt(std::max(error * error - hand * hand, 0.25 * error * error));
 }
 
 /// The contours of each plane, in the order of the planes' first ones.
@@ -103,9 +107,7 @@ std::optional<PlainErrors> plain_errors(const std::vector<std::optional<Fold>>& 
         }
     }
     if (ratios.size() < kLeastPoints) return std::nullopt;
-    const auto ninth = errors.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(errors.size() - 1));
-    std::nth_element(errors.begin(), ninth, errors.end());
-    return PlainErrors{kDeviation * median(std::move(ratios)), 1.5 * *ninth + voxel_mm};
+    return PlainErrors{kDeviation * median(std::move(ratios)), 1.5 * quantile(std::move(errors), 0.9) + voxel_mm};
 }
 
 struct FoldErrors {
@@ -137,8 +139,13 @@ std::vector<std::vector<std::size_t>> chosen(const std::vector<std::vector<std::
 }  // namespace
 
 HeldOutErrors::HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm,
-                             std::size_t planes, std::int64_t intensities)
-    : held_out_(std::move(held_out)), beliefs_(beliefs), voxel_mm_(voxel_mm), planes_(planes), intensities_(intensities) {
+                             double hand_mm, std::size_t planes, std::int64_t intensities)
+    : held_out_(std::move(held_out)),
+      beliefs_(beliefs),
+      voxel_mm_(voxel_mm),
+      hand_mm_(hand_mm),
+      planes_(planes),
+      intensities_(intensities) {
     std::vector<double> without, with, distances;
     for (HeldOut& h : held_out_) {
         without.push_back(h.without_mm = std::min(std::abs(h.without_mm), limit_mm));
@@ -154,7 +161,10 @@ HeldOutErrors::HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& belie
     median_distance_ = median(std::move(distances));
 }
 
-bool HeldOutErrors::image_helps() const { return with_mm_ <= kHelps * without_mm_; }
+bool HeldOutErrors::image_helps() const {
+    const double hand = kMeanOfDeviation * hand_mm_;
+    return without_hand(with_mm_, hand) <= kHelps * without_hand(without_mm_, hand);
+}
 
 Beliefs HeldOutErrors::beliefs() const {
     return {beliefs_.prior_mm, [this](const MovingPoint& point) { return image_sd(point); }};
@@ -171,8 +181,8 @@ double HeldOutErrors::image_sd(const MovingPoint& point) const {
         with.push_back(held_out_[nearest[n].second].with_mm);
     }
     // What is left with the image is the posterior's error, not the image's: 1 / with^2 = 1 / without^2 + 1 / image^2.
-    const double s0 = kDeviation * 0.5 * (median(std::move(without)) + median_without_);
-    const double s1 = kDoubt * kDeviation * 0.5 * (median(std::move(with)) + median_with_);
+    const double s0 = without_hand(kDeviation * 0.5 * (median(std::move(without)) + median_without_), hand_mm_);
+    const double s1 = kDoubt * without_hand(kDeviation * 0.5 * (median(std::move(with)) + median_with_), hand_mm_);
     if (!(s0 > 0)) return std::max(s1, kLeastImage * voxel_mm_);
     const double known = std::max(1 / (s1 * s1) - 1 / (s0 * s0), 1e-3 / (s0 * s0));
     // Held-out contours are about twice as far from others as what lies between all of them.
@@ -180,10 +190,11 @@ double HeldOutErrors::image_sd(const MovingPoint& point) const {
     return std::max(nearer / std::sqrt(known), kLeastImage * voxel_mm_);
 }
 
-std::optional<HeldOutErrors> leave_planes_out(const ContourSet& drawn, const Image& image, const FitContours& fit,
+std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               int threads, const Progress& progress) {
+    const ContourSet& drawn = drawing.contours;
     const std::vector<std::vector<std::size_t>> planes = contours_by_plane(drawn);
-    if (planes.size() < kLeastPlanes) return std::nullopt;
+    if (planes.size() < kFewestPlanes) return std::nullopt;
     const std::vector<std::vector<std::size_t>> groups = chosen(planes);
     const double voxel = Intensities(image).voxel_mm();
     const double step = std::max(voxel, length_mm(drawn) / kHeldOutPoints);
@@ -215,7 +226,8 @@ std::optional<HeldOutErrors> leave_planes_out(const ContourSet& drawn, const Ima
         intensities += part.intensities;
     }
     if (all.size() < kLeastPoints || held_out < 2) return std::nullopt;
-    return HeldOutErrors(std::move(all), beliefs, plain->limit_mm, voxel, held_out, intensities);
+    const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
+    return HeldOutErrors(std::move(all), beliefs, plain->limit_mm, voxel, hand, held_out, intensities);
 }
 
 }  // namespace kontur

@@ -26,7 +26,8 @@ struct HeldOut {
 class HeldOutErrors {
 public:
     /// `held_out`: points at least a voxel from the other planes' contours; at least 10.
-    HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm,
+    /// `hand_mm`: standard deviation of the drawn lines themselves, which no surface and no image can know.
+    HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm, double hand_mm,
                   std::size_t planes, std::int64_t intensities);
 
     double without_mm() const { return without_mm_; }  ///< means of the absolute errors
@@ -41,7 +42,7 @@ private:
 
     std::vector<HeldOut> held_out_;
     Beliefs beliefs_;
-    double voxel_mm_;
+    double voxel_mm_, hand_mm_;
     std::size_t planes_;
     std::int64_t intensities_;
     double without_mm_ = 0, with_mm_ = 0;
@@ -49,9 +50,9 @@ private:
 };
 
 /// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and
-/// looks how far it passes from the contours left out. Nothing where fewer than 3 planes were drawn or too little of them is
-/// left.
-std::optional<HeldOutErrors> leave_planes_out(const ContourSet& drawn, const Image& image, const FitContours& fit,
+/// looks how far it passes from the contours left out. Nothing where fewer than 4 planes were drawn or too little of them is
+/// left. What contours disagree by where they cross is their own error and not counted.
+std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               int threads, const Progress& progress);
 
 }  // namespace kontur

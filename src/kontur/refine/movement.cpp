@@ -6,6 +6,7 @@
 
 #include "kontur/base/parallel.h"
 #include "kontur/refine/appearance.h"
+#include "kontur/refine/quantile.h"
 #include "kontur/refine/spread_points.h"
 
 namespace kontur {
@@ -19,12 +20,6 @@ constexpr double kCorrelation = 0.8;  // of the median distance to the contours,
 constexpr double kSeen = 2.5;         // prior standard deviations that are searched
 constexpr int kLeastSteps = 3, kMostSteps = 24;
 constexpr double kWallSoftness = 0.25;  // steps
-
-double quantile(std::vector<double> values, double fraction) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 /// The points that may move, with all that is known of them without the image.
 std::vector<MovingPoint> moving_points(const DrawnOnImage& drawn, const ImplicitFunction& function,
@@ -99,7 +94,7 @@ Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& functi
 
     std::vector<double> distances;
     for (const MovingPoint& p : movement.points) distances.push_back(p.distance_mm);
-    movement.prior.length_mm = std::max(kCorrelation * quantile(std::move(distances), 0.5), 2 * drawn.image.voxel_mm());
+    movement.prior.length_mm = std::max(kCorrelation * median(std::move(distances)), 2 * drawn.image.voxel_mm());
     movement.offsets = find_offsets(movement.points, movement.prior, evidence);
     return movement;
 }

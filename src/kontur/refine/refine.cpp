@@ -139,7 +139,7 @@ RefinedFunction move_surface(const DrawnOnImage& drawn, const Drawing& drawing, 
         result.fitted = refit.with(std::move(told), progress);
         now.prior_mm = [&beliefs, scale = std::pow(kLater, round + 1)](double d) { return scale * beliefs.prior_mm(d); };
     }
-    result.report.use = ImageUse::used;
+    result.report.verdict = ImageVerdict::used;
     result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, threads);
     return result;
 }
@@ -148,32 +148,32 @@ RefinedFunction move_surface(const DrawnOnImage& drawn, const Drawing& drawing, 
 
 std::string_view name(UseImage use) noexcept { return use == UseImage::off ? "off" : "auto"; }
 
-std::string_view name(ImageUse use) noexcept {
-    switch (use) {
-        case ImageUse::none:
+std::string_view name(ImageVerdict verdict) noexcept {
+    switch (verdict) {
+        case ImageVerdict::none:
             return "none";
-        case ImageUse::unknown:
+        case ImageVerdict::unknown:
             return "unknown";
-        case ImageUse::no_help:
+        case ImageVerdict::no_help:
             return "no_help";
-        case ImageUse::used:
+        case ImageVerdict::used:
             return "used";
     }
     return "?";
 }
 
 std::string sentence(const RefineReport& report) {
-    switch (report.use) {
-        case ImageUse::none:
+    switch (report.verdict) {
+        case ImageVerdict::none:
             return "the image was not used";
-        case ImageUse::unknown:
+        case ImageVerdict::unknown:
             return "too little is drawn to tell whether the image helps between the contours; not used";
-        case ImageUse::no_help:
+        case ImageVerdict::no_help:
             return fmt::format(
                 "the image does not help between the contours ({:.2g} mm off at left-out contours without it, "
                 "{:.2g} with it); not used",
                 report.error_without_mm, report.error_with_mm);
-        case ImageUse::used:
+        case ImageVerdict::used:
             break;
     }
     if (report.planes_left_out == 0) return "the image was used between the contours, without knowing whether it helps";
@@ -193,11 +193,11 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
         return move_surface(drawn, drawing, prepared, fitted, cautious, options, progress);
     }
     const std::optional<HeldOutErrors> errors =
-        leave_planes_out(drawing.contours, image, fit_contours, options.fit.solve.threads, progress);
+        leave_planes_out(drawing, image, fit_contours, options.fit.solve.threads, progress);
     RefinedFunction result{fitted, {}};
     if (errors && errors->image_helps())
         result = move_surface(drawn, drawing, prepared, fitted, errors->beliefs(), options, progress);
-    else result.report.use = errors ? ImageUse::no_help : ImageUse::unknown;
+    else result.report.verdict = errors ? ImageVerdict::no_help : ImageVerdict::unknown;
     if (errors) {
         result.report.intensities += errors->intensities();
         result.report.planes_left_out = errors->planes();

@@ -33,16 +33,16 @@ struct RefineOptions {
 };
 
 /// What became of the image.
-enum class ImageUse {
+enum class ImageVerdict {
     none,     ///< there was none, or it was not to be used
     unknown,  ///< too few planes were drawn to tell whether it helps; not used
     no_help,  ///< it does not help at contours left out; not used
     used,
 };
-std::string_view name(ImageUse use) noexcept;
+std::string_view name(ImageVerdict verdict) noexcept;
 
 struct RefineReport {
-    ImageUse use = ImageUse::none;
+    ImageVerdict verdict = ImageVerdict::none;
     std::size_t planes_left_out = 0;
     double error_without_mm = 0;   ///< mean distance of contours left out from the surface through the others
     double error_with_mm = 0;      ///< the same with the image

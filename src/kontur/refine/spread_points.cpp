@@ -42,7 +42,10 @@ std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const Co
     std::vector<Vec3> starts;
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
-    const TriangleMesh mesh = preview_surface(function, starts, {.spacing_mm = spacing_mm, .threads = threads});
+    if (starts.empty()) return {};
+    const Vec3 anchor = bounding_box(starts).min;  // so that the points move with the contours
+    const TriangleMesh mesh =
+        preview_surface(function, starts, {.spacing_mm = spacing_mm, .threads = threads, .anchor_mm = anchor});
     if (mesh.points.size() <= count) return mesh.points;
     const Box3 box = bounding_box(mesh.points);
     double fine = 0, coarse = box.diagonal();

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "kontur/refine/quantile.h"
 #include "kontur/refine/uncertainty_model.h"
 
 namespace kontur {
@@ -48,18 +48,6 @@ bool is_known(const SurfaceEvidence& evidence) {
     return evidence.plane_count() >= kLeastPlanes && !evidence.samples.points.empty() && evidence.volume_mm3 > 0;
 }
 
-/// The value below which this fraction of the area lies.
-double quantile(const std::vector<double>& values, const std::vector<double>& areas, double fraction) {
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    const double wanted = fraction * std::accumulate(areas.begin(), areas.end(), 0.0);
-    double sum = 0;
-    for (const std::size_t n : order)
-        if ((sum += areas[n]) >= wanted) return values[n];
-    return values[order.back()];
-}
-
 std::string two_digits(double dice) { return fmt::format("{:.2f}", dice); }
 
 /// Three digits, and no exponent for large ones.
@@ -90,8 +78,8 @@ SurfaceUncertainty surface_uncertainty(const SurfaceEvidence& evidence) {
     if (!is_known(evidence)) return result;
     result.is_known = true;
     const std::vector<double> widths = half_widths_mm(evidence);
-    result.half_width_median_mm = quantile(widths, evidence.samples.areas_mm2, 0.5);
-    result.half_width_p90_mm = quantile(widths, evidence.samples.areas_mm2, 0.9);
+    result.half_width_median_mm = weighted_quantile(widths, evidence.samples.areas_mm2, 0.5);
+    result.half_width_p90_mm = weighted_quantile(widths, evidence.samples.areas_mm2, 0.9);
     const auto farthest = std::max_element(evidence.distances_mm.begin(), evidence.distances_mm.end());
     result.farthest_mm = *farthest;
     result.farthest_position = evidence.samples.points[static_cast<std::size_t>(farthest - evidence.distances_mm.begin())];

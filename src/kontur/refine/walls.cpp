@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kontur/drawing/drawn_planes.h"
+#include "kontur/refine/quantile.h"
 #include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
@@ -39,9 +40,7 @@ Walls::Walls(const Drawing& drawing) : planes_(complete_planes(drawing)) {
     std::sort(heights.begin(), heights.end());
     std::vector<double> gaps;
     for (std::size_t i = 1; i < heights.size(); ++i) gaps.push_back(heights[i] - heights[i - 1]);
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    const double room = kEndGaps * *middle;
+    const double room = kEndGaps * median(std::move(gaps));
     ends_ = {{along, heights.back() + room}, {-along, room - heights.front()}};
 }
 

@@ -44,7 +44,7 @@ void check(const FillCommand& command) {
 }
 
 Facts image_facts(const RefineReport& image) {
-    return {{"use", name(image.use)},
+    return {{"verdict", name(image.verdict)},
             {"planes_left_out", image.planes_left_out},
             {"error_without_mm", image.error_without_mm},
             {"error_with_mm", image.error_with_mm}};
@@ -115,7 +115,7 @@ void run(const FillCommand& command, Console& console) {
         for (const std::string& warning : one.warnings) console.warn(fmt::format("label {}: {}", one.label, warning));
         text += fmt::format("label {}: {} slices painted; {} voxels painted, {} added\n", one.label, slices_of(one),
                             one.painted_voxels, one.added_voxels);
-        if (one.image.use != ImageUse::none) text += fmt::format("label {}: {}\n", one.label, sentence(one.image));
+        if (one.image.verdict != ImageVerdict::none) text += fmt::format("label {}: {}\n", one.label, sentence(one.image));
     }
     console.print(text);
 }

@@ -61,7 +61,7 @@ def test_the_image_is_asked_and_said(tmp_path):
     file, image = write_nifti(tmp_path / "sparse.nii.gz", painted()), write_nifti(tmp_path / "mr.nii.gz", ball_array() * 100)
     text = succeed("fill", file, "--image", image, "--use-image", "auto", "--output", tmp_path / "full.nii.gz", "--report", tmp_path / "fill.json")
     [label] = json.loads((tmp_path / "fill.json").read_text())["labels"]
-    assert label["image"]["use"] in ("used", "no_help") and label["image"]["planes_left_out"] > 0
+    assert label["image"]["verdict"] in ("used", "no_help") and label["image"]["planes_left_out"] > 0
     assert "label 5: " in text and "image" in text
 
 

@@ -210,8 +210,8 @@ TEST(FillLabels, AnImageShowsHowTheSurfaceRunsBetweenTheSlices) {
     const Image sparse = sparse_of(full, [](const Index3& at) { return at.k % 6 == 4; });
     const FillOptions options{.use_image = UseImage::automatic};
     const Filling without = fill_labels(sparse, options), with = fill_labels(sparse, &picture, options);
-    EXPECT_EQ(without.report.labels[0].image.use, ImageUse::none);
-    EXPECT_EQ(with.report.labels[0].image.use, ImageUse::used);
+    EXPECT_EQ(without.report.labels[0].image.verdict, ImageVerdict::none);
+    EXPECT_EQ(with.report.labels[0].image.verdict, ImageVerdict::used);
     EXPECT_GT(dice(with.labels, full, 1, 2), dice(without.labels, full, 1, 2) + 0.02);
     std::size_t changed = 0;
     for (std::size_t n = 0; n < bytes_of_labels(sparse).size(); ++n)

@@ -103,6 +103,8 @@ spacing_mm : float
     Of the lattice; details thinner than it may be missing.
 threads : int
     0: the machine's.
+anchor_mm : array_like, shape (3,)
+    Where one of the lattice's points lies, mm (LPS).
 @progress
 
 Returns
@@ -111,13 +113,12 @@ TriangleMesh
     Closed, with outward normals; cut off where it runs farther from the starts' box than half of its diagonal.
 )",
         [](const ImplicitFunction& function, const std::vector<Vec3>& starts, double spacing_mm, int threads,
-           const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) {
-                return preview_surface(function, starts, {.spacing_mm = spacing_mm, .threads = threads}, p);
-            });
+           const Vec3& anchor_mm, const py::object& progress, const py::object& stop) {
+            const PreviewOptions options{.spacing_mm = spacing_mm, .threads = threads, .anchor_mm = anchor_mm};
+            return run({progress, stop}, [&](const Progress& p) { return preview_surface(function, starts, options, p); });
         },
         py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, py::arg("threads") = 0,
-        py::kw_only(), kProgress, kStop);
+        py::arg("anchor_mm") = Vec3{}, py::kw_only(), kProgress, kStop);
     define(
         m, "slice_contours", R"(The surface where it passes through the slices (constant k) of its mask's grid.
 

@@ -108,7 +108,7 @@ def test_labels_are_filled_by_what_the_image_shows():
     image = kontur.Image(numpy.where(inside, 180, 60).astype("int16"), grid)
     filled, report = kontur.fill_labels(sparse, (1, 1, 1), image=image, use_image="auto", return_report=True)
     alone = kontur.fill_labels(sparse, (1, 1, 1))
-    assert report.labels[0].image.use == "used"
+    assert report.labels[0].image.verdict == "used"
     assert (filled != full).sum() < 0.8 * (alone != full).sum()
     assert (filled[sparse > 0] == 1).all()
 

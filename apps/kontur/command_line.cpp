@@ -420,7 +420,7 @@ void add_open(CLI::App& app, Invocation& invocation) {
     Binder<OpenCommand> bind(app, invocation, "open", "Draw and see the surface follow, in the browser",
                              "kontur open ct.nii.gz contours.json");
     OpenCommand& c = *bind.command;
-    bind.sub->add_option("FILES", c.files, "An image or DICOM folder, contours, a project (.kontur); nothing: a phantom")
+    bind.sub->add_option("FILES", c.files, "An image or DICOM folder, contours, a project (.kontur), or phantom, the example; nothing: choose in the page")
         ->type_name("");
     bind.option("--project", c.project, "FILE",
                 "Project to keep the work in [beside the contours, else in your data folder]");

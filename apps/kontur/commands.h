@@ -158,7 +158,7 @@ void run(const ConvertCommand& command, Console& console);
 
 /// The application in the browser.
 struct OpenCommand {
-    std::vector<std::filesystem::path> files;  ///< an image, contours, a project; none: the phantom
+    std::vector<std::filesystem::path> files;  ///< an image, contours, a project; none: the page chooses
     ImageInput image;                          ///< how to read it; the path comes from `files`
     ReadContoursOptions read;
     std::filesystem::path project;  ///< empty: the one among `files`, beside the contours, or in the user's data folder

@@ -33,11 +33,13 @@ Progress Console::progress() {
 
 void Console::print(std::string_view text) {
     if (quiet_) return;
+    const std::scoped_lock lock(mutex_);
     clear_bar();
     std::fwrite(text.data(), 1, text.size(), stdout);  // flush_stdout() tells whether it arrived
 }
 
 void Console::warn(std::string_view sentence) {
+    const std::scoped_lock lock(mutex_);
     clear_bar();
     print_stderr(fmt::format("kontur: warning: {}\n", sentence));
 }
@@ -48,6 +50,7 @@ void Console::warn_once(std::string_view sentence) {
 
 void Console::note(std::span<const std::string> sentences) {
     if (quiet_) return;
+    const std::scoped_lock lock(mutex_);
     clear_bar();
     for (const std::string& sentence : sentences) print_stderr(fmt::format("kontur: note: {}\n", sentence));
 }
@@ -59,6 +62,7 @@ ReadImageOptions Console::noting(ReadImageOptions options) {
 }
 
 void Console::draw(std::string_view stage, double fraction) {
+    const std::scoped_lock lock(mutex_);
     constexpr int kCells = 30;
     const double done = std::clamp(fraction, 0.0, 1.0);
     const int filled = static_cast<int>(done * kCells);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <set>
 #include <span>
 #include <stop_token>
@@ -20,7 +21,8 @@ void print_stderr(const std::string& text);
 /// Error(io).
 void flush_stdout();
 
-/// What a command says to the person at the terminal: results on stdout, warnings and a progress bar on stderr.
+/// What a command says to the person at the terminal: results on stdout, warnings and a progress bar on stderr. Safe for
+/// concurrent use.
 class Console {
 public:
     /// `quiet`: no progress and no results, warnings only.
@@ -54,7 +56,8 @@ private:
     bool has_bar_;
     std::stop_token stop_;
     std::set<std::string, std::less<>> warned_;
-    std::string bar_;  ///< what stands on the terminal's last line; empty: nothing
+    std::mutex mutex_;  ///< of the terminal
+    std::string bar_;   ///< what stands on the terminal's last line; empty: nothing
 };
 
 }  // namespace kontur::app

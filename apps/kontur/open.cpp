@@ -5,161 +5,35 @@
 #include <unistd.h>
 
 #include <fcntl.h>
-#include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <iterator>
+#include <exception>
 #include <memory>
-#include <optional>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 
 #include "child_process.h"
 #include "commands.h"
-#include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/atomic_file.h"
-#include "kontur/io/dicom_seg.h"
-#include "viewer/image_identity.h"
-#include "viewer/import_doubts.h"
+#include "open_project.h"
 #include "viewer/page.h"
 #include "viewer/server.h"
-#include "viewer/session.h"
 #include "viewer/temporary_files.h"
+#include "viewer/workspace.h"
 
 namespace kontur::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPhantom = "phantom";
-constexpr const char* kPhantomScan = "abdomen";
-constexpr const char* kProjectExtension = ".kontur";
+/// Whoever waits longer than this for an image gets the address first, and sees there how far it is.
+constexpr std::chrono::milliseconds kSilence(700);
 
-/// The command's words by what they name.
-struct Words {
-    fs::path image, contours, project;
-};
-
-Words sorted(const std::vector<fs::path>& files) {
-    Words words;
-    const auto put = [](fs::path& place, const fs::path& file, const char* what) {
-        if (!place.empty())
-            throw Error(ErrorKind::invalid_input, fmt::format("{} and {} are both {}; one at a time can be opened",
-                                                              place.string(), file.string(), what));
-        place = file;
-    };
-    for (const fs::path& file : files) {
-        std::error_code ignored;
-        if (!fs::exists(file, ignored))
-            throw Error(ErrorKind::io, fmt::format("cannot read {}: it does not exist", file.string()));
-        if (has_extension(file, kProjectExtension)) put(words.project, file, "projects");
-        else if (input_kind(file) == FileKind::contours) put(words.contours, file, "contours");
-        else put(words.image, file, "images");
-    }
-    return words;
-}
-
-void check_one_project(const OpenCommand& command, const Words& words) {
-    std::error_code ignored;
-    if (command.project.empty() || words.project.empty() || fs::equivalent(command.project, words.project, ignored)) return;
-    throw Error(ErrorKind::invalid_input, fmt::format("{} and --project {} are two projects; one at a time can be opened",
-                                                      words.project.string(), command.project.string()));
-}
-
-Image phantom_image(const Progress& progress) {
-    const std::vector<PhantomVolume> scans = phantom_volumes();
-    const auto scan =
-        std::find_if(scans.begin(), scans.end(), [](const PhantomVolume& v) { return v.name == kPhantomScan; });
-    return make_phantom_image(scan->grid, {}, progress);
-}
-
-/// Whose image it is, and what files that are made of it refer to.
-void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
-    opened.frame_of_reference_uid = frame_of_reference_of(input);
-    if (!looks_like_dicom(input.path) || is_dicom_seg(input.path)) return;
-    opened.series = read_dicom_grid(input.path, input.options.dicom).series;
-    opened.identity = dicom_identity(opened.series->files.front());
-    const auto& [patient, description] = std::pair(opened.identity.patient_name, opened.identity.series_description);
-    if (!description.empty()) opened.title = description;
-    if (!patient.empty()) opened.title = patient + ", " + opened.title;
-}
-
-viewer::OpenedImage open_image(const ImageInput& input, Console& console) {
-    viewer::OpenedImage opened;
-    if (input.path == kPhantom) {
-        opened.image = std::make_shared<const Image>(phantom_image(console.progress()));
-        opened.title = "Phantom: upper abdomen";
-        opened.reference.path = kPhantom;
-    } else {
-        ReadImageOptions options = input.options;
-        std::vector<std::string> warnings;
-        options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
-        options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
-        opened.image = std::make_shared<const Image>(read_image(input.path, options, console.progress()));
-        console.note(opened.notes);
-        for (const std::string& warning : warnings) console.warn(warning);
-        std::move(warnings.begin(), warnings.end(), std::back_inserter(opened.notes));
-        opened.title = fs::absolute(input.path).lexically_normal().filename().string();
-        opened.reference.path = fs::absolute(input.path).lexically_normal().string();
-        tell_series(input, opened);
-    }
-    opened.reference.fingerprint = viewer::fingerprint(*opened.image);
-    return opened;
-}
-
-/// Where the user's programs keep what he did not place himself (the XDG base directory specification).
-fs::path data_folder() {
-    const char* xdg = std::getenv("XDG_DATA_HOME");
-    const char* home = std::getenv("HOME");
-    const bool has_xdg = xdg && fs::path(xdg).is_absolute();
-    if (!has_xdg && !(home && fs::path(home).is_absolute()))
-        throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
-    fs::path folder = (has_xdg ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        throw Error(ErrorKind::io, fmt::format("cannot make {}: {}; give --project", folder.string(), error.message()));
-    return folder;
-}
-
-std::string bare_name(const fs::path& path) {
-    const std::string name = path.filename().string();
-    for (const char* extension : {".mrk.json", ".nii.gz", ".seg.nrrd"})
-        if (has_extension(path, extension)) return name.substr(0, name.size() - std::string_view(extension).size());
-    return path.stem().string();
-}
-
-fs::path project_path(const OpenCommand& command, const Words& words, const viewer::OpenedImage& image) {
-    if (!command.project.empty()) return command.project;
-    if (!words.project.empty()) return words.project;
-    if (!words.contours.empty()) {
-        const fs::path folder = fs::absolute(words.contours).parent_path();
-        if (access(folder.c_str(), W_OK) == 0) return folder / (bare_name(words.contours) + kProjectExtension);
-    }
-    const std::string& fingerprint = image.reference.fingerprint;
-    const std::string name = bare_name(words.contours.empty() ? fs::path(image.reference.path) : words.contours);
-    return data_folder() / fmt::format("{}-{}{}", name, fingerprint.substr(fingerprint.size() - 8), kProjectExtension);
-}
-
-/// What a new project starts with: the contours of the file, or a structure to draw.
-ReadContours first_contours(const OpenCommand& command, const Words& words, Console& console) {
-    if (words.contours.empty()) return {};
-    ReadContours read = read_contours(words.contours, command.read);
-    check_contours(read.contours);
-    console.note(read.notes);
-    if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);
-    return read;
-}
-
-/// Whoever names image and contours together may have named the wrong ones: said here and on the page.
-void tell_doubts(const ReadContours& first, viewer::OpenedImage& image, Console& console) {
-    for (const std::string& doubt : viewer::import_doubts({first.contours}, first.frame_of_reference_uid, image.image->grid,
-                                                          image.frame_of_reference_uid)) {
-        console.warn("do these contours belong to this image? " + doubt);
-        image.notes.push_back("Do these contours belong to this image? " + doubt);
-    }
-}
+constexpr const char* kChooseInPage = "choose an image or a project in the page; Ctrl+C ends\n";
 
 /// A page that leads to the address, in a folder that nobody else can look into: all users of the machine can read the
 /// words that a program is started with, and these would tell the token.
@@ -207,42 +81,140 @@ std::unique_ptr<viewer::TemporaryFolder> open_browser(const std::string& address
     }
 }
 
+viewer::Workspace::Services services(const Words& words) {
+    std::vector<viewer::Place> places = viewer::usual_places();
+    std::error_code ignored;
+    if (fs::is_directory(words.image, ignored)) places.insert(places.begin(), {words.title(), fs::absolute(words.image)});
+    return {[](const viewer::OpenRequest& request, const Progress& progress) { return open_project(request, progress); },
+            viewer::Places(places), recent_projects_file()};
+}
+
+/// The command's own image, read in the background of the workspace, which must not outlive it.
+class FirstImage {
+public:
+    FirstImage(const OpenCommand& command, Words words, Console& console)
+        : command_(command), words_(std::move(words)), console_(console) {}
+
+    void begin(viewer::Workspace& workspace) {
+        workspace_ = &workspace;
+        workspace.begin(
+            words_.title(), [this](const Progress& pages) { return read(pages); },
+            [this](const std::exception_ptr& failure) { end(failure); });
+    }
+
+    void wait_for(std::chrono::milliseconds time) {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, time, [&] { return has_ended_; });
+    }
+
+    /// Throws why it could not be opened.
+    void check() const {
+        const std::scoped_lock lock(mutex_);
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+    /// From now on the project's place is told when it is known, and the server ends when there will be none. nullptr: no
+    /// longer.
+    void serve(viewer::Server* server) {
+        const std::scoped_lock lock(mutex_);
+        server_ = server;
+        if (has_ended_) tell_end();
+    }
+
+private:
+    std::shared_ptr<viewer::Session> read(const Progress& pages) {
+        const Progress terminal = console_.progress();
+        const std::stop_callback stop(terminal.stop, [this] { workspace_->cancel(); });
+        const auto tell = [&](std::string_view stage, double fraction) {
+            if (terminal.callback) terminal.callback(stage, fraction);
+            if (pages.callback) pages.callback(stage, fraction);
+        };
+        Opened opened = open_project(command_, words_, Progress{tell, pages.stop});
+        console_.note(opened.notes);
+        for (const std::string& warning : opened.warnings) console_.warn(warning);
+        project_ = opened.session->project_path();
+        return opened.session;
+    }
+
+    void end(const std::exception_ptr& failure) {
+        const bool is_left_open = failure && leaves_a_choice(failure);
+        {
+            const std::scoped_lock lock(mutex_);
+            has_ended_ = true;
+            is_left_open_ = is_left_open;
+            if (!is_left_open) failure_ = failure;
+            if (server_) tell_end();
+        }
+        changed_.notify_all();
+    }
+
+    /// A folder that holds no volume, or several: the page then shows what there is to choose.
+    bool leaves_a_choice(const std::exception_ptr& failure) {
+        std::error_code ignored;
+        const DicomSeriesOptions& dicom = command_.image.options.dicom;
+        if (!fs::is_directory(words_.image, ignored) || dicom.series_uid || dicom.volume) return false;
+        try {
+            std::rethrow_exception(failure);
+        } catch (const Error& error) {
+            if (error.kind() != ErrorKind::invalid_input) return false;
+            console_.warn(error.what());
+            workspace_->suggest(fs::absolute(words_.image), error.what());
+            return true;
+        } catch (const std::exception&) {
+            return false;
+        }
+    }
+
+    void tell_end() {
+        if (failure_ && server_) server_->stop_soon();
+        if (is_left_open_) console_.print(kChooseInPage);
+        if (!project_.empty())
+            console_.print(fmt::format("project {}; every edit is saved at once, Ctrl+C ends\n", project_.string()));
+        std::fflush(stdout);
+        project_.clear();
+        is_left_open_ = false;
+    }
+
+    const OpenCommand& command_;
+    const Words words_;
+    Console& console_;
+    viewer::Workspace* workspace_ = nullptr;
+    mutable std::mutex mutex_;  ///< of what follows
+    std::condition_variable changed_;
+    viewer::Server* server_ = nullptr;
+    fs::path project_;
+    std::exception_ptr failure_;
+    bool has_ended_ = false, is_left_open_ = false;
+};
+
 }  // namespace
 
 void run(const OpenCommand& command, Console& console) {
     const Progress progress = console.progress();
     viewer::remove_left_folders();
-    const Words words = sorted(command.files);
-    check_one_project(command, words);
-    ImageInput input = command.image;
-    input.path = words.image;
-    if (input.path.empty() && !words.project.empty()) input.path = viewer::image_of_project(words.project).path;
-    if (input.path.empty()) input.path = kPhantom;
-
-    viewer::OpenedImage image = open_image(input, console);
-    const fs::path project = project_path(command, words, image);
-    // Read before there is a project for them: a file that cannot be read leaves none.
-    std::optional<ReadContours> first;
-    if (!fs::exists(project)) first = first_contours(command, words, console);
-    if (first) tell_doubts(*first, image, console);
-    viewer::Session session(std::move(image), project);
-    if (session.is_new()) {
-        session.begin_with(first ? first->contours : first_contours(command, words, console).contours);
-    } else if (!words.contours.empty()) {
-        console.warn(fmt::format("{} holds the work on these contours from before; they were not read again",
-                                 session.project_path().string()));
+    const Words words = sorted_words(command);
+    FirstImage first(command, words, console);
+    viewer::Workspace workspace(services(words));
+    const bool is_named = !words.is_empty();
+    if (is_named) {
+        first.begin(workspace);
+        first.wait_for(kSilence);
+        first.check();
     }
 
     if (!viewer::has_page())
         console.warn(
             "this kontur was built without its page, because Node.js or npm was missing: there is nothing to draw on");
-    viewer::Server server(session, command.server);
-    console.print(
-        fmt::format("{}\nproject {}; every edit is saved at once, Ctrl+C ends\n", server.address(), project.string()));
+    viewer::Server server(workspace, command.server);
+    console.print(server.address() + "\n" + (is_named ? "" : kChooseInPage));
     flush_stdout();  // who does not learn the address cannot use it
+    first.serve(&server);
     const auto way_in = command.no_browser ? nullptr : open_browser(server.address(), console);
     const std::stop_callback stop(progress.stop, [&] { server.stop(); });
     server.run();
+    first.serve(nullptr);
+    workspace.cancel();
+    first.check();
 }
 
 }  // namespace kontur::app

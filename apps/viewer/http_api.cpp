@@ -14,6 +14,7 @@
 #include "kontur/base/error.h"
 #include "viewer/model_json.h"
 #include "viewer/page.h"
+#include "viewer/start_api.h"
 
 namespace kontur::viewer {
 namespace {
@@ -153,7 +154,7 @@ HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const
             if (const auto newest = newest_slice_.find(view); newest != newest_slice_.end() && newest->second > ticket)
                 throw Error(ErrorKind::cancelled, "a later slice of this view was asked for");
         }
-        return binary(session_.slice(request.body));
+        return binary(workspace_.session(request.opening)->slice(request.body));
     });
 }
 
@@ -171,21 +172,26 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     if (get && below("/api/mesh/")) {
         const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
         if (!id) return not_found();
-        return binary(session_.mesh(*id));
+        return binary(workspace_.session(request.opening)->mesh(*id));
     }
-    if (get && target.path == "/api/statistics") return {200, "application/json", session_.statistics(stop), {}};
-    if (get && below("/api/export/")) return exported(target, stop);
+    if (get && target.path == "/api/statistics")
+        return {200, "application/json", workspace_.session(request.opening)->statistics(stop), {}};
+    if (get && below("/api/export/")) return exported(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
+    if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
+        return {200, std::move(reply->content_type), std::move(reply->body), {}};
     return not_found();
 }
 
-HttpReply HttpApi::exported(const Target& target, const std::stop_token& stop) {
+HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& stop) {
+    const Target& target = request.target;
     std::optional<Id> structure;
     if (const auto text = target.parameter("structure")) {
         structure = whole_number(*text);
         if (!structure) throw Error(ErrorKind::invalid_input, "'structure' is not a whole number");
     }
-    Download download = session_.exported(target.path.substr(std::string_view("/api/export/").size()), structure, stop);
+    const std::string name = target.path.substr(std::string_view("/api/export/").size());
+    Download download = workspace_.session(request.opening)->exported(name, structure, stop);
     return {200,
             download.content_type,
             std::move(download.bytes),
@@ -206,7 +212,7 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
         return not_found();
     }
     upload.anyway = target.parameter("anyway").has_value();
-    const ImportReply reply = session_.import(request.body, upload, stop);
+    const ImportReply reply = workspace_.session(request.opening)->import(request.body, upload, stop);
     return {200, "application/json", to_text({{"structures", reply.structures}, {"doubts", reply.doubts}}), {}};
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@
 #include <vector>
 
 #include "viewer/access.h"
-#include "viewer/session.h"
+#include "viewer/workspace.h"
 
 namespace kontur::viewer {
 
@@ -21,6 +22,7 @@ struct HttpRequest {
     std::string method;
     Target target;
     std::string body;
+    std::optional<std::string> opening{};  ///< which session the page was greeted by, if it says so
 };
 
 struct HttpReply {
@@ -33,7 +35,7 @@ struct HttpReply {
 /// HTTP requests, already admitted by `refusal`, to replies. Safe for concurrent use; never throws.
 class HttpApi {
 public:
-    explicit HttpApi(Session& session) : session_(session) {}
+    explicit HttpApi(Workspace& workspace) : workspace_(workspace) {}
 
     /// Largest body in bytes of a request to this path.
     static std::uint64_t body_limit(std::string_view path);
@@ -51,10 +53,10 @@ private:
     static View view_of(const std::string& slice);
 
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
-    HttpReply exported(const Target& target, const std::stop_token& stop);
+    HttpReply exported(const HttpRequest& request, const std::stop_token& stop);
     HttpReply import(const HttpRequest& request, const std::stop_token& stop);
 
-    Session& session_;
+    Workspace& workspace_;
     std::mutex mutex_;
     std::map<View, std::uint64_t> newest_slice_;
     std::uint64_t next_ticket_ = 0;

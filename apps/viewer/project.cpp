@@ -27,6 +27,28 @@ constexpr const char* kSchema =
 Structure row_from(const json& value, const Structure*) { return structure_from_json(value); }
 DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value, kStoredLimits); }
 
+json to_json(const ImageChoice& choice) {
+    json object = json::object();
+    if (choice.series_uid) object["series"] = *choice.series_uid;
+    if (choice.volume) object["volume"] = *choice.volume;
+    if (choice.frame) object["frame"] = *choice.frame;
+    return object;
+}
+
+/// Projects of before have none.
+ImageChoice choice_from(const std::string& text) {
+    constexpr std::size_t kLongestUid = 64;
+    constexpr std::int64_t kMost = 1'000'000;
+    ImageChoice choice;
+    if (text.empty()) return choice;
+    const json object = parsed(text);
+    const Members m(object);
+    if (m.has("series")) choice.series_uid = m.text("series", kLongestUid);
+    if (m.has("volume")) choice.volume = static_cast<int>(m.integer("volume", 1, kMost));
+    if (m.has("frame")) choice.frame = m.integer("frame", 0, kMost);
+    return choice;
+}
+
 template <class Row>
 json to_json(const std::vector<Change<Row>>& changes) {
     json array = json::array();
@@ -144,7 +166,7 @@ void Project::create(const ImageReference& image) {
 
 void Project::load() {
     reading(database_, [&] {
-        image_ = {setting("image_path"), setting("image_fingerprint")};
+        image_ = {setting("image_path"), setting("image_fingerprint"), choice_from(setting("image_choice"))};
         const json numbers{{"position", parsed(setting("position"))}, {"next_id", parsed(setting("next_id"))}};
         position_ = Members(numbers).integer("position", 0, kLargestId - 1);
         next_id_ = Members(numbers).id("next_id");
@@ -173,6 +195,7 @@ void Project::save_setting(std::string_view key, std::string_view value) {
 void Project::write_image(const ImageReference& image) {
     save_setting("image_path", image.path);
     save_setting("image_fingerprint", image.fingerprint);
+    save_setting("image_choice", to_text(to_json(image.choice)));
 }
 
 void Project::save_image(const ImageReference& image) {

@@ -28,10 +28,20 @@ struct Commit {
     bool is_empty() const { return structures.empty() && contours.empty(); }
 };
 
+/// Which of the volumes of a path; nothing where there is only one.
+struct ImageChoice {
+    std::optional<std::string> series_uid{};
+    std::optional<int> volume{};          ///< of the series, from 1
+    std::optional<std::int64_t> frame{};  ///< from 0
+
+    friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
+};
+
 /// Which image a project belongs to.
 struct ImageReference {
     std::string path;         ///< where it was, or "phantom"
     std::string fingerprint;  ///< of its geometry and voxels
+    ImageChoice choice{};
 };
 
 /// A project file: the present state, every step that led there and every step that was undone, and the image's name. What

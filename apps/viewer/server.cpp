@@ -61,10 +61,16 @@ class Connection;
 
 /// What all connections share.
 struct ServerCore {
-    ServerCore(Session& its_session, const ServerOptions& its_options)
-        : session(its_session), api(its_session), options(its_options), last_use(Clock::now()), acceptor(io), clock(io) {}
+    ServerCore(Workspace& its_workspace, const ServerOptions& its_options)
+        : workspace(its_workspace),
+          api(its_workspace),
+          options(its_options),
+          last_use(Clock::now()),
+          acceptor(io),
+          clock(io),
+          last_words(io) {}
 
-    Session& session;
+    Workspace& workspace;
     HttpApi api;
     ServerOptions options;
     Access access;
@@ -76,7 +82,7 @@ struct ServerCore {
     std::stop_source ending;  ///< of all that is worked on
     asio::io_context io{1};   ///< destroyed before what the connections refer to in their destructors
     tcp::acceptor acceptor;
-    asio::steady_timer clock;
+    asio::steady_timer clock, last_words;
     asio::thread_pool calls{1};        ///< messages of the pages, in order
     asio::thread_pool work{kWorkers};  ///< slices, meshes, files
 
@@ -140,7 +146,7 @@ private:
             std::shared_ptr<const std::string> greeting;
             std::string problem;
             try {
-                greeting = std::make_shared<const std::string>(core.session.greeting());
+                greeting = std::make_shared<const std::string>(core.workspace.greeting(self->id_));
             } catch (const std::exception& error) {
                 problem = error.what();
             }
@@ -175,7 +181,7 @@ private:
         if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
         asio::post(core_.calls, [self = shared_from_this(), message = beast::buffers_to_string(buffer_.data())]() mutable {
             ServerCore& core = self->core_;
-            auto reply = std::make_shared<const std::string>(core.session.call(message, self->id_));
+            auto reply = std::make_shared<const std::string>(core.workspace.call(message, self->id_));
             asio::post(core.io, [self = std::move(self), reply] {
                 self->send(reply);
                 self->read();
@@ -220,7 +226,7 @@ private:
     /// After what it has asked for so far.
     void leave() {
         if (core_.sockets.erase(this) == 0) return;
-        asio::post(core_.calls, [&core = core_, id = id_] { core.session.left(id); });
+        asio::post(core_.calls, [&core = core_, id = id_] { core.workspace.left(id); });
     }
 
     ServerCore& core_;
@@ -310,6 +316,8 @@ private:
             return finish_with(error_reply(refused->status, refused->kind, refused->message));
         is_known_ = is_known_ || shows_token(head, core_.access);
         host_ = head.host.front();
+        opening_.reset();
+        if (const auto named = request.find("Kontur-Opening"); named != request.end()) opening_ = text(named->value());
         if (!head.target) return finish_with(error_reply(400, "invalid_input", "the address is malformed"));
         target_ = *head.target;
         const bool is_socket = target_.path == kSocket;
@@ -345,7 +353,7 @@ private:
     void work() {
         Request request = parser_->release();
         keep_alive_ = request.keep_alive();
-        auto make = core_.api.prepare({text(request.method_string()), target_, std::move(request.body())});
+        auto make = core_.api.prepare({text(request.method_string()), target_, std::move(request.body()), opening_});
         stop_ = std::stop_source();
         watch();
         asio::post(core_.work, [self = shared_from_this(), make = std::move(make), stop = stop_]() mutable {
@@ -429,6 +437,7 @@ private:
     std::stop_source stop_{std::nostopstate};  ///< of what is worked on
     std::string host_ = "127.0.0.1";
     Target target_;  ///< of the request
+    std::optional<std::string> opening_;
     bool keep_alive_ = false;
     std::size_t drained_ = 0;
 };
@@ -483,7 +492,8 @@ void ServerCore::stop() {
     io.stop();
 }
 
-Server::Server(Session& session, const ServerOptions& options) : core_(std::make_unique<ServerCore>(session, options)) {
+Server::Server(Workspace& workspace, const ServerOptions& options)
+    : core_(std::make_unique<ServerCore>(workspace, options)) {
     core_->access.token = options.token.empty() ? random_token() : options.token;
     const tcp::endpoint endpoint(asio::ip::address_v4::loopback(), options.port);
     beast::error_code error;
@@ -494,11 +504,11 @@ Server::Server(Session& session, const ServerOptions& options) : core_(std::make
     if (error) throw Error(ErrorKind::io, fmt::format("cannot listen on 127.0.0.1:{}: {}", options.port, error.message()));
     keep_to_this_process(core_->acceptor.native_handle());
     core_->access.port = core_->acceptor.local_endpoint().port();
-    session.on_event([core = core_.get()](const std::string& message) { core->broadcast(message); });
+    workspace.on_event([core = core_.get()](const std::string& message) { core->broadcast(message); });
 }
 
 Server::~Server() {
-    core_->session.on_event({});
+    core_->workspace.on_event({});
     core_->ending.request_stop();
     for (asio::thread_pool* pool : {&core_->calls, &core_->work}) {
         pool->stop();  // what waits is dropped, what runs is finished
@@ -514,6 +524,13 @@ void Server::run() {
     core_->accept();
     core_->tick();
     core_->io.run();
+}
+
+void Server::stop_soon() {
+    asio::post(core_->io, [core = core_.get()] {
+        core->last_words.expires_after(std::chrono::seconds(1));
+        core->last_words.async_wait([core](beast::error_code) { core->stop(); });
+    });
 }
 
 void Server::stop() {

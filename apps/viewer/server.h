@@ -5,7 +5,7 @@
 #include <string>
 
 #include "viewer/server_options.h"
-#include "viewer/session.h"
+#include "viewer/workspace.h"
 
 namespace kontur::viewer {
 
@@ -16,7 +16,7 @@ struct ServerCore;
 class Server {
 public:
     /// Binds the port. Throws Error(io) when it is taken.
-    Server(Session& session, const ServerOptions& options);
+    Server(Workspace& workspace, const ServerOptions& options);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
@@ -28,6 +28,8 @@ public:
     void run();
     /// From any thread.
     void stop();
+    /// The same in a second, so that pages still get what they were told.
+    void stop_soon();
 
 private:
     std::unique_ptr<ServerCore> core_;

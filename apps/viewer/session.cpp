@@ -201,11 +201,17 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
     if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
-    if (project_.image().path != opened.reference.path) project_.save_image(opened.reference);
+    if (project_.image().path != opened.reference.path || project_.image().choice != opened.reference.choice)
+        project_.save_image(opened.reference);
     for (const auto& [id, structure] : project_.state().structures) surfaces_.follow_later(surface_task(id));
 }
 
 Session::~Session() = default;
+
+std::string Session::image_path() const {
+    const std::scoped_lock lock(mutex_);
+    return project_.image().path;
+}
 
 State Session::state() const {
     const std::scoped_lock lock(mutex_);
@@ -231,7 +237,7 @@ void Session::notice(std::string_view level, const std::string& text) {
     if (listener_) listener_(notice_event(level, text));
 }
 
-std::string Session::greeting() {
+std::string Session::greeting(const json& more) {
     const std::scoped_lock lock(mutex_);
     json structures = json::array(), contours = json::array(), surfaces = json::array(), presets = json::array();
     Told told;
@@ -242,29 +248,31 @@ std::string Session::greeting() {
     for (const WindowPreset& preset : presets_)
         presets.push_back({{"name", preset.name}, {"center", preset.window.center}, {"width", preset.window.width}});
     const Grid& grid = image_->grid;
-    return to_text({{"event", "session"},
-                    {"version", KONTUR_VERSION},
-                    {"title", title_},
-                    {"project", project_.path().filename().string()},
-                    {"image",
-                     {{"size", {grid.size.i, grid.size.j, grid.size.k}},
-                      {"spacing_mm", to_json(grid.spacing_mm())},
-                      {"corners", corners_json(grid)},
-                      {"center", to_json(grid.bounds_mm().center())},
-                      {"unit", unit()},
-                      {"range", {range_.first, range_.second}},
-                      {"notes", notes_}}},
-                    {"identity", identity_json(identity_)},
-                    {"has_dicom", series_.has_value()},
-                    {"window", {{"center", window_.center}, {"width", window_.width}}},
-                    {"presets", presets},
-                    {"views", views_json(grid)},
-                    {"structures", structures},
-                    {"contours", contours},
-                    {"surfaces", surfaces},
-                    {"history", history()},
-                    {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
-                    {"page", page_state()}});
+    json event{{"event", "session"},
+               {"version", KONTUR_VERSION},
+               {"title", title_},
+               {"project", project_.path().filename().string()},
+               {"image",
+                {{"size", {grid.size.i, grid.size.j, grid.size.k}},
+                 {"spacing_mm", to_json(grid.spacing_mm())},
+                 {"corners", corners_json(grid)},
+                 {"center", to_json(grid.bounds_mm().center())},
+                 {"unit", unit()},
+                 {"range", {range_.first, range_.second}},
+                 {"notes", notes_}}},
+               {"identity", identity_json(identity_)},
+               {"has_dicom", series_.has_value()},
+               {"window", {{"center", window_.center}, {"width", window_.width}}},
+               {"presets", presets},
+               {"views", views_json(grid)},
+               {"structures", structures},
+               {"contours", contours},
+               {"surfaces", surfaces},
+               {"history", history()},
+               {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
+               {"page", page_state()}};
+    event.update(more);
+    return to_text(event);
 }
 
 std::string Session::unit() const {
@@ -469,12 +477,29 @@ json Session::copy_contour(const Members& m) {
     return put("Copy a contour", std::move(copy), m);
 }
 
+/// One contour, or several as one step.
 json Session::set_contour(const Members& m) {
+    if (m.has("ids")) return set_contours(m);
     DrawnContour contour = contour_of(project_.state(), m.id("id"));
     if (m.has("structure")) contour.structure = structure_of(project_.state(), m.id("structure")).id;
     contour.hole = m.flag_or("hole", contour.hole);
     contour.visible = m.flag_or("visible", contour.visible);
     return put(m.has("visible") ? "Show or hide a contour" : "Change a contour", std::move(contour), m);
+}
+
+json Session::set_contours(const Members& m) {
+    Commit changed;
+    for (const Id id : ids_from(m)) {
+        const DrawnContour& before = contour_of(project_.state(), id);
+        DrawnContour after = before;
+        if (m.has("structure")) after.structure = structure_of(project_.state(), m.id("structure")).id;
+        after.hole = m.flag_or("hole", before.hole);
+        after.visible = m.flag_or("visible", before.visible);
+        changed.contours.push_back({id, before, std::move(after)});
+    }
+    changed.label = fmt::format("{} {} contours", m.has("visible") ? "Show or hide" : "Change", changed.contours.size());
+    commit(changed);
+    return json::object();
 }
 
 json Session::remove_contours(const Members& m) {

@@ -69,7 +69,8 @@ public:
     void on_event(std::function<void(const std::string& message)> listener);
 
     /// The `session` event for a page that has just come.
-    std::string greeting();
+    /// With further members of whoever serves it.
+    std::string greeting(const nlohmann::json& more = nlohmann::json::object());
     /// Carries out one message of a page and returns the reply. Never throws.
     std::string call(std::string_view message, PageId page = 0);
     /// The page is closed: what it drafted is dropped. Never throws.
@@ -92,6 +93,9 @@ public:
     /// Whether the project was empty when it was opened, its history too.
     bool is_new() const { return project_.is_new(); }
     const std::filesystem::path& project_path() const { return project_.path(); }
+    const std::string& title() const { return title_; }
+    /// Where the image was, or "phantom".
+    std::string image_path() const;
 
     /// Something that the user should know.
     void notice(std::string_view level, const std::string& text);
@@ -125,6 +129,7 @@ private:
     nlohmann::json translate_contour(const Members& m);
     nlohmann::json copy_contour(const Members& m);
     nlohmann::json set_contour(const Members& m);
+    nlohmann::json set_contours(const Members& m);
     nlohmann::json remove_contours(const Members& m);
     nlohmann::json add_structure(const Members& m);
     nlohmann::json set_structure(const Members& m);

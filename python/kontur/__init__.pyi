@@ -1214,6 +1214,8 @@ def read_dicom_series(
     max_voxels: int = 2200000000,
 ) -> DicomVolume: ...
 
+def read_dicom_slice(path: _Path, frame: int = 1) -> Image: ...
+
 def read_grid(
     path: _Path,
     *,

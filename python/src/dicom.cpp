@@ -155,6 +155,22 @@ void bind_dicom(py::module_& m) {
     define(
         m, "list_dicom_series", "The volumes in a folder, from the headers: list of DicomSeries.",
         [](const fs::path& folder) { return unlocked([&] { return list_dicom_series(folder); }); }, py::arg("folder"));
+    define(
+        m, "read_dicom_slice", R"(Reads one slice alone, as an image one voxel deep: for previews.
+
+Parameters
+----------
+path : path
+frame : int
+    Which slice of a multi-frame file, from 1.
+
+Returns
+-------
+Image
+    As thick as the file says, or 1 mm.
+)",
+        [](const fs::path& path, std::int64_t frame) { return unlocked([&] { return read_dicom_slice(path, frame); }); },
+        py::arg("path"), py::arg("frame") = 1);
     const auto keywords = series_keywords();
     define(
         m, "read_dicom_series",

@@ -80,6 +80,10 @@ def test_a_dicom_series(tmp_path):
     assert volume.image.grid == kontur.read_dicom_grid(tmp_path).grid == grid
     assert volume.image.samples[:, 0, 0].tolist() == [-1024, -1023, -1022, -1021, -1020]
     assert numpy.array_equal(kontur.read_image(tmp_path).samples, volume.image.samples)
+    one = kontur.read_dicom_slice(series.files[2])
+    assert one.grid.size == (4, 3, 1) and numpy.array_equal(one.samples[0], volume.image.samples[2])
+    with pytest.raises(kontur.InvalidInputError, match="has no frame 2; it has 1 to 1"):
+        kontur.read_dicom_slice(series.files[2], frame=2)
     with pytest.raises(kontur.InvalidInputError):
         kontur.read_image(tmp_path, series_uid="9.9")
 

@@ -20,7 +20,7 @@ FUZZ = int(os.environ.get("KONTUR_FUZZ_ROUNDS", "300"))  # random paths, and as 
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
-    with running(tmp_path_factory.mktemp("hostile")) as one:
+    with running(tmp_path_factory.mktemp("hostile"), "phantom") as one:
         yield one
         assert one.page().do("ping") == {}
 
@@ -56,6 +56,11 @@ def upgrade(server, origin="own", protocol="own", host=None, target="/api/socket
 
 
 BODY = b'{"plane": 1}'
+
+
+def post(server, target, body, **more):
+    return head(server, "POST", target, origin=f"http://{server.host}", extra=f"Content-Length: {len(body)}\r\n", **more) + body
+
 
 # name, bytes to send, statuses that are right
 REQUESTS = [
@@ -104,6 +109,19 @@ REQUESTS = [
     ("an encoded file of the system", lambda s: head(s, target="/%2e%2e/%2e%2e/etc/passwd"), {404}),
     ("an export beside the list", lambda s: head(s, target="/api/export/..%2f..%2fetc%2fpasswd?structure=1"), {415}),
     ("broken percent code", lambda s: head(s, target="/%zz"), {400}),
+    ("a folder of the system", lambda s: head(s, target="/api/folder?path=/etc"), {400}),
+    ("a folder by dots", lambda s: head(s, target="/api/folder?path=" + os.path.expanduser("~") + "/../../etc"), {400}),
+    ("a folder without token", lambda s: head(s, target="/api/folder?path=/", token=False), {401}),
+    ("a hidden folder", lambda s: head(s, target="/api/folder?path=" + os.path.expanduser("~") + "/.ssh"), {400}),
+    ("no folder", lambda s: head(s, target="/api/folder"), {400}),
+    ("series of the system", lambda s: head(s, target="/api/series?path=/proc"), {400}),
+    ("a thumbnail of the system", lambda s: head(s, target="/api/thumbnail?file=/dev/zero"), {400}),
+    ("opening a device", lambda s: post(s, "/api/open", b'{"path": "/dev/zero"}'), {400}),
+    ("opening without token", lambda s: post(s, "/api/open", b'{"path": "phantom"}', token=False), {401}),
+    ("opening from another page", lambda s: head(s, "POST", "/api/open", origin="http://attacker.example"), {403}),
+    ("closing without origin", lambda s: head(s, "POST", "/api/close"), {403}),
+    ("opening what is no path", lambda s: post(s, "/api/open", b'{"path": ["a"]}'), {400}),
+    ("another session's slice", lambda s: post(s, "/api/slice", json.dumps(SLICE).encode()).replace(b"Content-Length", b"Kontur-Opening: 7\r\nContent-Length", 1), {400}),
     ("DELETE", lambda s: head(s, "DELETE"), {405}),
     ("preflight", lambda s: head(s, "OPTIONS", origin="http://attacker.example"), {403}),
     ("CONNECT", lambda s: head(s, "CONNECT", target="attacker.example:443"), {405, 400}),
@@ -341,7 +359,7 @@ def test_floods_cost_no_memory(server):
 
 
 def test_an_idle_server_is_small(tmp_path):
-    with running(tmp_path) as one:  # the phantom, which is 60 MiB of it
+    with running(tmp_path, "phantom") as one:  # 60 MiB of it
         page = one.page()
         page.do("ping")
         print(f"\nidle with the phantom: {resident_mib(one):.0f} MiB")

@@ -768,9 +768,19 @@ def test_a_project_refuses_another_image(server, tmp_path):
     server.page().do("structure.add")
     server.stop()
     result = subprocess.run(
-        [KONTUR, "open", "--project", server.project, "--no-browser", "--timeout", "1"], capture_output=True, text=True
+        [KONTUR, "open", "phantom", "--project", server.project, "--no-browser", "--timeout", "1"], capture_output=True, text=True
     )
     assert result.returncode == 65 and "another image" in result.stderr
+
+
+def test_a_project_alone_has_to_be_there(tmp_path, image):
+    words = [KONTUR, "open", "--project", tmp_path / "work.kontur", "--no-browser", "--timeout", "1"]
+    result = subprocess.run(words, capture_output=True, text=True)
+    assert result.returncode == 65 and "is no project yet; name the image" in result.stderr
+    with running(tmp_path, image, "--project", tmp_path / "work.kontur"):
+        pass
+    with running(tmp_path, "--project", tmp_path / "work.kontur") as server:
+        assert server.page().session["title"] == image.name
 
 
 def test_contours_come_with_the_image_and_the_project_lies_beside_them(tmp_path, image, server):

@@ -36,7 +36,8 @@ HttpRequest slice(const std::string& view, const json& page) {
 
 /// Status of the first of two requests that wait together.
 int status_before(Session& session, const HttpRequest& first, const HttpRequest& second) {
-    HttpApi api(session);
+    Workspace workspace(std::shared_ptr<Session>(&session, [](Session*) {}));
+    HttpApi api(workspace);
     const auto answer = api.prepare(first);
     api.prepare(second);
     return answer({}).status;
@@ -102,6 +103,28 @@ TEST(Session, TheHistoryNamesWhatAContourWasMadeOf) {
     const json refusal = called(here.session, circle_to_add(id, "stolen"));
     EXPECT_EQ(refusal["error"]["kind"], "invalid_input");
     EXPECT_EQ(refusal["error"]["message"], "'origin' is stolen; it must be drawn, pulled, adopted or proposed");
+}
+
+TEST(Session, SeveralContoursAreChangedAsOneStep) {
+    SessionHere here;
+    const std::vector<Id> owners = here.session.add_structures("Import", {circles(3, 20), circles(1, 20)});
+    json ids = json::array();
+    for (const auto& [id, contour] : here.session.state().contours) ids.push_back(id);
+    const auto count_of = [&](Id structure) {
+        const State state = here.session.state();
+        return std::ranges::count_if(state.contours, [&](const auto& one) { return one.second->structure == structure; });
+    };
+    const json move{{"call", "contour.set"}, {"ids", ids}, {"structure", owners[1]}};
+    EXPECT_TRUE(called(here.session, move).contains("result"));
+    EXPECT_EQ(count_of(owners[1]), 4);
+    EXPECT_EQ(called(here.session, {{"call", "undo"}})["result"]["label"], "Change 4 contours");
+    EXPECT_EQ(count_of(owners[1]), 1);
+    EXPECT_TRUE(called(here.session, {{"call", "contour.set"}, {"ids", ids}, {"visible", false}}).contains("result"));
+    for (const auto& [id, contour] : here.session.state().contours) EXPECT_FALSE(contour->visible);
+    ids.push_back(1000);
+    const json refused = called(here.session, {{"call", "contour.set"}, {"ids", ids}, {"visible", true}});
+    EXPECT_EQ(refused["error"]["kind"], "invalid_input");
+    for (const auto& [id, contour] : here.session.state().contours) EXPECT_FALSE(contour->visible);
 }
 
 TEST(Session, TheOutlineOnAPlaneThatNoViewShowsIsTold) {

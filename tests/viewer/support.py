@@ -29,11 +29,22 @@ class Server:
             [KONTUR, "open", *map(str, words), "--no-browser", "--token", token, "--timeout", "300"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL, env=environment,
         )
-        self.address = self.process.stdout.readline().strip()
+        self._take(self.process.stdout.readline())
+        self.project = pathlib.Path(self.process.stdout.readline().split(";")[0].removeprefix("project "))
+
+    def _take(self, line):
+        self.address = line.strip()
         assert self.address, self.process.stderr.read()
         self.port = int(self.address.split(":")[2].split("/")[0])
-        self.project = pathlib.Path(self.process.stdout.readline().split(";")[0].removeprefix("project "))
         self.host = f"127.0.0.1:{self.port}"
+
+    @classmethod
+    def of(cls, process, address, token):
+        """One that was started otherwise, and has told its address."""
+        server = cls.__new__(cls)
+        server.process, server.token = process, token
+        server._take(address)
+        return server
 
     def stop(self, how=signal.SIGINT):
         self.process.send_signal(how)
@@ -99,7 +110,11 @@ class Page:
         assert "Sec-WebSocket-Protocol: kontur\r\n" in head
         if not greeted:
             return
-        self.session = self.receive()
+        self.greeting = self.receive()
+        if self.greeting["event"] == "start":
+            self.events = []
+            return
+        self.session = self.greeting
         assert self.session["event"] == "session"
         self.structures = {s["id"]: s for s in self.session["structures"]}
         self.contours = {c["id"]: c for c in self.session["contours"]}

@@ -233,12 +233,29 @@ bool looks_like_dicom(const fs::path& path) {
     return holds_dicom(dicom_files_in(path)) || holds_dicom(dicom_folder(path));
 }
 
-std::vector<DicomSeries> list_dicom_series(const fs::path& folder) {
-    const DicomContent content = read_content(folder, std::nullopt, {});
+std::vector<DicomSeries> list_dicom_series(const fs::path& folder, const Progress& progress) {
+    const DicomContent content = read_content(folder, std::nullopt, progress);
     if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
     std::vector<DicomSeries> result;
     for (const DicomStack& stack : content.stacks) result.push_back(describe(stack));
     return result;
+}
+
+Image read_dicom_slice(const fs::path& file, std::int64_t frame) {
+    auto content = read_dicom_headers(file);
+    if (auto* damaged = std::get_if<DamagedImage>(&content)) throw damaged->error;
+    auto* slices = std::get_if<std::vector<DicomHeader>>(&content);
+    if (!slices) throw Error(ErrorKind::invalid_input, file.string() + " holds no DICOM image");
+    const auto count = static_cast<std::int64_t>(slices->size());
+    if (frame < 1 || frame > count)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("{} has no frame {}; it has 1 to {}", file.string(), frame, count));
+    DicomStack stack;
+    stack.slices.push_back(std::move((*slices)[static_cast<std::size_t>(frame) - 1]));
+    if (!(stack.slices.front().thickness_mm > 0.0)) stack.slices.front().thickness_mm = 1;
+    check_pixel_formats(stack);
+    const Grid grid = stack_grid(stack).grid;
+    return {grid, read_pixels(stack, {})};
 }
 
 DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {

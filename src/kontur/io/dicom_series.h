@@ -56,7 +56,12 @@ bool looks_like_dicom(const std::filesystem::path& path);
 
 /// The volumes in a folder, or, where it holds no images itself, in the folders below it, ordered by series UID; dose grids
 /// are among them. Reads headers only. Damaged images are left out; their error is thrown where there are no others.
-std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder);
+std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder, const Progress& progress = {});
+
+/// One slice alone, as an image one voxel deep: for previews. Where it names no thickness it is 1 mm thick. `frame` counts
+/// from 1. Throws as `read_dicom_series`, and
+/// Error(invalid_input) for a file that holds no image or fewer frames.
+Image read_dicom_slice(const std::filesystem::path& file, std::int64_t frame = 1);
 
 /// Reads one volume. `path` is a folder, or one file, which stands for its own series (and volume) in its folder. Where a
 /// folder holds no images itself, the folders below it are searched (links to folders are not followed). Slices are ordered

@@ -14,7 +14,7 @@ namespace kontur {
 /// and ITK-SNAP do, along L, P and S with its spacing and its origin the first voxel's place. Throws Error(corrupt_file),
 /// Error(unsupported) for complex or rescaled samples, Error(too_large).
 /// Source: the fields of the header as ITK's reader and writer use them (itkGiplImageIO).
-Image read_gipl(const std::filesystem::path& path, const ReadImageOptions& options = {});
+Image read_gipl(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
 
 /// The geometry alone, from the header.
 Grid read_gipl_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});

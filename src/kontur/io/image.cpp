@@ -186,16 +186,16 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Pr
     progress.check();
     switch (readable_format(path)) {
         case Format::nifti:
-            return read_nifti(path, options);
+            return read_nifti(path, options, progress);
         case Format::nrrd:
         case Format::seg_nrrd:
-            return read_nrrd(path, options);
+            return read_nrrd(path, options, progress);
         case Format::metaimage:
-            return read_metaimage(path, options);
+            return read_metaimage(path, options, progress);
         case Format::mgh:
-            return read_mgh(path, options);
+            return read_mgh(path, options, progress);
         case Format::gipl:
-            return read_gipl(path, options);
+            return read_gipl(path, options, progress);
         case Format::dicom_seg:
             return read_segments(path, {}, options, progress);
         default:

@@ -222,8 +222,8 @@ std::string header_text(const ImageView& image, std::size_t compressed_bytes) {
 
 }  // namespace
 
-Image read_metaimage(const fs::path& path, const ReadImageOptions& options) {
-    return read_voxels(open_metaimage(path, options), options);
+Image read_metaimage(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    return read_voxels(open_metaimage(path, options), options, progress);
 }
 
 Grid read_metaimage_grid(const fs::path& path, const ReadImageOptions& options) {

@@ -200,8 +200,8 @@ std::string read_command(InputFile& file) {
 
 }  // namespace
 
-Image read_mgh(const fs::path& path, const ReadImageOptions& options) {
-    return read_voxels(open_mgh(path, options), options);
+Image read_mgh(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    return read_voxels(open_mgh(path, options), options, progress);
 }
 
 Grid read_mgh_grid(const fs::path& path, const ReadImageOptions& options) { return open_mgh(path, options).grid; }

@@ -284,8 +284,8 @@ std::string comment_extension(const Provenance& provenance) {
 
 }  // namespace
 
-Image read_nifti(const fs::path& path, const ReadImageOptions& options) {
-    return read_voxels(open_nifti(path, options), options);
+Image read_nifti(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+    return read_voxels(open_nifti(path, options), options, progress);
 }
 
 Grid read_nifti_grid(const fs::path& path, const ReadImageOptions& options) { return open_nifti(path, options).grid; }

@@ -42,7 +42,7 @@ void note_bytes_left(const OpenImage& image, const ReadImageOptions& options);
 
 /// The component that the options choose, in the narrowest sample type that is exact. Checks the declared size against the
 /// file and against `max_voxels` before it allocates.
-Image read_voxels(OpenImage&& image, const ReadImageOptions& options);
+Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Progress& progress = {});
 
 /// Throws Error(corrupt_file) naming the file for a size below 1, more voxels than 64 bits index, dependent or NaN axes.
 void check_header_grid(const Grid& grid, const std::filesystem::path& path);

@@ -9,6 +9,7 @@ import { Http, ServerError } from "./net/http";
 import { Latest } from "./net/latest";
 import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
 import { Socket, type ConnectionState } from "./net/socket";
+import { StartPage } from "./start/start_page";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
 import type { SavedSketch, Sketch } from "./tools/sketch";
@@ -55,6 +56,7 @@ export class App {
   private readonly notices = new Notices();
   private readonly identity = new IdentityCard();
   private readonly stage = el("main", { class: "stage" });
+  private readonly startPage: StartPage;
   private readonly surface: SurfaceView;
   private readonly toolbar: Toolbar;
   private readonly keyboard: Keyboard;
@@ -74,6 +76,7 @@ export class App {
 
   constructor(private readonly token: string) {
     this.http = new Http(token);
+    this.startPage = new StartPage(this.http);
     this.socket = new Socket(token, {
       event: (event) => this.receive(event),
       connection: (state) => this.connected(state),
@@ -98,6 +101,7 @@ export class App {
       ...shared,
       undo: () => this.undo(),
       redo: () => this.redo(),
+      openAnother: () => void this.openAnother(),
       openExport: () => openExport({ ...shared, hasDicom: () => this.session?.has_dicom ?? false }),
       openImport: () => openImport(this.importServices()),
       openHelp: () => openHelp(this.session?.version ?? ""),
@@ -126,7 +130,7 @@ export class App {
       tell: (text) => void this.notices.show("info", text),
     });
     this.stage.append(...[...this.views.values()].map((view) => view.element), this.surface.element, this.notices.element);
-    document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element);
+    document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element, this.startPage.element);
     this.connectParts();
     this.acceptDrops();
     this.guardClosing();
@@ -190,6 +194,16 @@ export class App {
 
   private receive(event: ServerEvent): void {
     switch (event.event) {
+      case "start":
+        return this.session ? location.reload() : this.startPage.show(event);
+      case "opening":
+        return this.startPage.setOpening(event);
+      case "failed":
+        return this.startPage.failed(event.error);
+      case "opened":
+        return this.socket.reopen();
+      case "closed":
+        return location.reload();
       case "session":
         return this.begin(event);
       case "changed":
@@ -199,6 +213,7 @@ export class App {
       case "outlines":
         return this.showOutlines(event);
       case "status":
+        this.startPage.setWork(event.text, event.fraction);
         return this.status.setWork(event.text, event.fraction);
       case "notice":
         return void this.notices.show(event.level, event.text);
@@ -210,14 +225,18 @@ export class App {
   }
 
   private begin(session: Session): void {
+    // Of another session nothing of this page is right, and nothing of it may be taken for an edit there.
+    if (this.session && this.session.opening !== session.opening && this.session.project !== session.project) return location.reload();
     const isFirst = this.session === null;
+    this.startPage.hide();
+    this.http.opening = session.opening;
     this.session = session;
     const page = session.page as SavedPage | null;
     document.title = `${session.title} · kontur`;
     this.status.start(session.project);
     this.tellSaved();
     this.identity.start(session);
-    this.toolbar.start(session.title, session.presets);
+    this.toolbar.start(session);
     // After a reconnect the user stays where he is.
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
     this.views.forEach((view) => view.forgetOutlines());
@@ -241,6 +260,7 @@ export class App {
     this.saidLost = state === "lost" || (this.saidLost && state !== "open");
     this.connection = state;
     document.body.dataset["connection"] = state;
+    this.startPage.connected(state);
     this.tellSaved();
   }
 
@@ -320,6 +340,19 @@ export class App {
       const { structure } = await this.socket.call<{ structure: { id: number } }>("structure.add");
       this.project.select(null);
       this.project.activate(structure.id);
+    } catch (error) {
+      this.failed(error);
+    }
+  }
+
+  /** The start page, for all pages of this project. Nothing is lost, so what is not saved yet is waited for. */
+  private async openAnother(): Promise<void> {
+    if (this.unsaved > 0 || this.editor.drawing.outbox.hasUnsaved || this.editor.drawing.outbox.isSending)
+      return void this.notices.show("warning", "Not all is saved yet. Save it (Enter), or give it up (Esc), before another image is opened.");
+    if (this.saveTimer) this.savePage();
+    try {
+      await this.socket.call("ping"); // after what was asked before: the page's own state, too
+      await this.http.close();
     } catch (error) {
       this.failed(error);
     }

@@ -17,6 +17,8 @@ export class Project extends Emitter<Topic> {
   readonly surfaces = new Map<number, Surface>();
   history: History = { undo: null, redo: null };
   selection: Selection | null = null;
+  /** Contours that are deleted, moved or hidden together; the selected one is among them. */
+  readonly marked = new Set<number>();
   private draftContour: Contour | null = null;
   private active = 0;
 
@@ -103,10 +105,34 @@ export class Project extends Emitter<Topic> {
   }
 
   select(selection: Selection | null): void {
-    const same = selection?.contour === this.selection?.contour && selection?.point === this.selection?.point;
+    const isMarkedAlone = this.marked.size <= (selection ? 1 : 0);
+    const same = isMarkedAlone && selection?.contour === this.selection?.contour && selection?.point === this.selection?.point;
     if (same) return;
     this.selection = selection;
+    this.marked.clear();
+    if (selection) this.marked.add(selection.contour);
     const structure = selection && this.contours.get(selection.contour)?.structure;
+    if (structure) this.active = structure;
+    this.emit("selection", "structures");
+  }
+
+  /** Adds the contour to those that are marked, or takes it away. */
+  toggleMark(contour: number): void {
+    if (!this.marked.delete(contour)) this.marked.add(contour);
+    this.selectAmongMarked(contour);
+  }
+
+  /** These alone are marked; the last one is selected. */
+  mark(contours: readonly number[]): void {
+    this.marked.clear();
+    for (const contour of contours) this.marked.add(contour);
+    this.selectAmongMarked(contours.at(-1) ?? 0);
+  }
+
+  private selectAmongMarked(preferred: number): void {
+    const contour = this.marked.has(preferred) ? preferred : [...this.marked].at(-1);
+    this.selection = contour === undefined ? null : { contour, point: null };
+    const structure = contour !== undefined && this.contours.get(contour)?.structure;
     if (structure) this.active = structure;
     this.emit("selection", "structures");
   }
@@ -116,8 +142,12 @@ export class Project extends Emitter<Topic> {
   }
 
   private keepReferencesValid(): void {
+    for (const id of [...this.marked]) if (!this.contours.has(id)) this.marked.delete(id);
     const contour = this.selection && this.contours.get(this.selection.contour);
-    if (!contour) this.selection = null;
+    if (!contour) {
+      const other = [...this.marked].at(-1);
+      this.selection = other === undefined ? null : { contour: other, point: null };
+    }
     else if (this.selection?.point != null && this.selection.point >= contour.control.length)
       this.selection = { contour: contour.id, point: null };
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BinaryReply } from "./binary";
-import type { SliceHeader, SliceRequest, Statistics } from "./protocol";
+import type { Folder, OpenRequest, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
@@ -34,7 +34,41 @@ export class Http {
   /** Names this load of the page: a later slice overtakes an earlier one of the same view of the same page only. */
   private readonly page = [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 
+  /** The session that the page shows: requests for another one are refused. */
+  opening: string | null = null;
+
   constructor(private readonly token: string) {}
+
+  async folder(path: string, signal: AbortSignal): Promise<Folder> {
+    return (await (await this.request(`folder?${new URLSearchParams({ path })}`, { signal })).json()) as Folder;
+  }
+
+  /** The volumes of the DICOM files in a folder, or below it. */
+  async volumes(path: string, signal: AbortSignal): Promise<Volume[]> {
+    const reply = await this.request(`series?${new URLSearchParams({ path })}`, { signal });
+    return ((await reply.json()) as { volumes: Volume[] }).volumes;
+  }
+
+  /** A small grey picture of one slice. */
+  async thumbnail(file: string, frame: number, signal: AbortSignal): Promise<BinaryReply<{ width: number; height: number }>> {
+    const reply = await this.request(`thumbnail?${new URLSearchParams({ file, frame: String(frame) })}`, { signal });
+    return new BinaryReply(await reply.arrayBuffer());
+  }
+
+  /** Begins to read; events tell the rest. */
+  async open(request: OpenRequest): Promise<void> {
+    await this.post("open", JSON.stringify(request));
+  }
+
+  /** Gives up what is being read. */
+  async cancelOpening(): Promise<void> {
+    await this.post("cancel", "");
+  }
+
+  /** Goes back to the start page, in all pages. */
+  async close(): Promise<void> {
+    await this.post("close", "");
+  }
 
   async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
     return new BinaryReply(await (await this.post("slice", JSON.stringify({ page: this.page, ...request }))).arrayBuffer());
@@ -71,9 +105,11 @@ export class Http {
   }
 
   private async request(path: string, options: RequestInit = {}): Promise<Response> {
+    const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
+    if (this.opening !== null) headers["Kontur-Opening"] = this.opening;
     let reply: Response;
     try {
-      reply = await fetch(`/api/${path}`, { ...options, headers: { Authorization: `Bearer ${this.token}` } });
+      reply = await fetch(`/api/${path}`, { ...options, headers });
     } catch {
       if (options.signal?.aborted) throw new ServerError("cancelled", "Cancelled.");
       throw new ServerError("io", "kontur does not answer.");

@@ -141,6 +141,8 @@ export interface Session {
   history: History;
   imports: ImportEndings;
   page: unknown;
+  opening: string; // names this session among those that the server has had
+  can_close: boolean; // whether there is a start page to go back to
 }
 
 /** What the names of files end with that can be imported, in small letters. */
@@ -176,7 +178,83 @@ export interface Notice {
   text: string;
 }
 
-export type ServerEvent = Session | Changed | (Surface & { event: "surface" }) | Outlines | Status | Notice;
+/** Nothing is open yet. */
+export interface Start {
+  event: "start";
+  version: string;
+  example: string; // what stands for the built-in image
+  places: Place[];
+  recent: RecentProject[];
+  folder: string; // to begin with, or ""
+  sentence: string; // why the last one could not be opened, or ""
+  opening: OpeningState | null;
+}
+
+export interface Place {
+  name: string;
+  path: string;
+}
+
+export interface RecentProject {
+  path: string;
+  title: string;
+  image: string;
+  time: string;
+}
+
+export interface OpeningState {
+  title: string;
+  stage: string;
+  fraction: number;
+}
+
+export interface Failed {
+  event: "failed";
+  error: { kind: string; message: string };
+}
+
+export interface ListedFile extends Place {
+  kind: "image" | "project";
+  bytes: number;
+  modified: number; // seconds since 1970
+}
+
+export interface Folder extends Place {
+  parent: string | null;
+  folders: Place[];
+  files: ListedFile[];
+  dicom: "here" | "below" | "none";
+  left_out: number;
+}
+
+/** One volume of a DICOM folder. */
+export interface Volume {
+  series: string;
+  volume: number; // of the series, from 1
+  modality: string;
+  description: string;
+  distinction: string;
+  slices: number;
+  columns: number;
+  rows: number;
+  patient_name: string;
+  patient_id: string;
+  study_date: string;
+  study_description: string;
+  series_number: string;
+  picture: { file: string; frame: number };
+}
+
+/** What to open: a path, and which of its volumes. */
+export interface OpenRequest {
+  path: string;
+  series?: string;
+  volume?: number;
+}
+
+export type StartEvent = Start | ({ event: "opening" } & OpeningState) | Failed | { event: "opened" } | { event: "closed" };
+
+export type ServerEvent = StartEvent | Session | Changed | (Surface & { event: "surface" }) | Outlines | Status | Notice;
 
 export interface SketchPoint {
   at: Vec3;

@@ -53,11 +53,25 @@ export class Socket {
     setInterval(() => this.tick(), TICK_MS);
   }
 
+  /** Asks anew what there is: another session has come, or none. */
+  reopen(): void {
+    const old = this.socket;
+    this.socket = null;
+    this.greeted = false;
+    this.quietTicks = 0;
+    old?.close();
+    this.open();
+  }
+
   open(): void {
     this.handlers.connection("connecting");
     const socket = new WebSocket(`ws://${location.host}/api/socket`, ["kontur", this.token]);
-    socket.addEventListener("message", (message: MessageEvent<string>) => this.receive(JSON.parse(message.data) as Record<string, unknown>));
-    socket.addEventListener("close", () => this.lose());
+    socket.addEventListener("message", (message: MessageEvent<string>) => {
+      if (socket === this.socket) this.receive(JSON.parse(message.data) as Record<string, unknown>);
+    });
+    socket.addEventListener("close", () => {
+      if (socket === this.socket) this.lose();
+    });
     this.socket = socket;
   }
 
@@ -78,7 +92,7 @@ export class Socket {
   private receive(message: Record<string, unknown>): void {
     this.hear();
     if (typeof message["event"] === "string") {
-      if (message["event"] === "session") this.greet();
+      if (message["event"] === "session" || message["event"] === "start") this.greet();
       return this.handlers.event(message as unknown as ServerEvent);
     }
     const pending = this.pending.get(message["seq"] as number);

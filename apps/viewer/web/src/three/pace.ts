@@ -16,6 +16,8 @@ export interface PaceServices {
 
 const SLOW_MS = 25; // a fine frame that takes longer makes other work wait
 const REST_MS = 250;
+const VERY_SLOW_MS = 1000; // such a frame keeps the whole page waiting: it may take a twentieth of the time, and no more
+const LONGEST_REST_MS = 60_000;
 
 /**
  * Decides when the 3D view is drawn: when something has changed, one frame at a time. Where a fine frame takes long, as
@@ -25,6 +27,7 @@ export class Pace {
   private waiting: "nothing" | "rest" | "frame" = "nothing";
   private isDrawing = false;
   private fineMs = 0;
+  private fineBeforeMs = 0;
   private restsFrom = 0;
   private isTimed = false;
 
@@ -34,9 +37,15 @@ export class Pace {
     return this.fineMs > SLOW_MS;
   }
 
+  /** How long all must be at rest before a fine frame is drawn. */
+  private get restMs(): number {
+    const usualMs = Math.min(this.fineMs, this.fineBeforeMs); // the first frame compiles shaders
+    return usualMs > VERY_SLOW_MS ? Math.min(20 * usualMs, LONGEST_REST_MS) : REST_MS;
+  }
+
   /** Something looks different; `canWait` where slices matter more to the user than this view. */
   changed(canWait = false): void {
-    this.restsFrom = this.services.now() + REST_MS;
+    this.restsFrom = this.services.now() + this.restMs;
     if (!canWait || !this.isSlow) this.waiting = "frame";
     else if (this.waiting === "nothing") this.waiting = "rest";
     this.go();
@@ -66,7 +75,7 @@ export class Pace {
       this.waiting = fine ? "nothing" : "rest";
       const start = this.services.now();
       const isDrawn = await this.services.render(fine);
-      if (fine && isDrawn) this.fineMs = this.services.now() - start;
+      if (fine && isDrawn) [this.fineBeforeMs, this.fineMs] = [this.fineMs, this.services.now() - start];
     } finally {
       this.isDrawing = false;
     }

@@ -83,11 +83,11 @@ export class ContourEdits extends Edits {
     return this.drafts.drag(start, editAt, ({ name, args }) => this.make(name, args));
   }
 
-  /** The selected point, or else the selected contour. */
+  /** The selected point, or else the marked contours. */
   deleteSelected(): void {
-    const selection = this.project.selection;
+    const { selection, marked } = this.project;
     if (!selection) return;
-    if (selection.point === null) return this.make("contour.remove", { ids: [selection.contour] });
+    if (selection.point === null) return this.make("contour.remove", { ids: [...marked] });
     this.make("contour.delete_point", { id: selection.contour, index: selection.point });
     this.project.select({ contour: selection.contour, point: null });
   }

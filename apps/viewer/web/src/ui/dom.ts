@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+import { ICONS } from "./icons";
+
 type Child = Node | string | null | undefined;
 
 /** What is done at an event. Unlike a property `onclick`, a listener cannot cancel the event by what it returns. */
@@ -69,4 +71,9 @@ export function button(options: ButtonOptions): HTMLButtonElement {
     options.icon ? icon(options.icon) : null,
     options.label ? el("span", {}, options.label) : null,
   );
+}
+
+/** Shows or hides something. */
+export function eye(visible: boolean, click: () => void): HTMLButtonElement {
+  return button({ icon: visible ? ICONS.eye : ICONS.eyeOff, title: visible ? "Hide" : "Show", class: "icon-button small" + (visible ? "" : " dimmed"), part: "eye", click });
 }

@@ -2,7 +2,7 @@
 import type { Appearance } from "../model/appearance";
 import type { LayoutName, Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import type { Preset } from "../net/protocol";
+import type { Preset, Session } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { TOOLS, type ToolName } from "../tools/registry";
 import { appearanceButton } from "./appearance";
@@ -16,6 +16,8 @@ export interface ToolbarServices {
   editor: Editor;
   undo(): void;
   redo(): void;
+  /** Back to the start page. */
+  openAnother(): void;
   openExport(): void;
   openImport(): void;
   openHelp(): void;
@@ -35,6 +37,7 @@ export class Toolbar {
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
   private readonly link: HTMLButtonElement;
+  private readonly another: HTMLButtonElement;
   private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets", on: { change: () => this.choosePreset() } });
   private readonly center = this.windowField("Window: centre (drag with the right button over a slice)");
   private readonly width = this.windowField("Window: width");
@@ -50,8 +53,10 @@ export class Toolbar {
     this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", click: services.undo });
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", click: services.redo });
     this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", click: () => navigation.toggleLinked() });
+    this.another = button({ icon: ICONS.open, title: "Open another image or project; this one is kept as it is", class: "icon-button", test: "another", click: services.openAnother });
     this.element.append(
       el("span", { class: "brand" }, "kontur"),
+      this.another,
       this.title,
       group(...this.tools.values()),
       group(this.undo, this.redo),
@@ -75,7 +80,8 @@ export class Toolbar {
     services.project.on(["history"], () => this.update());
   }
 
-  start(title: string, presets: Preset[]): void {
+  start({ title, presets, can_close }: Pick<Session, "title" | "presets" | "can_close">): void {
+    this.another.hidden = !can_close;
     this.title.textContent = title;
     this.title.title = title;
     this.presetList = presets;

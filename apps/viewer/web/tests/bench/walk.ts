@@ -115,7 +115,7 @@ const browser = await launch();
 try {
   run("phantom", folder.path, "--scan", "abdomen", "--quiet");
   const truth = new Truth(join(folder.path, "abdomen_truth_metastasis.nii.gz"));
-  const server = await Server.start(folder.path);
+  const server = await Server.start(folder.path, "phantom");
   const start = Date.now();
   const seconds = () => ((Date.now() - start) / 1000).toFixed(0);
   const viewer = await Viewer.open(browser, server.address);

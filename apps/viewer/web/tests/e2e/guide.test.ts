@@ -30,7 +30,7 @@ let viewer: Viewer;
 
 before(async () => {
   run("phantom", join(folder.path, "phantom"), "--scan", "abdomen", "--quiet");
-  server = await Server.start(folder.path);
+  server = await Server.start(folder.path, "phantom");
   browser = await launch();
   viewer = await Viewer.open(browser, server.address);
   await viewer.closeHint();

@@ -81,8 +81,8 @@ describe("kontur open", () => {
     });
   });
 
-  test("opens the phantom when nothing is named", async () => {
-    await visit([], async (viewer) => {
+  test("opens the phantom, the example", async () => {
+    await visit(["phantom"], async (viewer) => {
       assert.match((await viewer.page.locator(".file-title").textContent())!, /^Phantom/);
       await viewer.page.keyboard.press("f");
       await viewer.drag("axial", circle(await viewer.pixels("axial", 30), 24));

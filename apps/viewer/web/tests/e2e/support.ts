@@ -78,8 +78,12 @@ export class Server {
     readonly address: string,
   ) {}
 
-  static async start(folder: string, ...words: string[]): Promise<Server> {
-    const environment = { ...process.env, XDG_DATA_HOME: folder };
+  static start(folder: string, ...words: string[]): Promise<Server> {
+    return Server.startAt({}, folder, ...words);
+  }
+
+  static async startAt(variables: Record<string, string>, folder: string, ...words: string[]): Promise<Server> {
+    const environment = { ...process.env, XDG_DATA_HOME: folder, ...variables };
     const child = spawn(KONTUR, ["open", ...words, "--no-browser", "--timeout", "300"], { env: environment, stdio: ["ignore", "pipe", "pipe"] });
     let complaint = "";
     child.stderr.on("data", (data: Buffer) => (complaint += data.toString()));
@@ -141,10 +145,10 @@ export class BallVisits {
   private count = 0;
   private readonly image = join(this.folder.path, "ball.nii");
 
-  constructor() {
+  constructor(flags?: string[]) {
     before(async () => {
       writeBallImage(this.image);
-      this.browser = await launch();
+      this.browser = await launch(flags);
     });
     cleanUp(this.folder, () => [this.browser, this.server]);
   }
@@ -171,9 +175,15 @@ export class Viewer {
   }
 
   static async open(browser: Browser, address: string): Promise<Viewer> {
+    const viewer = await Viewer.openStart(browser, address);
+    await viewer.ready();
+    return viewer;
+  }
+
+  /** Where no image is open, or not yet. */
+  static async openStart(browser: Browser, address: string): Promise<Viewer> {
     const viewer = new Viewer(await browser.newPage({ viewport: { width: 1280, height: 720 }, acceptDownloads: true }));
     await viewer.page.goto(address);
-    await viewer.ready();
     return viewer;
   }
 

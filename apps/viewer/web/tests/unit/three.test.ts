@@ -92,6 +92,23 @@ test("where they are dear, what cannot wait is rough first, and fine after the h
   assert.equal(bench.pace.isSlow, false, "the first frame compiles shaders: later ones may be cheap");
 });
 
+test("where they take seconds, they take a small part of the time", async () => {
+  const bench = await after(300);
+  for (let i = 0; i < 2; ++i) {
+    bench.pace.changed(true);
+    for (let waited = 0; bench.frames.length <= i && waited < 2000; waited += 50) await bench.pass(50);
+    assert.equal(bench.frames.length, i + 1, "after one such frame, which may have compiled shaders, all goes on as before");
+    await bench.finish(2000);
+  }
+  bench.pace.changed();
+  await settled();
+  await bench.finish(40);
+  for (let waited = 0; waited < 30_000; waited += 500) await bench.pass(500);
+  assert.deepEqual(bench.frames, ["fine", "fine", "rough"]);
+  for (let waited = 0; bench.frames.length < 4 && waited < 15_000; waited += 500) await bench.pass(500);
+  assert.deepEqual(bench.frames, ["fine", "fine", "rough", "fine"]);
+});
+
 /** A ball of `rings` times twice as many points. */
 function ball(rings: number): { positions: Float32Array; triangles: Uint32Array } {
   const positions: number[] = [], triangles: number[] = [];

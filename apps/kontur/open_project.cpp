@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "open_project.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "dicom_output.h"
+#include "kontur/base/error.h"
+#include "kontur/io/dicom_seg.h"
+#include "viewer/image_identity.h"
+#include "viewer/import_doubts.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPhantomScan = "abdomen";
+constexpr const char* kProjectExtension = ".kontur";
+
+void check_one_project(const OpenCommand& command, const Words& words) {
+    std::error_code ignored;
+    if (command.project.empty() || words.project.empty() || fs::equivalent(command.project, words.project, ignored)) return;
+    throw Error(ErrorKind::invalid_input, fmt::format("{} and --project {} are two projects; one at a time can be opened",
+                                                      words.project.string(), command.project.string()));
+}
+
+Words sorted(const std::vector<fs::path>& files) {
+    Words words;
+    const auto put = [](fs::path& place, const fs::path& file, const char* what) {
+        if (!place.empty())
+            throw Error(ErrorKind::invalid_input, fmt::format("{} and {} are both {}; one at a time can be opened",
+                                                              place.string(), file.string(), what));
+        place = file;
+    };
+    for (const fs::path& file : files) {
+        std::error_code ignored;
+        const bool is_there = fs::exists(file, ignored);
+        if (!is_there && file != viewer::kExample)
+            throw Error(ErrorKind::io, fmt::format("cannot read {}: it does not exist", file.string()));
+        if (!is_there) put(words.image, file, "images");
+        else if (has_extension(file, kProjectExtension)) put(words.project, file, "projects");
+        else if (input_kind(file) == FileKind::contours) put(words.contours, file, "contours");
+        else put(words.image, file, "images");
+    }
+    return words;
+}
+
+Image phantom_image(const Progress& progress) {
+    const std::vector<PhantomVolume> scans = phantom_volumes();
+    const auto scan =
+        std::find_if(scans.begin(), scans.end(), [](const PhantomVolume& v) { return v.name == kPhantomScan; });
+    return make_phantom_image(scan->grid, {}, progress);
+}
+
+/// Whose image it is, and what files that are made of it refer to.
+void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
+    opened.frame_of_reference_uid = frame_of_reference_of(input);
+    if (!looks_like_dicom(input.path) || is_dicom_seg(input.path)) return;
+    opened.series = read_dicom_grid(input.path, input.options.dicom).series;
+    opened.identity = dicom_identity(opened.series->files.front());
+    const auto& [patient, description] = std::pair(opened.identity.patient_name, opened.identity.series_description);
+    if (!description.empty()) opened.title = description;
+    if (!patient.empty()) opened.title = patient + ", " + opened.title;
+}
+
+bool is_example(const fs::path& path) {
+    std::error_code ignored;
+    return path == viewer::kExample && !fs::exists(path, ignored);
+}
+
+/// A 4D file or a folder of several volumes is the same one when the project is opened again.
+viewer::ImageChoice choice_of(const ReadImageOptions& options) {
+    return {options.dicom.series_uid, options.dicom.volume, options.frame};
+}
+
+void open_file(const ImageInput& input, const Progress& progress, viewer::OpenedImage& opened, Opened& result) {
+    ReadImageOptions options = input.options;
+    options.on_note = [&](std::string_view note) { result.notes.emplace_back(note); };
+    options.on_warning = [&](std::string_view warning) { result.warnings.emplace_back(warning); };
+    opened.image = std::make_shared<const Image>(read_image(input.path, options, progress));
+    opened.notes = result.notes;
+    opened.notes.insert(opened.notes.end(), result.warnings.begin(), result.warnings.end());
+    opened.title = fs::absolute(input.path).lexically_normal().filename().string();
+    opened.reference.path = fs::absolute(input.path).lexically_normal().string();
+    opened.reference.choice = choice_of(input.options);
+    tell_series(input, opened);
+}
+
+viewer::OpenedImage open_image(const ImageInput& input, const Progress& progress, Opened& result) {
+    viewer::OpenedImage opened;
+    if (is_example(input.path)) {
+        opened.image = std::make_shared<const Image>(phantom_image(progress));
+        opened.title = "Phantom: upper abdomen";
+        opened.reference.path = viewer::kExample;
+    } else {
+        open_file(input, progress, opened, result);
+    }
+    progress.report("look at values", 1);
+    opened.reference.fingerprint = viewer::fingerprint(*opened.image);
+    return opened;
+}
+
+/// Where the user's programs keep what he did not place himself (the XDG base directory specification).
+fs::path data_folder() {
+    const char* xdg = std::getenv("XDG_DATA_HOME");
+    const char* home = std::getenv("HOME");
+    const bool has_xdg = xdg && fs::path(xdg).is_absolute();
+    if (!has_xdg && !(home && fs::path(home).is_absolute()))
+        throw Error(ErrorKind::invalid_input, "there is no home folder to keep the project in; give --project");
+    fs::path folder = (has_xdg ? fs::path(xdg) : fs::path(home) / ".local" / "share") / "kontur";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw Error(ErrorKind::io, fmt::format("cannot make {}: {}; give --project", folder.string(), error.message()));
+    return folder;
+}
+
+std::string bare_name(const fs::path& path) {
+    const std::string name = path.filename().string();
+    for (const char* extension : {".mrk.json", ".nii.gz", ".seg.nrrd"})
+        if (has_extension(path, extension)) return name.substr(0, name.size() - std::string_view(extension).size());
+    return path.stem().string();
+}
+
+fs::path project_path(const OpenCommand& command, const Words& words, const viewer::OpenedImage& image) {
+    if (!command.project.empty()) return command.project;
+    if (!words.project.empty()) return words.project;
+    if (!words.contours.empty()) {
+        const fs::path folder = fs::absolute(words.contours).parent_path();
+        if (access(folder.c_str(), W_OK) == 0) return folder / (bare_name(words.contours) + kProjectExtension);
+    }
+    const std::string& fingerprint = image.reference.fingerprint;
+    const std::string name = bare_name(words.contours.empty() ? fs::path(image.reference.path) : words.contours);
+    return data_folder() / fmt::format("{}-{}{}", name, fingerprint.substr(fingerprint.size() - 8), kProjectExtension);
+}
+
+/// What a new project starts with: the contours of the file, or a structure to draw.
+ReadContours first_contours(const OpenCommand& command, const Words& words, Opened& result) {
+    if (words.contours.empty()) return {};
+    ReadContours read = read_contours(words.contours, command.read);
+    check_contours(read.contours);
+    result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());
+    if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);
+    return read;
+}
+
+/// Whoever names image and contours together may have named the wrong ones: said here and on the page.
+void tell_doubts(const ReadContours& first, viewer::OpenedImage& image, Opened& result) {
+    for (const std::string& doubt : viewer::import_doubts({first.contours}, first.frame_of_reference_uid, image.image->grid,
+                                                          image.frame_of_reference_uid)) {
+        result.warnings.push_back("do these contours belong to this image? " + doubt);
+        image.notes.push_back("Do these contours belong to this image? " + doubt);
+    }
+}
+
+/// The image that the words name, or the project does, with the choice that it was drawn on.
+ImageInput image_input(const OpenCommand& command, const Words& words) {
+    ImageInput input = command.image;
+    input.path = words.image;
+    if (input.path.empty() && !words.project.empty()) {
+        const viewer::ImageReference drawn_on = viewer::image_of_project(words.project);
+        input.path = drawn_on.path;
+        if (choice_of(input.options) == viewer::ImageChoice{}) {
+            input.options.dicom.series_uid = drawn_on.choice.series_uid;
+            input.options.dicom.volume = drawn_on.choice.volume;
+            input.options.frame = drawn_on.choice.frame;
+        }
+    }
+    if (input.path.empty()) input.path = viewer::kExample;
+    return input;
+}
+
+}  // namespace
+
+std::string Words::title() const {
+    const fs::path& named = !image.empty() ? image : !project.empty() ? project : contours;
+    return fs::absolute(named).lexically_normal().filename().string();
+}
+
+Words sorted_words(const OpenCommand& command) {
+    Words words = sorted(command.files);
+    check_one_project(command, words);
+    if (words.is_empty() && !command.project.empty()) {
+        if (!fs::exists(command.project))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} is no project yet; name the image that it is for", command.project.string()));
+        words.project = command.project;
+    }
+    return words;
+}
+
+Opened open_project(const OpenCommand& command, const Words& words, const Progress& progress) {
+    Opened result;
+    viewer::OpenedImage image = open_image(image_input(command, words), progress, result);
+    const fs::path project = project_path(command, words, image);
+    // Read before there is a project for them: a file that cannot be read leaves none.
+    std::optional<ReadContours> first;
+    if (!fs::exists(project)) first = first_contours(command, words, result);
+    if (first) tell_doubts(*first, image, result);
+    progress.check();
+    result.session = std::make_shared<viewer::Session>(std::move(image), project);
+    if (result.session->is_new()) {
+        result.session->begin_with(first ? first->contours : first_contours(command, words, result).contours);
+    } else if (!words.contours.empty()) {
+        result.warnings.push_back(fmt::format("{} holds the work on these contours from before; they were not read again",
+                                              result.session->project_path().string()));
+    }
+    return result;
+}
+
+std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Progress& progress) {
+    OpenCommand command;
+    command.files = {request.path};
+    command.image.options.dicom.series_uid = request.choice.series_uid;
+    command.image.options.dicom.volume = request.choice.volume;
+    command.image.options.frame = request.choice.frame;
+    return open_project(command, sorted_words(command), progress).session;
+}
+
+fs::path recent_projects_file() {
+    try {
+        return data_folder() / "recent.json";
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+}  // namespace kontur::app

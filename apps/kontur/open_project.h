@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "kontur/base/progress.h"
+#include "viewer/session.h"
+#include "viewer/workspace.h"
+
+// What `kontur open` works on: an image with its project, from the words of the command or of a page.
+
+namespace kontur::app {
+
+/// The command's words by what they name; "phantom" where no file has this name is the example.
+struct Words {
+    std::filesystem::path image, contours, project;
+
+    bool is_empty() const { return image.empty() && contours.empty() && project.empty(); }
+    /// For people.
+    std::string title() const;
+};
+
+/// An existing `--project` alone is such a word, too. Throws Error(io) for what is not there, Error(invalid_input) for two
+/// of a kind, and for a new project alone.
+Words sorted_words(const OpenCommand& command);
+
+/// A session, and what the user should know of how it came to be.
+struct Opened {
+    std::shared_ptr<viewer::Session> session;
+    std::vector<std::string> notes, warnings;
+};
+
+/// Reads the image and opens, or makes, the project. Errors are those of the readers and of `Session`.
+Opened open_project(const OpenCommand& command, const Words& words, const Progress& progress);
+
+/// The same for a page.
+std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Progress& progress);
+
+/// Where the list of recent projects is kept; "" without a home folder.
+std::filesystem::path recent_projects_file();
+
+}  // namespace kontur::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "viewer/access.h"
+#include "viewer/workspace.h"
+
+namespace kontur::viewer {
+
+/// Requests of the start page (docs/viewer-protocol.md): the bytes of the reply, JSON or, for a thumbnail, binary; nullopt
+/// for an address of others. Errors are exceptions.
+struct StartReply {
+    std::string content_type;
+    std::string body;
+};
+std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
+                                    const std::string& body, const std::stop_token& stop);
+
+}  // namespace kontur::viewer

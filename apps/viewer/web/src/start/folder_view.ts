@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+import { ServerError, type Http } from "../net/http";
+import type { Folder, ListedFile, OpenRequest, Place } from "../net/protocol";
+import { button, el } from "../ui/dom";
+import { ICONS } from "../ui/icons";
+import { VolumeCards } from "./volume_cards";
+
+interface FolderServices {
+  open(request: OpenRequest): void;
+  /** A sentence for the user; "": there is nothing to say. */
+  problem(sentence: string): void;
+}
+
+/** A chooser of what lies on the server's disk, as far as the server shows it: places, folders, images, DICOM volumes. */
+export class FolderView {
+  readonly element = el("section", { class: "start-folder", "aria-label": "Files and folders" });
+  private readonly places = el("div", { class: "start-places", role: "group", "aria-label": "Places" });
+  readonly path = el("input", { type: "text", class: "start-field", title: "Folder or file", "aria-label": "Folder or file", spellcheck: false, autocomplete: "off", "data-test": "path", on: { keydown: (event) => this.typed(event) } });
+  private readonly filter = el("input", { type: "text", class: "start-filter", placeholder: "Filter", "aria-label": "Filter by name", spellcheck: false, autocomplete: "off", "data-test": "filter", on: { input: () => this.fill() } });
+  private readonly up = button({ icon: ICONS.up, title: "The folder above", class: "icon-button", test: "folder-up", click: () => this.goUp() });
+  private readonly work = el("p", { class: "start-work", "aria-live": "polite", hidden: true });
+  private readonly list = el("ul", { class: "start-list", "data-test": "entries" });
+  private readonly cards: VolumeCards;
+  private shown: Folder | null = null;
+  private request = new AbortController();
+
+  constructor(
+    private readonly http: Http,
+    private readonly services: FolderServices,
+  ) {
+    this.cards = new VolumeCards(http, services.open);
+    this.element.append(el("h2", {}, "Open"), this.places, el("div", { class: "start-way" }, this.up, this.path, this.filter), this.work, this.cards.element, this.list);
+  }
+
+  start(places: Place[], folder: string): void {
+    this.places.replaceChildren(...places.map(({ name, path }) => button({ label: name, title: path, class: "choice", test: "place", click: () => void this.go(path) })));
+    const first = this.shown?.path ?? (folder || places[0]?.path);
+    if (first) void this.go(first);
+  }
+
+  stop(): void {
+    this.request.abort();
+  }
+
+  setWork(text: string, fraction: number | null): void {
+    this.work.hidden = text === "";
+    this.work.textContent = fraction === null ? text : `${text}: ${Math.floor(100 * fraction)} %`;
+  }
+
+  private typed(event: KeyboardEvent): void {
+    if (event.key !== "Enter") return;
+    void this.go(this.path.value.trim());
+  }
+
+  private goUp(): void {
+    if (this.shown?.parent) void this.go(this.shown.parent);
+  }
+
+  /** Shows a folder; what is none is opened. */
+  private async go(path: string): Promise<void> {
+    this.request.abort();
+    this.request = new AbortController();
+    const { signal } = this.request;
+    try {
+      const folder = await this.http.folder(path, signal);
+      this.show(folder);
+      await this.showVolumes(folder, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      if (error instanceof ServerError && error.message.endsWith("is no folder")) return this.services.open({ path });
+      this.services.problem(error instanceof Error ? error.message : String(error));
+      if (this.shown) this.path.value = this.shown.path;
+    }
+  }
+
+  private show(folder: Folder): void {
+    this.services.problem("");
+    this.shown = folder;
+    this.path.value = folder.path;
+    this.filter.value = "";
+    this.up.disabled = folder.parent === null;
+    this.fill();
+  }
+
+  private fill(): void {
+    if (!this.shown) return;
+    const { folders, files, left_out, dicom } = this.shown;
+    const wanted = this.filter.value.trim().toLowerCase();
+    const fits = ({ name }: Place) => name.toLowerCase().includes(wanted);
+    const rows = [...folders.filter(fits).map((one) => this.folderRow(one)), ...files.filter(fits).map((one) => this.fileRow(one))];
+    const nothing = dicom === "none" ? "There is no image, project or folder here." : "";
+    if (rows.length === 0) rows.push(el("li", { class: "empty" }, wanted ? "No name contains this." : nothing));
+    if (left_out > 0) rows.push(el("li", { class: "empty" }, `${left_out} more ${left_out === 1 ? "is" : "are"} not shown.`));
+    this.list.replaceChildren(...rows);
+    this.list.dataset["folder"] = this.shown.path;
+  }
+
+  private folderRow({ name, path }: Place): HTMLElement {
+    return el("li", {}, button({ icon: ICONS.folder, label: name, title: path, class: "start-row folder", test: "folder", click: () => void this.go(path) }));
+  }
+
+  private fileRow(file: ListedFile): HTMLElement {
+    const { name, path, kind } = file;
+    const row = button({ icon: kind === "project" ? ICONS.surface : ICONS.file, label: name, title: path, class: "start-row file", test: "file", click: () => this.services.open({ path }) });
+    row.append(el("span", { class: "start-size" }, sizeText(file.bytes)), el("span", { class: "start-date" }, new Date(1000 * file.modified).toLocaleDateString()));
+    return el("li", {}, row);
+  }
+
+  private async showVolumes(folder: Folder, signal: AbortSignal): Promise<void> {
+    this.cards.clear();
+    if (folder.dicom === "none") return;
+    this.setWork("Looking through DICOM files", null);
+    try {
+      const volumes = await this.http.volumes(folder.path, signal);
+      if (!signal.aborted) await this.cards.show(folder.path, volumes, signal);
+    } finally {
+      if (!signal.aborted) this.setWork("", null);
+    }
+  }
+}
+
+export function sizeText(bytes: number): string {
+  const units = ["bytes", "kB", "MB", "GB"];
+  const step = Math.min(units.length - 1, Math.max(0, Math.floor(Math.log10(Math.max(bytes, 1)) / 3)));
+  const value = bytes / 1000 ** step;
+  return `${value < 10 && step > 0 ? value.toFixed(1) : Math.round(value)} ${units[step]}`;
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Http } from "../net/http";
+import type { OpeningState, OpenRequest, RecentProject, Start } from "../net/protocol";
+import type { ConnectionState } from "../net/socket";
+import { button, el } from "../ui/dom";
+import { FolderView } from "./folder_view";
+
+const ENDED = "There is no connection to kontur. If it has ended, start it again and open the address that it prints.";
+
+/** What is seen while no image is open: what was worked on last, a chooser of files and folders, and how far reading is. */
+export class StartPage {
+  readonly element = el("dialog", { class: "start", "aria-label": "Open an image", "data-test": "start" });
+  private readonly version = el("span", { class: "fine" });
+  private readonly problem = el("p", { class: "start-problem", role: "alert", "data-test": "start-problem", hidden: true });
+  private readonly recent = el("ul", { class: "start-list" });
+  private readonly folders: FolderView;
+  private readonly opening = el("section", { class: "opening", "aria-label": "Opening", "data-test": "opening", hidden: true });
+  private readonly openingTitle = el("h2", {});
+  private readonly openingStage = el("p", { "aria-live": "polite" });
+  private readonly openingBar = el("progress", { max: 1, "aria-label": "Read so far" });
+  private example = "";
+
+  constructor(private readonly http: Http) {
+    this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.setProblem(sentence) });
+    const cancel = button({ label: "Cancel", title: "Do not open it", class: "choice", test: "opening-cancel", click: () => void this.attempt(() => this.http.cancelOpening()) });
+    const example = button({ label: "Try the example", title: "A synthetic abdomen: draw in it what you like", class: "choice", test: "example", click: () => void this.open({ path: this.example }) });
+    this.opening.append(this.openingTitle, this.openingStage, this.openingBar, cancel);
+    this.element.append(
+      el("header", { class: "start-head" }, el("h1", {}, "kontur"), this.version, el("span", { class: "spring" }), example),
+      this.problem,
+      el(
+        "div",
+        { class: "start-columns" },
+        el("section", { class: "start-recent", "aria-label": "Recent projects" }, el("h2", {}, "Go on with"), this.recent),
+        this.folders.element,
+      ),
+      this.opening,
+      el("p", { class: "fine" }, "Research software, not a medical device."),
+    );
+    this.element.addEventListener("cancel", (event) => event.preventDefault()); // Esc closes a dialog, and there is nothing behind this one
+  }
+
+  show(start: Start): void {
+    this.version.textContent = start.version;
+    this.example = start.example;
+    this.recent.replaceChildren(...this.recentRows(start.recent));
+    this.setProblem(start.sentence);
+    this.setOpening(start.opening);
+    if (!this.element.open) this.element.showModal();
+    (this.recent.querySelector("button") ?? this.folders.path).focus();
+    this.folders.start(start.places, start.folder);
+  }
+
+  hide(): void {
+    this.folders.stop();
+    this.element.close();
+  }
+
+  setOpening(state: OpeningState | null): void {
+    this.opening.hidden = state === null;
+    if (!state) return;
+    this.setProblem("");
+    this.openingTitle.textContent = `Opening ${state.title}`;
+    this.openingStage.textContent = stageText(state);
+    if (state.fraction > 0) this.openingBar.value = state.fraction;
+    else this.openingBar.removeAttribute("value");
+  }
+
+  failed({ kind, message }: { kind: string; message: string }): void {
+    this.setOpening(null);
+    this.setProblem(kind === "cancelled" ? "" : message);
+  }
+
+  setWork(text: string, fraction: number | null): void {
+    this.folders.setWork(text, fraction);
+  }
+
+  connected(state: ConnectionState): void {
+    if (state !== "lost" || !this.element.open) return;
+    this.setOpening(null);
+    // Why it ended has been said, if it was for the image.
+    if (this.problem.hidden) this.setProblem(ENDED);
+    else if (!this.problem.textContent!.includes(ENDED)) this.setProblem(`${this.problem.textContent} ${ENDED}`);
+  }
+
+  private recentRows(projects: RecentProject[]): HTMLElement[] {
+    if (projects.length === 0) return [el("li", { class: "empty" }, "What you open is listed here, with all that was drawn in it.")];
+    return projects.map(({ path, title, image, time }) => {
+      const row = button({ title: `${path}, drawn on ${image}`, class: "start-row", test: "recent", click: () => void this.open({ path }) });
+      row.setAttribute("aria-label", `${title}, ${path}`);
+      row.append(el("strong", {}, title), el("span", {}, whenText(time)), el("span", { class: "start-path" }, image));
+      return el("li", {}, row);
+    });
+  }
+
+  private open(request: OpenRequest): Promise<void> {
+    this.setProblem("");
+    return this.attempt(() => this.http.open(request));
+  }
+
+  private async attempt(act: () => Promise<void>): Promise<void> {
+    try {
+      await act();
+    } catch (error) {
+      this.setProblem(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private setProblem(sentence: string): void {
+    this.problem.hidden = sentence === "";
+    this.problem.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/\.?$/, ".");
+  }
+}
+
+const STAGES: Record<string, string> = { "read headers": "Looking at the files", "read slices": "Reading slices", "read voxels": "Reading", "look at values": "Looking at the values" };
+
+function stageText({ stage, fraction }: OpeningState): string {
+  const text = STAGES[stage] ?? (stage ? stage.charAt(0).toUpperCase() + stage.slice(1) : "Reading");
+  return fraction > 0 && fraction < 1 ? `${text}: ${Math.floor(100 * fraction)} %` : `${text}…`;
+}
+
+function whenText(time: string): string {
+  const then = new Date(time);
+  if (Number.isNaN(then.getTime())) return "";
+  const isToday = then.toDateString() === new Date().toDateString();
+  return isToday ? `today ${then.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })}` : then.toLocaleDateString();
+}
+

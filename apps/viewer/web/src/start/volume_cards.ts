@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Http } from "../net/http";
+import type { OpenRequest, Volume } from "../net/protocol";
+import { button, el } from "../ui/dom";
+
+/** The volumes of a DICOM folder by patient and study, each with a picture of its middle slice. */
+export class VolumeCards {
+  readonly element = el("div", { class: "volumes", "data-test": "volumes" });
+
+  constructor(
+    private readonly http: Http,
+    private readonly open: (request: OpenRequest) => void,
+  ) {}
+
+  clear(): void {
+    this.element.replaceChildren();
+  }
+
+  /** Settles when all pictures are there. */
+  async show(folder: string, volumes: Volume[], signal: AbortSignal): Promise<void> {
+    const pictures: [HTMLCanvasElement, Volume][] = [];
+    const groups = groupsOf(volumes).map(([title, members]) =>
+      el(
+        "section",
+        { "aria-label": title },
+        el("h3", {}, title),
+        el("ul", {}, ...members.map((volume) => this.card(folder, volume, (canvas) => void pictures.push([canvas, volume])))),
+      ),
+    );
+    if (groups.length === 0) groups.push(el("section", {}, el("p", { class: "empty" }, "The DICOM files here hold no images.")));
+    this.element.replaceChildren(...groups);
+    for (const [canvas, volume] of pictures) {
+      if (signal.aborted) return;
+      await this.paint(canvas, volume, signal);
+    }
+  }
+
+  private card(folder: string, volume: Volume, keep: (canvas: HTMLCanvasElement) => void): HTMLElement {
+    const { series, volume: number } = volume;
+    const canvas = el("canvas", { width: 112, height: 112, "aria-hidden": "true" });
+    keep(canvas);
+    const [title = "", ...lines] = volumeLines(volume);
+    const card = button({ title: "Open this series", class: "volume", test: "volume", click: () => this.open({ path: folder, series, volume: number }) });
+    card.removeAttribute("aria-label"); // what it shows is its name
+    card.append(canvas, el("strong", {}, title), ...lines.map((line) => el("span", {}, line)));
+    return el("li", {}, card);
+  }
+
+  /** Without a picture a card is as good. */
+  private async paint(canvas: HTMLCanvasElement, { picture }: Volume, signal: AbortSignal): Promise<void> {
+    try {
+      const reply = await this.http.thumbnail(picture.file, picture.frame, signal);
+      const { width, height } = reply.header;
+      const shades = reply.u8("pixels");
+      const pixels = new ImageData(width, height);
+      for (let i = 0; i < shades.length; ++i) pixels.data.set([shades[i]!, shades[i]!, shades[i]!, 255], 4 * i);
+      canvas.width = width;
+      canvas.height = height;
+      canvas.getContext("2d")!.putImageData(pixels, 0, 0);
+      canvas.dataset["painted"] = "true";
+    } catch {
+      canvas.dataset["painted"] = "false";
+    }
+  }
+}
+
+/** By patient and day, in the order of their first volume. */
+export function groupsOf(volumes: Volume[]): [string, Volume[]][] {
+  const groups = new Map<string, Volume[]>();
+  for (const volume of volumes) {
+    const { patient_name, patient_id, study_date } = volume;
+    const title = [patient_name || "Patient without a name", patient_id && `ID ${patient_id}`, study_date].filter(Boolean).join(" · ");
+    groups.set(title, [...(groups.get(title) ?? []), volume]);
+  }
+  return [...groups];
+}
+
+/** What a series is, line by line. */
+export function volumeLines({ modality, series_number, description, distinction, study_description, slices, columns, rows }: Volume): string[] {
+  const what = [modality || "Image", series_number && `series ${series_number}`].filter(Boolean).join(" · ");
+  return [description || study_description || "Without a description", distinction, what, `${slices} ${slices === 1 ? "slice" : "slices"} of ${columns} × ${rows}`].filter((line) => line !== "");
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+import { between, groupsOf, isGrouped } from "../model/contour_list";
+import type { Navigation } from "../model/navigation";
+import type { Project } from "../model/project";
+import type { Contour, Structure, ViewName } from "../net/protocol";
+import { PLANE_COLORS, VIEW_TITLES } from "../view/palette";
+import { placeOf } from "./contour_names";
+import { button, el, eye } from "./dom";
+import { ICONS } from "./icons";
+
+export interface RowServices {
+  navigation: Navigation;
+  project: Project;
+  call(name: string, args?: Record<string, unknown>): void;
+  /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
+  show(contour: Contour): void;
+}
+
+const KIND_LABELS: Record<Contour["kind"], string> = { freehand: "freehand", spline: "spline", livewire: "live-wire", mixed: "mixed" };
+
+/** The contours of structures as rows: many under headings, by the view that they were drawn in and in the order of slices. */
+export class ContourRows {
+  private readonly folded = new Set<string>();
+  private anchor = 0; // of a range
+
+  constructor(
+    private readonly services: RowServices,
+    /** Where the rows are, in their order. */
+    private readonly list: HTMLElement,
+    private readonly refresh: () => void,
+  ) {
+    list.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  rowsOf(structure: Structure, contours: readonly Contour[]): HTMLElement[] {
+    const row = (contour: Contour) => this.row(contour, structure);
+    if (!isGrouped(contours.length)) return contours.map(row);
+    return groupsOf(contours, this.services.navigation).flatMap(({ view, contours: members }) => {
+      const key = `${structure.id}:${view}`;
+      const heading = this.heading(key, view, members);
+      return this.folded.has(key) ? [heading] : [heading, ...members.map(row)];
+    });
+  }
+
+  private heading(key: string, view: ViewName | null, members: readonly Contour[]): HTMLElement {
+    const isFolded = this.folded.has(key);
+    const fold = () => {
+      if (!this.folded.delete(key)) this.folded.add(key);
+      this.refresh();
+    };
+    const title = view ? VIEW_TITLES[view] : "Other planes";
+    const heading = button({ label: title, title: isFolded ? "List these contours" : "Hide these contours", class: "group-title", part: `group-${key}`, click: fold });
+    heading.setAttribute("aria-expanded", String(!isFolded));
+    const all = button({ label: String(members.length), title: `Mark the ${members.length} contours of ${title}`, class: "count", part: `mark-${key}`, click: () => this.services.project.mark(members.map(({ id }) => id)) });
+    return el("div", { class: "contour-group" }, heading, all);
+  }
+
+  private row(contour: Contour, structure: Structure): HTMLElement {
+    const { project, call, show } = this.services;
+    const { view: name, slice, position } = placeOf(contour, this.services.navigation);
+    const dot = el("span", { class: "plane-dot" });
+    dot.style.background = name ? PLANE_COLORS[name] : PLANE_COLORS.oblique;
+    const isSelected = project.marked.has(contour.id);
+    const points = contour.control.length > 1 ? `${contour.control.length} pts` : `${contour.points.length} pts`;
+    const kind = KIND_LABELS[contour.kind];
+    const choose = (event: MouseEvent) => {
+      if ((event.target as HTMLElement).closest(".icon-button")) return;
+      if (event.shiftKey) return this.extendTo(contour.id);
+      this.anchor = contour.id;
+      if (event.ctrlKey || event.metaKey) return project.toggleMark(contour.id);
+      project.select({ contour: contour.id, point: null });
+      show(contour);
+    };
+    return el(
+      "div",
+      { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it, Ctrl + click or Shift + click to mark several`, on: { click: choose } },
+      dot,
+      el("button", { type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" }, el("span", { class: "contour-view" }, name ? VIEW_TITLES[name] : "Oblique"), " ", el("span", { class: "contour-slice", title: "Slice" }, slice), " ", el("span", { class: "contour-position" }, position)),
+      contour.hole ? el("span", { class: "flag", title: "A hole" }, "hole") : null,
+      contour.self_crossings.length > 0 ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself") : null,
+      el("span", { class: "contour-points" }, points),
+      eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
+      button({ icon: ICONS.remove, title: "Delete this contour", class: "icon-button small", test: "delete-contour", part: "remove", click: () => call("contour.remove", { ids: [contour.id] }) }),
+    );
+  }
+
+  private listed(): number[] {
+    return [...this.list.querySelectorAll<HTMLElement>("[data-contour]")].map((row) => Number(row.dataset["contour"]));
+  }
+
+  private extendTo(contour: number): void {
+    const { project } = this.services;
+    const listed = this.listed();
+    if (!listed.includes(this.anchor)) this.anchor = project.selection?.contour ?? contour;
+    project.mark(between(listed, this.anchor, contour));
+  }
+
+  /** Arrows go from row to row, with Shift they mark on the way; Ctrl + A marks all that is listed. */
+  private key(event: KeyboardEvent): void {
+    const row = (event.target as HTMLElement).closest<HTMLElement>("[data-contour]");
+    if (!row) return;
+    const listed = this.listed();
+    const isAll = event.key.toLowerCase() === "a" && (event.ctrlKey || event.metaKey);
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key] ?? 0;
+    if (!isAll && step === 0) return;
+    event.preventDefault();
+    event.stopPropagation(); // which scrolls the slices
+    if (isAll) return this.services.project.mark(listed);
+    const here = Number(row.dataset["contour"]);
+    const next = listed[listed.indexOf(here) + step];
+    if (next === undefined) return;
+    this.list.querySelector<HTMLElement>(`[data-contour="${next}"] [data-part=show]`)?.focus();
+    if (event.shiftKey) return this.extendTo(next);
+    this.anchor = next;
+    this.services.project.select({ contour: next, point: null });
+    this.services.show(this.services.project.contour(next)!);
+  }
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "kontur/base/progress.h"
+#include "viewer/places.h"
+#include "viewer/recent.h"
+#include "viewer/session.h"
+
+namespace kontur::viewer {
+
+/// What a page asks to open: an image, a DICOM folder, a project, or the example.
+struct OpenRequest {
+    std::filesystem::path path;
+    ImageChoice choice{};
+};
+
+/// The path that stands for the built-in example image.
+inline constexpr const char* kExample = "phantom";
+
+/// What the server serves: a start page until something is open, then its session, then the start page again. One at a time,
+/// for all pages; reading runs in the background. Safe for concurrent use.
+class Workspace {
+public:
+    using Open = std::function<std::shared_ptr<Session>(const Progress&)>;
+
+    struct Services {
+        /// Makes the session for what a page asks for. Errors are exceptions.
+        std::function<std::shared_ptr<Session>(const OpenRequest&, const Progress&)> open{};
+        Places places{};
+        std::filesystem::path recent{};  ///< the file that lists projects; empty: none is kept
+    };
+
+    explicit Workspace(Services services);
+    /// With a session from the beginning, and no other.
+    explicit Workspace(std::shared_ptr<Session> session);
+    ~Workspace();
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+
+    /// Whom to tell events, from any thread. An empty function: nobody.
+    void on_event(std::function<void(const std::string& message)> listener);
+
+    /// The first event for a page that has just come: `start` or `session`.
+    std::string greeting(PageId page);
+    /// Carries out one message of a page and returns the reply. A page that was greeted by another session than the present
+    /// one is refused. Never throws.
+    std::string call(std::string_view message, PageId page);
+    /// The page is closed. Never throws.
+    void left(PageId page);
+
+    /// The session that is open; `opening`, if given, must be the one that it was greeted by. Throws Error(invalid_input)
+    /// where there is none, or another.
+    std::shared_ptr<Session> session(const std::optional<std::string>& opening = {}) const;
+
+    /// Begins to read in the background; pages are told how far it is, and what came of it. `done`, if given, is called
+    /// with the failure, or none, when pages have been told. Throws Error(invalid_input) while something is open or read.
+    void begin(const std::string& title, Open open, std::function<void(std::exception_ptr)> done = {});
+    /// Waits until nothing is read any more; false: it is still going on after this time.
+    bool wait_for(std::chrono::milliseconds time);
+
+    /// For pages: as `begin`, of what is a recent project, the example, or lies in one of the places.
+    void open(const OpenRequest& request);
+    /// What is being read is given up.
+    void cancel();
+    /// Everything is saved; the start page comes back.
+    void close();
+    /// The folder and the sentence that the start page begins with.
+    void suggest(const std::filesystem::path& folder, const std::string& sentence);
+
+    const Places& places() const { return services_.places; }
+    /// Tells pages' status lines what is being done; "": nothing.
+    void tell_status(const std::string& text, std::optional<double> fraction);
+
+private:
+    /// What is being read.
+    struct Opening {
+        std::string title;
+        std::string stage;
+        double fraction = 0;
+    };
+
+    std::string start_event() const;
+    void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop);
+    void adopt(std::shared_ptr<Session> session);
+    void fail(std::string_view kind, const std::string& sentence);
+    void tell_progress(std::string_view stage, double fraction);
+    void tell(const std::string& message);
+
+    const Services services_;
+    RecentProjects recent_;
+
+    std::mutex listener_mutex_;
+    std::function<void(const std::string&)> listener_;
+
+    mutable std::mutex mutex_;  ///< of what follows
+    std::condition_variable finished_;
+    std::shared_ptr<Session> session_;
+    std::weak_ptr<Session> last_;  ///< its project stays locked until whoever uses it has let go
+    std::uint64_t opened_ = 0;     ///< so many sessions until now
+    std::map<PageId, std::uint64_t> greeted_by_;
+    std::optional<Opening> opening_;
+    std::string folder_, sentence_;
+
+    std::stop_source reading_{std::nostopstate};
+    std::thread reader_;  ///< last: it uses all of it
+};
+
+}  // namespace kontur::viewer

@@ -33,6 +33,9 @@ namespace fs = std::filesystem;
 /// Whoever waits longer than this for an image gets the address first, and sees there how far it is.
 constexpr std::chrono::milliseconds kSilence(700);
 
+/// For what is being read to be given up.
+constexpr std::chrono::seconds kPatience(60);
+
 constexpr const char* kChooseInPage = "choose an image or a project in the page; Ctrl+C ends\n";
 
 /// A page that leads to the address, in a folder that nobody else can look into: all users of the machine can read the
@@ -104,7 +107,7 @@ public:
 
     void wait_for(std::chrono::milliseconds time) {
         std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, time, [&] { return has_ended_; });
+        changed_.wait_for(lock, time, [&] { return has_ended_ || !workspace_; });
     }
 
     /// Throws why it could not be opened.
@@ -148,15 +151,18 @@ private:
         changed_.notify_all();
     }
 
-    /// A folder that holds no volume, or several: the page then shows what there is to choose.
+    /// A folder that holds no volume, or several, or what was given up in the page, which then shows what there is to
+    /// choose.
     bool leaves_a_choice(const std::exception_ptr& failure) {
         std::error_code ignored;
         const DicomSeriesOptions& dicom = command_.image.options.dicom;
-        if (!fs::is_directory(words_.image, ignored) || dicom.series_uid || dicom.volume) return false;
+        const bool is_folder = fs::is_directory(words_.image, ignored) && !dicom.series_uid && !dicom.volume;
         try {
             std::rethrow_exception(failure);
         } catch (const Error& error) {
-            if (error.kind() != ErrorKind::invalid_input) return false;
+            // Cancelled in the page, not by Ctrl+C.
+            if (error.kind() == ErrorKind::cancelled) return !console_.stop_token().stop_requested();
+            if (!is_folder || error.kind() != ErrorKind::invalid_input) return false;
             console_.warn(error.what());
             workspace_->suggest(fs::absolute(words_.image), error.what());
             return true;
@@ -214,6 +220,7 @@ void run(const OpenCommand& command, Console& console) {
     server.run();
     first.serve(nullptr);
     workspace.cancel();
+    first.wait_for(kPatience);
     first.check();
 }
 

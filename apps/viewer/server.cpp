@@ -473,7 +473,8 @@ void ServerCore::tick() {
     clock.expires_after(std::chrono::milliseconds(250));
     clock.async_wait([this](beast::error_code error) {
         if (error) return;
-        if (!sockets.empty()) last_use = Clock::now();
+        const bool is_reading = !workspace.wait_for(std::chrono::milliseconds(0));
+        if (!sockets.empty() || is_reading) last_use = Clock::now();
         if (options.idle_timeout_s > 0 && Clock::now() - last_use > std::chrono::seconds(options.idle_timeout_s)) stop();
         else tick();
     });

@@ -38,6 +38,8 @@ public:
     void open() {
         workspace.open(image());
         ASSERT_TRUE(workspace.wait_for(10s));
+        // What became of it is told just after.
+        for (int n = 0; n < 10'000 && told().back() == "opening"; ++n) std::this_thread::sleep_for(1ms);
     }
     json greeting(PageId page = kPage) { return json::parse(workspace.greeting(page)); }
     json call(const json& message, PageId page = kPage) { return json::parse(workspace.call(message.dump(), page)); }

@@ -1154,7 +1154,7 @@ def preview_surface(
     starts: ArrayLike,
     spacing_mm: float = 2.0,
     threads: int = 0,
-    anchor_mm: ArrayLike = ...,
+    anchor_mm: ArrayLike = (0.0, 0.0, 0.0),
     *,
     progress: _Progress | None = None,
     stop: _Stop | None = None,

@@ -118,7 +118,7 @@ TriangleMesh
             return run({progress, stop}, [&](const Progress& p) { return preview_surface(function, starts, options, p); });
         },
         py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, py::arg("threads") = 0,
-        py::arg("anchor_mm") = Vec3{}, py::kw_only(), kProgress, kStop);
+        py::arg("anchor_mm") = py::make_tuple(0.0, 0.0, 0.0), py::kw_only(), kProgress, kStop);
     define(
         m, "slice_contours", R"(The surface where it passes through the slices (constant k) of its mask's grid.
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "kontur/labels/union_contours.h"
+#include "support/contour_sets.h"
 #include "support/expect_error.h"
 #include "support/label_maps.h"
 
@@ -86,19 +87,7 @@ TEST(SegmentTogether, MakesAPartition) {
     }
 }
 
-ContourSet ball(const Vec3& center, double radius) {
-    ContourSet set;
-    for (double z = -radius + 3; z < radius; z += 4) {
-        Contour contour;
-        contour.plane = {center + Vec3{0, 0, z}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
-        const double r = std::sqrt(radius * radius - z * z);
-        for (int n = 0; n < 48; ++n)
-            contour.points.push_back(
-                contour.plane.from_uv(r * std::cos(n * std::numbers::pi / 24), r * std::sin(n * std::numbers::pi / 24)));
-        set.contours.push_back(contour);
-    }
-    return set;
-}
+ContourSet ball(const Vec3& center, double radius) { return test::ball_slices(center, radius, 3, 4); }
 
 TEST(SegmentTogether, OneInsideAnotherAndTwoThatOverlapKeepTheirVoxels) {
     const std::vector<ContourSet> nested{ball({0, 0, 0}, 17), ball({4, 0, 0}, 6)};

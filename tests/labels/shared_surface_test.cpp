@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "kontur/labels/filled_map.h"
 #include "kontur/segment.h"
+#include "support/contour_sets.h"
 #include "support/label_maps.h"
 
 namespace kontur {
@@ -26,19 +26,7 @@ Grid grid_here(bool mirrored = false) {
     return grid;
 }
 
-ContourSet ball(const Vec3& center, double radius) {
-    ContourSet set;
-    for (double z = -radius + 2; z < radius; z += 3) {
-        Contour contour;
-        contour.plane = {center + Vec3{0, 0, z}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
-        const double r = std::sqrt(radius * radius - z * z);
-        for (int n = 0; n < 48; ++n)
-            contour.points.push_back(
-                contour.plane.from_uv(r * std::cos(n * std::numbers::pi / 24), r * std::sin(n * std::numbers::pi / 24)));
-        set.contours.push_back(contour);
-    }
-    return set;
-}
+ContourSet ball(const Vec3& center, double radius) { return test::ball_slices(center, radius, 2, 3); }
 
 /// Two balls that are cut where they touch, the plane x = 0, and one inside the first.
 struct Case {

@@ -50,4 +50,14 @@ inline ContourSet ball_contours() {
     return set;
 }
 
+/// Circles of a ball in planes across z, `step_mm` apart, the first one so far above its lowest point as `first_mm` says.
+inline ContourSet ball_slices(const Vec3& center, double radius_mm, double first_mm, double step_mm) {
+    ContourSet set;
+    for (double z = -radius_mm + first_mm; z < radius_mm; z += step_mm) {
+        const Plane plane{center + Vec3{0, 0, z}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+        set.contours.push_back(circle(plane, std::sqrt(radius_mm * radius_mm - z * z), 48));
+    }
+    return set;
+}
+
 }  // namespace kontur::test

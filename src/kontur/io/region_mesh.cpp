@@ -8,6 +8,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/io/text_header.h"
 
 namespace kontur {
 namespace {
@@ -47,10 +48,7 @@ std::string header_of(const TriangleMesh& mesh, const MeshRegions& regions, cons
 void write_region_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshRegions& regions,
                        const Provenance& provenance) {
     static_assert(std::endian::native == std::endian::little);
-    std::string extension = path.extension().string();
-    for (char& letter : extension)
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    if (extension != ".ply")
+    if (lower_case(path.extension().string()) != ".ply")
         throw Error(ErrorKind::unsupported, fmt::format("{}: only a .ply has room for regions", path.string()));
     check(mesh, regions);
     write_file_atomically(path, [&](AtomicFile& file) {

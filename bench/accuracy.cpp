@@ -76,7 +76,7 @@ Mask segment_told_the_tilts(const PhantomCase& drawn, const Grid& grid) {
     stages.fit.rounds = 0;
     stages.fit.start_slopes = true_slopes(*drawn.body, prepared.points);
     const FittedFunction told = fit(prepared, stages.fit);
-    return fill(track_surface(told.function, grid, start_points(drawn.contours, prepared, told.function, 0), 0));
+    return fill(track_surface(told.function, grid, start_points(drawn.contours, prepared, told.function, 0)));
 }
 
 /// Mean angle between the fitted and the true normals at the drawn points.

@@ -65,7 +65,7 @@ Json end_to_end(const PhantomCase& phantom, int repeat) {
         if (by_default.size() < 3) by_default.push_back(timed.segmentation);
     }
     // What both should be: the direct solution, computed at every voxel.
-    const Mask exact = fill(sample_everywhere(by_default.back().function, phantom.grid, 0));
+    const Mask exact = fill(sample_everywhere(by_default.back().function, phantom.grid, {.threads = 0}));
     for (std::size_t i = 0; i < by_default.size(); ++i)
         rows[i]["jaccard_exact"] = compare(by_default[i].mask, exact).jaccard;
     return rows;

@@ -41,7 +41,7 @@ double peak_rate() {
     std::uniform_real_distribution<double> coordinate(-1, 1);
     std::vector<Vec3> points(8192);
     for (Vec3& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
-    const DirectKernelMatrix matrix(SolveOptions{}.kernel, PointArrays(points), 1);
+    const DirectKernelMatrix matrix(SolveOptions{}.kernel, PointArrays(points), {.threads = 1});
     std::vector<double> weights(points.size(), 1.0), out(points.size());
     return matrix.evaluations() / measure(9, [&] { matrix.multiply(weights, out); }).cpu_seconds;
 }

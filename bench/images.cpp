@@ -27,6 +27,8 @@
 namespace kontur {
 namespace {
 
+const Work kAlone{.threads = 1};
+
 /// Of the process: others on the machine do not matter.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -150,23 +152,22 @@ std::string scores(const Mask& mask, const Mask& truth) {
 void measure(const Structure& structure, const std::string& kind, int count, bool by_hand) {
     const Vec3 spacing = structure.truth.grid.spacing_mm();
     const double voxel = std::min({spacing.x, spacing.y, spacing.z});
-    ContourSet contours =
-        trace(structure.truth, planes(structure, kind, count),
-              {.min_area_mm2 = 2 * std::pow(structure.truth.grid.voxel_volume_mm3(), 2.0 / 3), .threads = 1});
+    ContourSet contours = trace(structure.truth, planes(structure, kind, count),
+                                {.min_area_mm2 = 2 * std::pow(structure.truth.grid.voxel_volume_mm3(), 2.0 / 3)}, kAlone);
     Random random(seed_of(structure.name + kind + std::to_string(count) + "hand"));
     if (by_hand) draw_by_hand(contours, voxel, random);
-    const SegmentOptions options{.threads = 1};
+    const SegmentOptions options;
     const Drawing drawing = read_drawing(contours, options.fill_rule);
     const StageOptions stages = stage_options(options, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
+    const PreparedContours prepared = prepare(drawing, stages, kAlone);
     const double start = cpu_seconds();
-    const FittedFunction fitted = fit(prepared, stages.fit);
+    const FittedFunction fitted = fit(prepared, stages.fit, kAlone);
     const double fit_seconds = cpu_seconds() - start;
     const auto mask_of = [&](const ImplicitFunction& function) {
         return fill(
             find_surface(function, structure.truth.grid,
-                         start_points(drawing.contours, prepared, function, stages.prepare.click_margin_mm), {.threads = 1}),
-            1);
+                         start_points(drawing.contours, prepared, function, stages.prepare.click_margin_mm), {}, kAlone),
+            kAlone);
     };
     const std::string without = scores(mask_of(fitted.function), structure.truth);
     const auto print = [&](const char* method, const RefineReport& r, double seconds, const std::string& with) {
@@ -179,12 +180,14 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
     for (const bool gate : {true, false}) {
         if (!gate && (!methods || std::string(methods).find("ungated") == std::string::npos)) continue;
         const double refine_start = cpu_seconds();
-        const RefinedFunction refined =
-            refine(drawing, prepared, fitted, structure.image,
-                   [&](const ContourSet& part) { return fit_coarsely(part, stages); }, {.fit = stages.fit, .gate = gate});
+        const RefinedFunction refined = refine(
+            drawing, prepared, fitted, structure.image,
+            [&](const ContourSet& part) { return fit_coarsely(part, stages, kAlone); }, {.fit = stages.fit, .gate = gate},
+            kAlone);
         const double seconds = cpu_seconds() - refine_start;
         print(gate ? "gated" : "ungated", refined.report, seconds,
-              refined.report.verdict == ImageVerdict::used ? scores(mask_of(refined.fitted.function), structure.truth) : without);
+              refined.report.verdict == ImageVerdict::used ? scores(mask_of(refined.fitted.function), structure.truth)
+                                                           : without);
     }
 }
 

@@ -7,10 +7,10 @@ namespace kontur::bench {
 namespace {
 
 /// The work's result; its wall time goes to the report.
-template <typename Work>
-auto timed(SegmentReport& report, const char* stage, const Work& work) {
+template <typename Task>
+auto timed(SegmentReport& report, const char* stage, const Task& task) {
     const auto start = std::chrono::steady_clock::now();
-    auto result = work();
+    auto result = task();
     report.seconds.emplace_back(stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     return result;
 }
@@ -40,7 +40,7 @@ Segmentation segment_as_published(const PhantomCase& phantom, Solver solver, dou
     const FittedFunction fitted = timed(report, "fit", [&] { return fit(contours, options); });
     result.function = fitted.function;
     result.mask = timed(report, "voxelize", [&] {
-        return fill(track_surface(fitted.function, phantom.grid, drawn_points(phantom.contours), 0));
+        return fill(track_surface(fitted.function, phantom.grid, drawn_points(phantom.contours), {.threads = 0}));
     });
     report.residual = timed(report, "measure", [&] { return residual(fitted.function, phantom.contours); });
     report.quality = quality;

@@ -2,13 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drawings of every structure in label maps, for kontur_accuracy: organs that no rule of the method was chosen on.
 
-Usage: bench/structures.py --kontur build/release/bin/kontur --output FOLDER [--without STRUCTURE]... NAME=LABELMAP...
+Usage: bench/structures.py --kontur build/release/bin/kontur --output FOLDER [--slices] [--without STRUCTURE]... NAME=LABELMAP...
 
 Every label with at least 300 voxels becomes a structure, NAME_LABEL; with NAME/parts=LABELMAP every connected part of a label
 does, NAME_LABEL_PART, counted from the lowest in the file. Of each: the mask, coarsened until its grid has at most 2.6 million
 voxels, with a margin of 35 % of its diameter on every side (empty voxels beyond the image), and five drawings of it, cut by
 `kontur trace`. Sorted by name, the first, third, ... go to FOLDER/report, the second, fourth, ... to FOLDER/tune: constants may
 be chosen on the latter. FOLDER/structures.csv lists them. The same arguments give the same files.
+
+With --slices the drawings are layers of the truth's voxels along its third axis: one in two, four and eight, as for interpolation
+between slices, and two, three and four in the middle, as somebody begins to draw. Structures that the image cuts off are left
+out: their ends are not the object's.
 """
 import argparse
 import csv
@@ -139,6 +143,16 @@ DRAWINGS = {"oblique10": oblique, "ortho3x3": orthogonal, "radial6": radial, "ti
 PLANE_SETS = DRAWINGS | {"ortho1x3": first}
 
 
+def layers(truth, affine):
+    """{drawing: planes} of layers of voxels; none where fewer than two are left."""
+    occupied = np.flatnonzero(truth.any(axis=(0, 1)))
+    chosen = {f"slices_1_in_{step}": occupied[step // 2::step] for step in (2, 4, 8)}
+    chosen |= {f"middle_{count}": occupied[(len(occupied) - count) // 2:][:count] for count in (2, 3, 4)}
+    normal = np.cross(affine[:3, 0], affine[:3, 1])
+    return {drawing: [plane(affine[:3, :3] @ (0, 0, k) + affine[:3, 3], normal) for k in map(int, some)]
+            for drawing, some in chosen.items() if len(some) > 1}
+
+
 def turned(drawing, points, random):
     """Planes in directions that are neither the image's nor the patient's: those of the turned object, turned back with it.
     Around the object's own axis they begin somewhere else."""
@@ -175,6 +189,13 @@ def voxel_points(truth, affine):
     return np.argwhere(truth) @ affine[:3, :3].T + affine[:3, 3]
 
 
+def write_layers(folder, truth, affine, kontur):
+    write_truth(folder, truth, affine)
+    least_area = np.linalg.norm(affine[:3, :3], axis=0).min() ** 2
+    for drawing, planes in layers(truth, affine).items():
+        cut(kontur, folder, drawing, planes, least_area)
+
+
 def write_structure(folder, name, truth, affine, kontur):
     write_truth(folder, truth, affine)
     points = voxel_points(truth, affine)
@@ -208,6 +229,7 @@ def main():
     parser.add_argument("maps", nargs="+", metavar="NAME=LABELMAP")
     parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--output", required=True, type=pathlib.Path)
+    parser.add_argument("--slices", action="store_true")
     parser.add_argument("--without", action="append", default=[], metavar="STRUCTURE")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
@@ -217,8 +239,14 @@ def main():
         for number, (name, (mask, affine, source)) in enumerate(
                 collect(options.maps, options.without, options.kontur).items(), 1):
             split = "report" if number % 2 else "tune"
+            if options.slices and touches_border(mask):
+                continue
             truth, grid, factors = truth_of(mask, affine)
-            write_structure(options.output / split / name, name, truth, grid, options.kontur)
+            folder = options.output / split / name
+            if options.slices:
+                write_layers(folder, truth, grid, options.kontur)
+            else:
+                write_structure(folder, name, truth, grid, options.kontur)
             volume = truth.sum() * abs(np.linalg.det(grid[:3, :3])) / 1000
             parts = ndimage.label(truth, np.ones((3, 3, 3)))[1]
             table.writerow([number, split, name, pathlib.Path(source).name, truth.sum(), f"{volume:.2f}", parts,

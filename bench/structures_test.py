@@ -39,6 +39,8 @@ def made(tmp_path_factory):
     for output, name in (("once", "two"), ("twice", "two"), ("parts", "two/parts")):
         subprocess.run([sys.executable, BENCH / "structures.py", "--kontur", os.environ["KONTUR"], "--output",
                         folder / output, f"{name}={folder / 'labels.nii'}"], check=True, timeout=120)
+    subprocess.run([sys.executable, BENCH / "structures.py", "--slices", "--kontur", os.environ["KONTUR"], "--output",
+                    folder / "slices", f"two={folder / 'labels.nii'}"], check=True, timeout=120)
     return folder
 
 
@@ -96,6 +98,21 @@ def test_drawings_lie_on_the_object_and_a_hand_moves_them_by_half_a_millimetre(m
                 assert np.abs(levels - 0.5).max() < 1e-3
         moved = np.linalg.norm(drawn(folder / "ortho3x3_hand.json") - drawn(folder / "ortho3x3.json"), axis=1)
         assert 0.3 < np.sqrt((moved**2).mean()) < 0.9
+
+
+def test_layers_pass_through_voxels_and_what_the_image_cuts_off_has_none(made):
+    assert sorted(path.name for path in made.glob("slices/*/*")) == ["two_003", "two_005"]
+    folder = made / "slices/report/two_003"
+    truth = nibabel.load(folder / "truth.nii.gz")
+    occupied = np.flatnonzero(np.asarray(truth.dataobj).any(axis=(0, 1)))
+    for name, count in (("slices_1_in_2", 6), ("slices_1_in_4", 3), ("middle_2", 2), ("middle_4", 4)):
+        planes = json.loads((folder / f"{name}.json").read_text())["planes"]
+        heights = [voxels(np.array([p["origin"]]), LPS @ truth.affine)[0, 2] for p in planes if p["contours"]]
+        assert len(heights) == count
+        np.testing.assert_allclose(heights, np.rint(heights), atol=1e-6)
+        assert occupied[0] <= min(heights) and max(heights) <= occupied[-1]
+        if name.startswith("middle"):
+            assert max(heights) - min(heights) == pytest.approx(count - 1, abs=1e-6)
 
 
 def test_a_coarse_voxel_is_inside_where_half_of_it_is():

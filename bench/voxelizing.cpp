@@ -21,7 +21,7 @@ Run run(const PhantomCase& phantom, const SegmentReport& fitted, Voxelizer voxel
     Mask mask;
     const Timing timing = measure(repeat, [&] {
         const SurfaceLattice surface = find_surface();
-        mask = fill(surface, threads);
+        mask = fill(surface, {.threads = threads});
         evaluations = surface.evaluations;
         cells = surface.cells.size();
     });
@@ -46,13 +46,13 @@ std::vector<Run> runs_of(const PhantomCase& phantom, const Segmentation& fitted,
     std::vector<Run> runs;
     for (const int threads : thread_counts())
         runs.push_back(run(phantom, fitted.report, Voxelizer::tracked, threads, repeat,
-                           [&] { return track_surface(f, phantom.grid, starts, threads); }));
+                           [&] { return track_surface(f, phantom.grid, starts, {.threads = threads}); }));
     for (const int threads : thread_counts())
         runs.push_back(run(phantom, fitted.report, Voxelizer::adaptive, threads, repeat,
-                           [&] { return track_surface_adaptively(f, phantom.grid, starts, threads); }));
+                           [&] { return track_surface_adaptively(f, phantom.grid, starts, {.threads = threads}); }));
     const int all_threads = thread_counts().back();
     runs.push_back(run(phantom, fitted.report, Voxelizer::exhaustive, all_threads, 1,
-                       [&] { return sample_everywhere(f, phantom.grid, all_threads); }));
+                       [&] { return sample_everywhere(f, phantom.grid, {.threads = all_threads}); }));
     return runs;
 }
 

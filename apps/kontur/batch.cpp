@@ -214,12 +214,12 @@ public:
 
 private:
     void make_all() {
-        const Progress progress = console_.progress();
+        const Work terminal = console_.work();
         while (!waiting_.empty() || !running_.empty()) {
             while (!waiting_.empty() && running_.size() < static_cast<std::size_t>(jobs_)) start_next();
             std::this_thread::sleep_for(kPause);
             collect_finished();
-            progress.report(status(), fraction());
+            terminal.report(status(), fraction());
         }
     }
 

@@ -14,6 +14,7 @@
 #include "csv.h"
 #include "files.h"
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/base/sha256.h"
 #include "kontur/io/dicom_folder.h"
 #include "kontur/io/image_files.h"
@@ -29,11 +30,6 @@ namespace fs = std::filesystem;
 std::string trimmed(const std::string& text) {
     const std::size_t first = text.find_first_not_of(" \t");
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 /// The parts without the blanks around them; empty ones are left out.

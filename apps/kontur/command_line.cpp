@@ -141,7 +141,7 @@ void add_holes(CLI::App& sub, std::optional<HoleEncoding>& holes) {
         WriteRtstructOptions{}.holes);
 }
 
-void add_segment_method(CLI::App& sub, SegmentOptions& o) {
+void add_segment_method(CLI::App& sub, SegmentOptions& o, int& threads) {
     constexpr double kMostMb = 1e9;
     add_choice<Kernel>(
         sub, "--kernel", o.kernel,
@@ -184,7 +184,7 @@ void add_segment_method(CLI::App& sub, SegmentOptions& o) {
                    "Refuse a run that would take more, with the estimate [what the machine has]")
         ->type_name("MB")
         ->check(between(0, kMostMb));
-    add_threads(sub, o.threads);
+    add_threads(sub, threads);
 }
 
 void add_segment(CLI::App& app, Invocation& invocation) {
@@ -227,7 +227,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     bind.defaulted("--label-value", c.mask.label_value, "N", "Value of the voxels inside");
     add_holes(*bind.sub, c.holes);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
-    add_segment_method(*bind.sub, c.options);
+    add_segment_method(*bind.sub, c.options, c.threads);
     add_choice<UseImage>(*bind.sub, "--use-image", c.options.use_image,
                          {{"auto", UseImage::automatic}, {"off", UseImage::off}},
                          "Let the image tell how the surface runs between the contours: where it is shown, at contours left "
@@ -256,7 +256,7 @@ void add_slicer(CLI::App& app, Invocation& invocation) {
     bind.option("--mask", c.output_mask, "FILE", "Label map to write");
     bind.option("--model", c.output_model, "FILE", "Surface to write");
     bind.option("--returnparameterfile", c.return_parameters, "FILE", "Values to write for 3D Slicer");
-    add_segment_method(*bind.sub, c.options);
+    add_segment_method(*bind.sub, c.options, c.threads);
 }
 
 void add_batch(CLI::App& app, Invocation& invocation) {
@@ -294,7 +294,7 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.defaulted("--step-mm", c.options.step_mm, "MM", "Sampling distance on a plane; 0: half the smallest spacing");
     bind.defaulted("--tolerance-mm", c.options.tolerance_mm, "MM", "How far dropped points may lie off the contour");
     bind.defaulted("--min-area-mm2", c.options.min_area_mm2, "MM2", "Smaller contours are dropped");
-    add_threads(*bind.sub, c.options.threads);
+    add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.read);
     bind.quiet();
 }
@@ -327,7 +327,7 @@ void add_fill(CLI::App& app, Invocation& invocation) {
     bind.defaulted("--smoothing-voxels", c.options.smoothing_voxels, "VOXELS",
                    "Smoothing of the painted outlines, standard deviation");
     bind.option("--report", c.report, "FILE", "Report to write: .json");
-    add_threads(*bind.sub, c.options.threads);
+    add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.labels.options);
     add_series_options(*bind.sub, c.labels.options.dicom);
     bind.quiet();
@@ -344,6 +344,8 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     bind.defaulted("--planes", c.planes, "N", "How many")->check(CLI::Range(1, kMostPlanes));
     bind.defaulted("--skip", c.skip, "N", "Pass over the N best ones, and what runs along them")
         ->check(CLI::Range(0, kMostPlanes));
+    bind.option("--empty-planes", c.empty_planes, "FILE",
+                "Planes that show nothing of the object, as --output writes them; besides those of CONTOURS: .json");
     add_choice<PlaneChoice>(*bind.sub, "--among", c.among,
                             {{"any", PlaneChoice::any}, {"image-slices", PlaneChoice::image_slices}},
                             "Planes of any direction, or only slices across the axes of the image");
@@ -351,7 +353,7 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     bind.option("--sketch", c.sketch, "FILE", "Contours to write: the outlines predicted in the planes: .json");
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
     bind.flag("--json", c.json, "Print JSON");
-    add_segment_method(*bind.sub, c.options);
+    add_segment_method(*bind.sub, c.options, c.threads);
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
     for (const char* name : {"--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
@@ -369,7 +371,7 @@ void add_compare(CLI::App& app, Invocation& invocation) {
     bind.option("--label", c.label, "N", "The label to compare; needed when there are several");
     bind.option("--label-b", c.label_b, "N", "That of B, where it is another one [--label]");
     bind.flag("--json", c.json, "Print JSON");
-    add_threads(*bind.sub, c.options.threads);
+    add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.read);
     bind.option("--frame-b", c.frame_b, "N", "That of B, where it is another one [--frame]");
 }
@@ -412,7 +414,7 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
         ->allow_extra_args(false);
     bind.defaulted("--noise-hu", c.options.noise_hu, "HU", "Standard deviation of the image noise");
     bind.defaulted("--seed", c.options.seed, "N", "Of the noise")->check(whole_number());
-    add_threads(*bind.sub, c.options.threads);
+    add_threads(*bind.sub, c.threads);
     bind.quiet();
 }
 
@@ -420,7 +422,10 @@ void add_open(CLI::App& app, Invocation& invocation) {
     Binder<OpenCommand> bind(app, invocation, "open", "Draw and see the surface follow, in the browser",
                              "kontur open ct.nii.gz contours.json");
     OpenCommand& c = *bind.command;
-    bind.sub->add_option("FILES", c.files, "An image or DICOM folder, contours, a project (.kontur), or phantom, the example; nothing: choose in the page")
+    bind.sub
+        ->add_option(
+            "FILES", c.files,
+            "An image or DICOM folder, contours, a project (.kontur), or phantom, the example; nothing: choose in the page")
         ->type_name("");
     bind.option("--project", c.project, "FILE",
                 "Project to keep the work in [beside the contours, else in your data folder]");

@@ -29,14 +29,14 @@ namespace kontur::app {
 /// The main job: contours in, mask, surface, picture and report out.
 struct SegmentCommand {
     std::vector<std::filesystem::path> contours;
-    std::vector<std::string> rois;   ///< several: each becomes a label of its own
-    bool all_rois = false;           ///< all that have contours take the place of `rois`
-    bool together = false;           ///< ROIs that exclude each other share no voxel and leave no gap
+    std::vector<std::string> rois;  ///< several: each becomes a label of its own
+    bool all_rois = false;          ///< all that have contours take the place of `rois`
+    bool together = false;          ///< ROIs that exclude each other share no voxel and leave no gap
     std::vector<std::string> inside, may_overlap, exclusive;  ///< rules for pairs of them: "NAME:NAME"
-    ReadContoursOptions read;        ///< its `roi` is the only one of `rois`
-    ImageInput image;                ///< its path is empty when `spacing_mm` gives the grid
-    std::vector<double> spacing_mm;  ///< one number or three
-    double margin_mm = 10;           ///< around the contours' box, with `spacing_mm`
+    ReadContoursOptions read;                                 ///< its `roi` is the only one of `rois`
+    ImageInput image;                                         ///< its path is empty when `spacing_mm` gives the grid
+    std::vector<double> spacing_mm;                           ///< one number or three
+    double margin_mm = 10;                                    ///< around the contours' box, with `spacing_mm`
     std::filesystem::path output;
     std::filesystem::path rtstruct, mesh, picture, report;  ///< empty: not asked for
     std::filesystem::path uncertainty;                      ///< half widths of the band, as image or .ply; likewise
@@ -45,6 +45,7 @@ struct SegmentCommand {
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
     bool date = false;                  ///< say in the outputs when they were made
     SegmentOptions options;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const SegmentCommand& command, Console& console);
 /// What can be refused by the words alone, without a look at any file.
@@ -57,6 +58,7 @@ struct SlicerCommand {
     std::filesystem::path output_mask, output_model;  ///< empty: not asked for
     std::filesystem::path return_parameters;          ///< where 3D Slicer looks for values to show; empty: nowhere
     SegmentOptions options;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const SlicerCommand& command, Console& console);
 
@@ -90,6 +92,7 @@ struct TraceCommand {
     std::string name;                   ///< of the structure; empty: the mask file's
     std::optional<HoleEncoding> holes;  ///< of an RTSTRUCT; nullopt: as its writer does by itself
     TraceOptions options;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const TraceCommand& command, Console& console);
 
@@ -99,6 +102,7 @@ struct FillCommand {
     std::filesystem::path image;  ///< what a SEG refers to, and what was painted on; empty: not needed
     std::filesystem::path output, report;
     FillOptions options;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const FillCommand& command, Console& console);
 
@@ -106,13 +110,15 @@ void run(const FillCommand& command, Console& console);
 struct SuggestCommand {
     std::vector<std::filesystem::path> contours;
     ReadContoursOptions read;
-    ImageInput image;  ///< its path is empty when there is none
-    int planes = 1;    ///< how many
-    int skip = 0;      ///< best ones passed over
+    ImageInput image;                    ///< its path is empty when there is none
+    int planes = 1;                      ///< how many
+    int skip = 0;                        ///< best ones passed over
+    std::filesystem::path empty_planes;  ///< in which nothing of the object is seen; empty: not given
     PlaneChoice among = PlaneChoice::any;
     std::filesystem::path output, sketch;  ///< planes; predicted outlines in them; empty: not asked for
     bool json = false;
     SegmentOptions options;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const SuggestCommand& command, Console& console);
 
@@ -121,6 +127,7 @@ struct PhantomCommand {
     std::filesystem::path folder;
     std::vector<std::string> scans;  ///< names; empty: all
     PhantomOptions options;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const PhantomCommand& command, Console& console);
 
@@ -130,8 +137,8 @@ struct CompareCommand {
     std::optional<std::int64_t> label;
     ReadImageOptions read;
     std::optional<std::int64_t> label_b, frame_b;  ///< where b's are others
-    CompareOptions options;
     bool json = false;
+    int threads = 0;  ///< 0: the machine's
 };
 void run(const CompareCommand& command, Console& console);
 

@@ -35,15 +35,15 @@ struct Side {
 };
 
 Side read_side(const std::filesystem::path& path, const std::optional<std::int64_t>& label, const ReadImageOptions& read,
-               const Progress& progress) {
-    if (label) return {read_mask(path, label, read, progress), label};
-    const Image image = read_image(path, read, progress);
+               const Work& work) {
+    if (label) return {read_mask(path, label, read, work), label};
+    const Image image = read_image(path, read, work);
     try {
         if (const auto labels = count_labels(image, 1); !labels.empty())
             return {select_nonzero(image), labels.begin()->first};
     } catch (const Error&) {  // several labels or none, which read_mask refuses with their list
     }
-    return {read_mask(path, {}, read, progress), {}};
+    return {read_mask(path, {}, read, work), {}};
 }
 
 Facts label_of(const Side& side) { return side.label ? Facts(*side.label) : Facts(nullptr); }
@@ -51,17 +51,17 @@ Facts label_of(const Side& side) { return side.label ? Facts(*side.label) : Fact
 }  // namespace
 
 void run(const CompareCommand& command, Console& console) {
-    const Progress progress = console.progress();
+    const Work work = console.work(command.threads);
     const ReadImageOptions read = console.noting(command.read);
     ReadImageOptions read_b = read;
     if (command.frame_b) read_b.frame = command.frame_b;
-    const Side a = read_side(command.a, command.label, read, progress);
-    const Side b = read_side(command.b, command.label_b ? command.label_b : command.label, read_b, progress);
+    const Side a = read_side(command.a, command.label, read, work);
+    const Side b = read_side(command.b, command.label_b ? command.label_b : command.label, read_b, work);
     if (a.label && b.label && a.label != b.label)
         console.note(std::array{fmt::format("label {} of {} is compared with label {} of {}", *a.label, command.a.string(),
                                             *b.label, command.b.string())});
     Facts facts = {{"label_a", label_of(a)}, {"label_b", label_of(b)}};
-    facts.update(describe(compare(a.mask, b.mask, command.options, progress)));
+    facts.update(describe(compare(a.mask, b.mask, work)));
     console.print(command.json ? to_json_text(facts) : to_text(facts));
 }
 

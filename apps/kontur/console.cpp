@@ -24,11 +24,10 @@ Console::Console(bool quiet, std::stop_token stop)
 
 Console::~Console() { clear_bar(); }
 
-Progress Console::progress() {
-    Progress progress;
-    progress.stop = stop_;
-    if (has_bar_) progress.callback = [this](std::string_view stage, double fraction) { draw(stage, fraction); };
-    return progress;
+Work Console::work(int threads) {
+    Work work{.threads = threads, .stop = stop_};
+    if (has_bar_) work.callback = [this](std::string_view stage, double fraction) { draw(stage, fraction); };
+    return work;
 }
 
 void Console::print(std::string_view text) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/read_image_options.h"
 
 namespace kontur::app {
@@ -31,10 +31,11 @@ public:
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
 
-    /// For long library calls: cancelled by Ctrl-C, drawn as a bar when stderr is a terminal.
-    Progress progress();
+    /// For long library calls, on so many threads (0: the machine's): cancelled by Ctrl-C, drawn as a bar when stderr is a
+    /// terminal.
+    Work work(int threads = 0);
 
-    /// What `progress` is cancelled by.
+    /// What `work` is cancelled by.
     const std::stop_token& stop_token() const { return stop_; }
 
     /// Text on stdout, unless quiet.

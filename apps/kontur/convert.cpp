@@ -50,12 +50,12 @@ FileKind check_kinds(const ConvertCommand& command) {
                             words(*to), command.output.string(), advice(from, *to)));
 }
 
-Provenance provenance_of(const ConvertCommand& command, const Progress& progress) {
+Provenance provenance_of(const ConvertCommand& command, const Work& work) {
     std::vector<std::pair<std::string, fs::path>> inputs{{"source", command.input.path}};
     for (const fs::path& path : command.more) inputs.emplace_back(fmt::format("source_{}", inputs.size() + 1), path);
     std::string options = command.contours.roi ? fmt::format("roi={}", *command.contours.roi) : "";
     if (command.label) options = fmt::format("label={}", *command.label);
-    return made_by("convert", inputs, options, progress);
+    return made_by("convert", inputs, options, work);
 }
 
 /// All structures of all inputs.
@@ -64,7 +64,7 @@ Structures structures_of(const ConvertCommand& command, Console& console) {
     std::vector<fs::path> paths{command.input.path};
     paths.insert(paths.end(), command.more.begin(), command.more.end());
     for (const fs::path& path : paths) {
-        Structures some = read_structures({path, console.noting(command.input.options)}, console.progress());
+        Structures some = read_structures({path, console.noting(command.input.options)}, console.work());
         std::move(some.segments.begin(), some.segments.end(), std::back_inserter(all.segments));
         std::move(some.masks.begin(), some.masks.end(), std::back_inserter(all.masks));
     }
@@ -79,13 +79,13 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
             console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
     if (is_dicom_name(output) && by_itself)
-        return console.note(write_structures(output, structures_of(command, console), images, made, console.progress()));
-    const Image image = read_labels(input, command.label, console.progress());
-    console.note(write_image(output, image, input, images, made, console.progress()));
+        return console.note(write_structures(output, structures_of(command, console), images, made, console.work()));
+    const Image image = read_labels(input, command.label, console.work());
+    console.note(write_image(output, image, input, images, made, console.work()));
 }
 
 void convert(const ConvertCommand& command, FileKind kind, const fs::path& output, Console& console) {
-    const Provenance made = provenance_of(command, console.progress());
+    const Provenance made = provenance_of(command, console.work());
     switch (kind) {
         case FileKind::image:
             return convert_image(command, output, made, console);

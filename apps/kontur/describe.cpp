@@ -154,6 +154,7 @@ Facts describe(const ContourSet& set) {
         {"interior_points", set.interior.size()},
         {"exterior_points", set.exterior.size()},
         {"surface_points", set.surface.size()},
+        {"empty_planes", set.empty_planes.size()},
         {"extent_mm", extent(bounding_box(set))},
         {"problems", contour_problems(set)},
     };

@@ -93,7 +93,7 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
 }
 
 std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const ImageInput& images,
-                                    const WriteMaskOptions& options, const Progress& progress) {
+                                    const WriteMaskOptions& options, const Work& work) {
     if (!is_dicom_name(path)) {
         kontur::write_mask(path, result.mask, options);
         return {};
@@ -103,24 +103,24 @@ std::vector<std::string> write_mask(const fs::path& path, const Segmentation& re
     const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
                                    parameters(result.report, options.provenance)};
     return write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images),
-                           {.algorithm = algorithm, .provenance = options.provenance}, progress);
+                           {.algorithm = algorithm, .provenance = options.provenance}, work);
 }
 
 std::vector<std::string> write_image(const fs::path& path, const Image& image, const ImageInput& source,
-                                     const ImageInput& images, const Provenance& provenance, const Progress& progress) {
+                                     const ImageInput& images, const Provenance& provenance, const Work& work) {
     if (!is_dicom_name(path)) {
         const bool has_names = has_extension(path, ".seg.nrrd");
         const std::vector<LabelName> names = has_names ? label_names(named_segments(source)) : std::vector<LabelName>{};
         kontur::write_image(path, image, {names, provenance});
         return {};
     }
-    return write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, progress);
+    return write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, work);
 }
 
 std::vector<std::string> write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,
-                                          const Provenance& provenance, const Progress& progress) {
+                                          const Provenance& provenance, const Work& work) {
     return write_dicom_seg_masks(path, structures.masks, structures.segments, series_of(images), {.provenance = provenance},
-                                 progress);
+                                 work);
 }
 
 }  // namespace kontur::app

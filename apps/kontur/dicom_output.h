@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "files.h"
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/segment.h"
@@ -42,15 +42,15 @@ std::vector<std::string> write_contours(const std::filesystem::path& path, const
 
 /// Writes the mask of a fit in the format of the name; in .dcm with the way it was made.
 std::vector<std::string> write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
-                                    const WriteMaskOptions& options, const Progress& progress);
+                                    const WriteMaskOptions& options, const Work& work);
 
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,
 /// named as in the source where that names them.
 std::vector<std::string> write_image(const std::filesystem::path& path, const Image& image, const ImageInput& source,
-                                     const ImageInput& images, const Provenance& provenance, const Progress& progress);
+                                     const ImageInput& images, const Provenance& provenance, const Work& work);
 
 /// Writes a DICOM segmentation whose segments may overlap.
 std::vector<std::string> write_structures(const std::filesystem::path& path, const Structures& structures,
-                                          const ImageInput& images, const Provenance& provenance, const Progress& progress);
+                                          const ImageInput& images, const Provenance& provenance, const Work& work);
 
 }  // namespace kontur::app

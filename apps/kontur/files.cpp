@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/io/image.h"
@@ -30,9 +31,7 @@ bool is_vtk_name(const fs::path& path) { return has_extension(path, ".vtk") || h
 }  // namespace
 
 bool has_extension(const fs::path& path, std::string_view extension) {
-    std::string name = path.filename().string();
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    return name.ends_with(extension);
+    return lower_case(path.filename().string()).ends_with(extension);
 }
 
 FileKind input_kind(const fs::path& path) {

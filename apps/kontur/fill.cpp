@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Provenance provenance_of(const FillCommand& command, const Progress& progress) {
+Provenance provenance_of(const FillCommand& command, const Work& work) {
     const FillOptions& o = command.options;
     std::string options = fmt::format("ends={} jointly={} shape_weight={} smoothing_voxels={} use_image={}", name(o.ends),
                                       o.jointly, o.shape_weight, o.smoothing_voxels, name(o.use_image));
     for (const std::int64_t label : o.labels) options += fmt::format(" label={}", label);
-    return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, progress);
+    return made_by("fill", {{"labels", command.labels.path}, {"image", command.image}}, options, work);
 }
 
 /// Whatever can be refused before any work is done.
@@ -50,7 +50,7 @@ Facts image_facts(const RefineReport& image) {
             {"error_with_mm", image.error_with_mm}};
 }
 
-Facts report_of(const FillReport& report, const Provenance& made) {
+Facts report_of(const FillReport& report, const std::vector<std::string>& warnings, const Provenance& made) {
     Facts labels = Facts::array(), provenance = Facts::object(), seconds = Facts::object();
     for (const FilledLabel& one : report.labels)
         labels.push_back({{"label", one.label},
@@ -64,6 +64,7 @@ Facts report_of(const FillReport& report, const Provenance& made) {
     return {{"version", KONTUR_VERSION},
             {"provenance", provenance},
             {"labels", labels},
+            {"warnings", warnings},
             {"contested_voxels", report.contested_voxels},
             {"closed_voxels", report.closed_voxels},
             {"seconds", seconds},
@@ -82,30 +83,38 @@ std::string slices_of(const FilledLabel& one) {
 
 void run(const FillCommand& command, Console& console) {
     check(command);
-    const Progress progress = console.progress();
+    const Work work = console.work(command.threads);
     const ImageInput input{command.labels.path, console.noting(command.labels.options)};
     const ImageInput images{command.image, console.noting(command.labels.options)};
     if (is_dicom_name(command.output))
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(input.path), images))
             console.warn(note);
+    std::vector<std::string> warnings;
     const Filling filling = [&] {
-        Image labels = read_labels(input, {}, progress);
+        Image labels = read_labels(input, {}, work);
         std::optional<Image> image;
-        if (command.options.use_image != UseImage::off) image = kontur::read_image(images.path, images.options, progress);
+        if (!command.image.empty() && command.options.use_image != UseImage::off) {
+            try {
+                image = kontur::read_image(images.path, images.options, work);
+            } catch (const Error& error) {
+                if (error.kind() == ErrorKind::cancelled || !fs::exists(images.path)) throw;
+                warnings.push_back(fmt::format("the image was not used between the slices: {}", error.what()));
+                console.warn(warnings.back());
+            }
+        }
         try {
-            return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, progress);
+            return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, work);
         } catch (const Error& error) {
             throw error.with_context(input.path.string());
         }
     }();
-    const Provenance made = provenance_of(command, progress);
+    const Provenance made = provenance_of(command, work);
     Outputs outputs;
-    outputs.write(command.output, [&](const fs::path& path) {
-        console.note(write_image(path, filling.labels, input, images, made, progress));
-    });
+    outputs.write(command.output,
+                  [&](const fs::path& path) { console.note(write_image(path, filling.labels, input, images, made, work)); });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {
-            write_file_atomically(path, to_json_text(report_of(filling.report, made)));
+            write_file_atomically(path, to_json_text(report_of(filling.report, warnings, made)));
         });
     outputs.commit();
 

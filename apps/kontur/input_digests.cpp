@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A slice of a DICOM series stands for its folder, a header for the file with its voxels, too.
-std::string image_sha256(const fs::path& image, const Progress& progress) {
+std::string image_sha256(const fs::path& image, const Work& work) {
     const fs::path folder = series_folder(image);
-    return folder.empty() ? files_sha256(image_files(image), progress) : file_sha256(folder, progress);
+    return folder.empty() ? files_sha256(image_files(image), work) : file_sha256(folder, work);
 }
 
 /// Appends what an input says of itself, `name` in front of each of its names. A file that came by very many steps keeps
@@ -45,18 +45,18 @@ std::time_t seconds_since_1970(std::string_view text) {
 
 }  // namespace
 
-Provenance input_digests(const SegmentCommand& command, const Progress& progress) {
-    Provenance digests{{"contour_files_sha256", files_sha256(command.contours, progress)}};
+Provenance input_digests(const SegmentCommand& command, const Work& work) {
+    Provenance digests{{"contour_files_sha256", files_sha256(command.contours, work)}};
     const fs::path& image = command.image.path;
-    if (!image.empty()) digests.emplace_back("image_sha256", image_sha256(image, progress));
+    if (!image.empty()) digests.emplace_back("image_sha256", image_sha256(image, work));
     return digests;
 }
 
 Provenance made_by(const std::string& command, const std::vector<std::pair<std::string, fs::path>>& inputs,
-                   const std::string& options, const Progress& progress) {
+                   const std::string& options, const Work& work) {
     Provenance made{{"made_by", "kontur " + command}};
     for (const auto& [name, path] : inputs)
-        if (!path.empty()) made.emplace_back(name + "_sha256", image_sha256(path, progress));
+        if (!path.empty()) made.emplace_back(name + "_sha256", image_sha256(path, work));
     made.emplace_back("version", KONTUR_VERSION);
     if (!options.empty()) made.emplace_back("options", options);
     for (const auto& [name, path] : inputs)

@@ -43,7 +43,7 @@ Facts inspect_image(const InspectCommand& command, const fs::path& path, Console
     options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
     options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
     Facts facts = {{"kind", "image"}};
-    facts.update(describe(read_image(path, options, console.progress())));
+    facts.update(describe(read_image(path, options, console.work())));
     facts["notes"] = notes;
     if (!warnings.empty()) facts["warnings"] = warnings;
     for (const std::string& warning : warnings) console.warn_once(warning);
@@ -114,6 +114,7 @@ Facts inspect_structure_set(const InspectCommand& command, const fs::path& path)
         facts.update(describe(roi.contours));
         facts.erase("interior_points");  // which RTSTRUCT does not know
         facts.erase("exterior_points");
+        facts.erase("empty_planes");
         facts["notes"] = roi.notes;
         if (!roi.damage.empty()) {
             facts["damage"] = roi.damage;

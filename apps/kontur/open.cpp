@@ -88,7 +88,7 @@ viewer::Workspace::Services services(const Words& words) {
     std::vector<viewer::Place> places = viewer::usual_places();
     std::error_code ignored;
     if (fs::is_directory(words.image, ignored)) places.insert(places.begin(), {words.title(), fs::absolute(words.image)});
-    return {[](const viewer::OpenRequest& request, const Progress& progress) { return open_project(request, progress); },
+    return {[](const viewer::OpenRequest& request, const Work& work) { return open_project(request, work); },
             viewer::Places(places), recent_projects_file()};
 }
 
@@ -101,7 +101,7 @@ public:
     void begin(viewer::Workspace& workspace) {
         workspace_ = &workspace;
         workspace.begin(
-            words_.title(), [this](const Progress& pages) { return read(pages); },
+            words_.title(), [this](const Work& pages) { return read(pages); },
             [this](const std::exception_ptr& failure) { end(failure); });
     }
 
@@ -125,14 +125,14 @@ public:
     }
 
 private:
-    std::shared_ptr<viewer::Session> read(const Progress& pages) {
-        const Progress terminal = console_.progress();
+    std::shared_ptr<viewer::Session> read(const Work& pages) {
+        const Work terminal = console_.work();
         const std::stop_callback stop(terminal.stop, [this] { workspace_->cancel(); });
         const auto tell = [&](std::string_view stage, double fraction) {
             if (terminal.callback) terminal.callback(stage, fraction);
             if (pages.callback) pages.callback(stage, fraction);
         };
-        Opened opened = open_project(command_, words_, Progress{tell, pages.stop});
+        Opened opened = open_project(command_, words_, Work{.callback = tell, .stop = pages.stop});
         console_.note(opened.notes);
         for (const std::string& warning : opened.warnings) console_.warn(warning);
         project_ = opened.session->project_path();
@@ -196,7 +196,7 @@ private:
 }  // namespace
 
 void run(const OpenCommand& command, Console& console) {
-    const Progress progress = console.progress();
+    const Work work = console.work();
     viewer::remove_left_folders();
     const Words words = sorted_words(command);
     FirstImage first(command, words, console);
@@ -216,7 +216,7 @@ void run(const OpenCommand& command, Console& console) {
     flush_stdout();  // who does not learn the address cannot use it
     first.serve(&server);
     const auto way_in = command.no_browser ? nullptr : open_browser(server.address(), console);
-    const std::stop_callback stop(progress.stop, [&] { server.stop(); });
+    const std::stop_callback stop(work.stop, [&] { server.stop(); });
     server.run();
     first.serve(nullptr);
     workspace.cancel();

@@ -52,11 +52,11 @@ Words sorted(const std::vector<fs::path>& files) {
     return words;
 }
 
-Image phantom_image(const Progress& progress) {
+Image phantom_image(const Work& work) {
     const std::vector<PhantomVolume> scans = phantom_volumes();
     const auto scan =
         std::find_if(scans.begin(), scans.end(), [](const PhantomVolume& v) { return v.name == kPhantomScan; });
-    return make_phantom_image(scan->grid, {}, progress);
+    return make_phantom_image(scan->grid, {}, work);
 }
 
 /// Whose image it is, and what files that are made of it refer to.
@@ -80,11 +80,11 @@ viewer::ImageChoice choice_of(const ReadImageOptions& options) {
     return {options.dicom.series_uid, options.dicom.volume, options.frame};
 }
 
-void open_file(const ImageInput& input, const Progress& progress, viewer::OpenedImage& opened, Opened& result) {
+void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& opened, Opened& result) {
     ReadImageOptions options = input.options;
     options.on_note = [&](std::string_view note) { result.notes.emplace_back(note); };
     options.on_warning = [&](std::string_view warning) { result.warnings.emplace_back(warning); };
-    opened.image = std::make_shared<const Image>(read_image(input.path, options, progress));
+    opened.image = std::make_shared<const Image>(read_image(input.path, options, work));
     opened.notes = result.notes;
     opened.notes.insert(opened.notes.end(), result.warnings.begin(), result.warnings.end());
     opened.title = fs::absolute(input.path).lexically_normal().filename().string();
@@ -93,16 +93,16 @@ void open_file(const ImageInput& input, const Progress& progress, viewer::Opened
     tell_series(input, opened);
 }
 
-viewer::OpenedImage open_image(const ImageInput& input, const Progress& progress, Opened& result) {
+viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Opened& result) {
     viewer::OpenedImage opened;
     if (is_example(input.path)) {
-        opened.image = std::make_shared<const Image>(phantom_image(progress));
+        opened.image = std::make_shared<const Image>(phantom_image(work));
         opened.title = "Phantom: upper abdomen";
         opened.reference.path = viewer::kExample;
     } else {
-        open_file(input, progress, opened, result);
+        open_file(input, work, opened, result);
     }
-    progress.report("look at values", 1);
+    work.report("look at values", 1);
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);
     return opened;
 }
@@ -196,15 +196,15 @@ Words sorted_words(const OpenCommand& command) {
     return words;
 }
 
-Opened open_project(const OpenCommand& command, const Words& words, const Progress& progress) {
+Opened open_project(const OpenCommand& command, const Words& words, const Work& work) {
     Opened result;
-    viewer::OpenedImage image = open_image(image_input(command, words), progress, result);
+    viewer::OpenedImage image = open_image(image_input(command, words), work, result);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
     std::optional<ReadContours> first;
     if (!fs::exists(project)) first = first_contours(command, words, result);
     if (first) tell_doubts(*first, image, result);
-    progress.check();
+    work.check();
     result.session = std::make_shared<viewer::Session>(std::move(image), project);
     if (result.session->is_new()) {
         result.session->begin_with(first ? first->contours : first_contours(command, words, result).contours);
@@ -215,13 +215,13 @@ Opened open_project(const OpenCommand& command, const Words& words, const Progre
     return result;
 }
 
-std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Progress& progress) {
+std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work) {
     OpenCommand command;
     command.files = {request.path};
     command.image.options.dicom.series_uid = request.choice.series_uid;
     command.image.options.dicom.volume = request.choice.volume;
     command.image.options.frame = request.choice.frame;
-    return open_project(command, sorted_words(command), progress).session;
+    return open_project(command, sorted_words(command), work).session;
 }
 
 fs::path recent_projects_file() {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "viewer/session.h"
 #include "viewer/workspace.h"
 
@@ -35,10 +35,10 @@ struct Opened {
 };
 
 /// Reads the image and opens, or makes, the project. Errors are those of the readers and of `Session`.
-Opened open_project(const OpenCommand& command, const Words& words, const Progress& progress);
+Opened open_project(const OpenCommand& command, const Words& words, const Work& work);
 
 /// The same for a page.
-std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Progress& progress);
+std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work);
 
 /// Where the list of recent projects is kept; "" without a home folder.
 std::filesystem::path recent_projects_file();

@@ -43,17 +43,17 @@ public:
     Writer(const PhantomCommand& command, Console& console) : command_(command), console_(console) {}
 
     void write_volume(const PhantomVolume& volume, Outputs& outputs) {
-        const Progress progress = console_.progress();
+        const Work work = console_.work(command_.threads);
         const std::string ct = volume.name + "_ct.nii.gz";
         outputs.write(command_.folder / ct, [&](const fs::path& path) {
-            write_image(path, make_phantom_image(volume.grid, command_.options, progress), {{}, made_});
+            write_image(path, make_phantom_image(volume.grid, command_.options, work), {{}, made_});
         });
         Facts truths = Facts::object();
         for (const Body& body : volume.bodies) {
-            progress.check();
+            work.check();
             const std::string mask = fmt::format("{}_truth_{}.nii.gz", volume.name, body.name());
             outputs.write(command_.folder / mask, [&](const fs::path& path) {
-                write_mask(path, make_truth_mask(body, volume.grid, command_.options.threads), {.provenance = made_});
+                write_mask(path, make_truth_mask(body, volume.grid, work), {.provenance = made_});
             });
             truths[body.name()] = mask;
         }
@@ -61,7 +61,7 @@ public:
     }
 
     void write_case(const std::string& name, Outputs& outputs) {
-        console_.progress().check();
+        console_.work().check();
         const PhantomCase found = phantom_case(name);
         const std::string file = name + ".json";
         outputs.write(command_.folder / file, [&](const fs::path& path) { write_contours(path, found.contours, made_); });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dicom_output.h"
+#include "drawn_on.h"
 #include "kontur/base/error.h"
 
 namespace kontur::app {
@@ -49,7 +50,7 @@ StructurePair rule_of(const char* option, const std::string& words, Relation rel
 
 }  // namespace
 
-RoiDrawings read_roi_drawings(const SegmentCommand& command, const Progress& progress) {
+RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
     const std::filesystem::path& file = command.contours.front();
     const StructureSet set = read_rtstruct(file);
     RoiDrawings drawings{{}, {}, {}, set.notes};
@@ -67,14 +68,9 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Progress& pro
     }
     for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, command.image))
         drawings.notes.push_back(std::move(note));
-    ReadImageOptions read = command.image.options;
-    read.on_note = [&](std::string_view note) { drawings.notes.emplace_back(note); };
-    if (command.options.use_image == UseImage::off) {
-        drawings.grid = read_grid(command.image.path, read, progress);
-    } else {
-        drawings.image = read_image(command.image.path, read, progress);
-        drawings.grid = drawings.image->grid;
-    }
+    DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, drawings.notes);
+    drawings.grid = drawn_on.grid;
+    drawings.image = std::move(drawn_on.image);
     return drawings;
 }
 

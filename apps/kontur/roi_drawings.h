@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/segment_together.h"
 
@@ -22,7 +22,7 @@ struct RoiDrawings {
 
 /// The ROIs and the image that a command names. Throws as the readers do, and Error(invalid_input) for a ROI that has no
 /// contour or is named twice.
-RoiDrawings read_roi_drawings(const SegmentCommand& command, const Progress& progress);
+RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work);
 
 /// What a command says about pairs of ROIs, by their positions. Throws Error(invalid_input) for words that do not name two
 /// of them.

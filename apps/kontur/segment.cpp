@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "dicom_output.h"
+#include "drawn_on.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
@@ -73,41 +74,42 @@ Grid grid_around_contours(const SegmentCommand& command, const ContourSet& conto
     throw Error(ErrorKind::invalid_input, fmt::format("{}{} has no contour; at least 1 is needed", files, roi));
 }
 
-Inputs read_inputs(const SegmentCommand& command, const Progress& progress) {
+Inputs read_inputs(const SegmentCommand& command, const Work& work) {
     ReadContours contours = read_contours(command.contours, command.read);
     if (contours.contours.contours.empty()) refuse_empty(command);
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
     for (std::string& note : frame_of_reference_notes(contours.frame_of_reference_uid, command.image))
         inputs.notes.push_back(std::move(note));
-    ReadImageOptions read = command.image.options;
-    read.on_note = [&](std::string_view note) { inputs.notes.emplace_back(note); };
     if (!command.name.empty()) inputs.contours.name = command.name;
     if (command.image.path.empty()) {
         inputs.grid = grid_around_contours(command, inputs.contours);
-    } else if (command.picture.empty() && command.options.use_image == UseImage::off) {
-        inputs.grid = read_grid(command.image.path, read, progress);
-    } else {
-        inputs.image = read_image(command.image.path, read, progress);
+    } else if (command.picture.empty()) {
+        DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, inputs.notes);
+        inputs.grid = drawn_on.grid;
+        inputs.image = std::move(drawn_on.image);
+    } else {  // which shows it
+        ReadImageOptions read = command.image.options;
+        read.on_note = [&](std::string_view note) { inputs.notes.emplace_back(note); };
+        inputs.image = read_image(command.image.path, read, work);
         inputs.grid = inputs.image->grid;
     }
     return inputs;
 }
 
-RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segmentation& result) {
+RgbImage picture(const SegmentCommand& command, const Inputs& inputs, const Segmentation& result, const Work& work) {
     PictureOptions options;
     options.title =
         inputs.contours.name.empty() ? printable_utf8(command.contours.front().stem().string()) : inputs.contours.name;
     options.facts = {{"Volume (mask)", in_ml(result.report.mask_volume_ml)},
                      {"Residual (max)", fmt::format("{:.2g} mm", result.report.residual.max_mm)},
                      {"Residual (rms)", fmt::format("{:.2g} mm", result.report.residual.rms_mm)}};
-    options.threads = command.options.threads;
-    return make_picture(*result.mesh, inputs.contours, inputs.image ? &*inputs.image : nullptr, options);
+    return make_picture(*result.mesh, inputs.contours, inputs.image ? &*inputs.image : nullptr, options, work);
 }
 
 /// The surface on the image's slices. What there is to tell becomes a warning in the report.
 void write_structure_set(const fs::path& path, const SegmentCommand& command, const Inputs& inputs, Segmentation& result,
-                         const Provenance& made, const Progress& progress) {
-    ContourSet set = slice_contours(result.mask, result.function, command.options.threads, progress);
+                         const Provenance& made, const Work& work) {
+    ContourSet set = slice_contours(result.mask, result.function, work);
     set.name = inputs.contours.name;
     for (std::string& note : write_contours(path, set, command.image, rtstruct_options(command.holes, made)))
         result.report.warnings.push_back(std::move(note));
@@ -124,13 +126,12 @@ void check_planes_suffice(const SegmentCommand& command, const ContourSet& conto
                                 count, count == 1 ? "" : "s", kLeastPlanes));
 }
 
-void write_uncertainty(const fs::path& path, const SegmentCommand& command, const Inputs& inputs, const Segmentation& result,
-                       const Provenance& made) {
-    const SurfaceEvidence evidence = gather_evidence(result, inputs.contours, command.options.threads);
+void write_uncertainty(const fs::path& path, const Inputs& inputs, const Segmentation& result, const Provenance& made,
+                       const Work& work) {
+    const SurfaceEvidence evidence = gather_evidence(result, inputs.contours, work);
     if (is_mesh_name(path))
-        write_mesh(path, *result.mesh,
-                   {"half_width_mm", half_widths_mm(evidence, result.mesh->points, command.options.threads)}, made);
-    else write_image(path, uncertainty_map(result.mask, evidence, command.options.threads), {{}, made});
+        write_mesh(path, *result.mesh, {"half_width_mm", half_widths_mm(evidence, result.mesh->points, work)}, made);
+    else write_image(path, uncertainty_map(result.mask, evidence, work), {{}, made});
 }
 
 /// Measures consecutive stages into a report's `seconds`.
@@ -205,20 +206,19 @@ void run(const SegmentCommand& words, Console& console) {
     check_words(command);
     check_files(command);
     if (has_several(command)) return segment_rois(command, console);
-    const Progress progress = console.progress();
+    const Work work = console.work(command.threads);
     Laps laps;
-    const Inputs inputs = read_inputs(command, progress);
+    const Inputs inputs = read_inputs(command, work);
     // Beside the work: a large image takes as long to digest as a small case to segment.
-    std::future<Provenance> digests = std::async(std::launch::async, [&command, stop = progress.stop] {
-        return input_digests(command, Progress{{}, stop});
-    });
+    std::future<Provenance> digests =
+        std::async(std::launch::async, [&command, stop = work.stop] { return input_digests(command, Work{.stop = stop}); });
     const double read_seconds = laps.lap();
 
     SegmentOptions options = command.options;
     check_planes_suffice(command, inputs.contours);
     const bool draws_band = !command.uncertainty.empty() && is_mesh_name(command.uncertainty);
     options.mesh = !command.mesh.empty() || !command.picture.empty() || draws_band;
-    Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, progress);
+    Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, work);
     SegmentReport& report = result.report;
     report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
     report.seconds.insert(report.seconds.begin(), {"read", read_seconds});
@@ -233,19 +233,19 @@ void run(const SegmentCommand& words, Console& console) {
     Outputs outputs;
     const auto write = [&](const fs::path& target, const auto& writer) {
         if (!target.empty()) outputs.write(target, writer);
-        progress.check();
+        work.check();
     };
     write(command.output, [&](const fs::path& path) {
-        for (std::string& note : write_mask(path, result, command.image, mask, progress))
+        for (std::string& note : write_mask(path, result, command.image, mask, work))
             report.warnings.push_back(std::move(note));
     });
     write(command.rtstruct,
-          [&](const fs::path& path) { write_structure_set(path, command, inputs, result, mask.provenance, progress); });
+          [&](const fs::path& path) { write_structure_set(path, command, inputs, result, mask.provenance, work); });
     write(command.mesh, [&](const fs::path& path) { write_mesh(path, *result.mesh, mask.provenance); });
     write(command.picture,
-          [&](const fs::path& path) { write_png(path, picture(command, inputs, result), mask.provenance); });
+          [&](const fs::path& path) { write_png(path, picture(command, inputs, result, work), mask.provenance); });
     write(command.uncertainty,
-          [&](const fs::path& path) { write_uncertainty(path, command, inputs, result, mask.provenance); });
+          [&](const fs::path& path) { write_uncertainty(path, inputs, result, mask.provenance, work); });
     report.seconds.emplace_back("write", laps.lap());
     write(command.report, [&](const fs::path& path) { write_file_atomically(path, to_json(report, mask.provenance)); });
     outputs.commit();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -59,17 +58,7 @@ Provenance together(const std::vector<FittedRoi>& all) {
 /// The borders of a mask on its slices, where no function says where they run.
 ContourSet slice_outlines(const BoxedMask& object, const Grid& grid) {
     constexpr std::int64_t kMargin = 4;  // as far as outlines are smoothed
-    const Mask mask = widened(object, object.box.padded({kMargin, kMargin, kMargin}, grid.size), grid).mask;
-    ContourSet set;
-    const auto area = static_cast<std::size_t>(mask.grid.size.i * mask.grid.size.j);
-    for (std::int64_t k = 0; k < mask.grid.size.k; ++k) {
-        const auto first = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.grid.offset(0, 0, k));
-        const PaintedSlice slice{
-            .axis = 2, .index = k, .whole = true, .section = {first, first + static_cast<std::ptrdiff_t>(area)}};
-        std::vector<Contour> contours = section_contours(mask.grid, slice);
-        std::move(contours.begin(), contours.end(), std::back_inserter(set.contours));
-    }
-    return set;
+    return slice_outlines(widened(object, object.box.padded({kMargin, kMargin, kMargin}, grid.size), grid).mask);
 }
 
 /// What is said about a structure beside its voxels.
@@ -90,16 +79,15 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
     return fitted;
 }
 
-RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Progress& progress) {
+RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
     RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
     const Image* const image = drawings.image ? &*drawings.image : nullptr;
     const Index3& size = drawings.grid.size;
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         try {
-            Segmentation made = segment(drawings.rois[n].contours, drawings.grid, image, command.options, progress);
+            Segmentation made = segment(drawings.rois[n].contours, drawings.grid, image, command.options, work);
             ContourSet outlines;
-            if (!command.rtstruct.empty())
-                outlines = slice_contours(made.mask, made.function, command.options.threads, progress);
+            if (!command.rtstruct.empty()) outlines = slice_contours(made.mask, made.function, work);
             FittedRoi one = fitted_from(drawings, n, made);
             result.add(command, std::move(one), std::move(outlines), std::move(made.mask),
                        {{0, 0, 0}, {size.i - 1, size.j - 1, size.k - 1}});
@@ -116,22 +104,22 @@ std::string sentence(const StructurePair& pair, const std::vector<Roi>& rois) {
                        pair.is_given ? " by rule" : "", pair.shared_voxels, pair.shared_voxels == 1 ? "" : "s");
 }
 
-SharedSurface surface_of_all(const Together& all, int threads) {
+SharedSurface surface_of_all(const Together& all, const Work& work) {
     std::vector<BoxedMask> objects;
     std::vector<ImplicitFunction> functions;
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         objects.push_back({all.boxes[n], all.structures[n].mask});
         functions.push_back(all.structures[n].function);
     }
-    return shared_surface(objects, functions, all.grid, threads);
+    return shared_surface(objects, functions, all.grid, work);
 }
 
-RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Progress& progress) {
+RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
     RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
     std::vector<ContourSet> contours;
     for (const Roi& roi : drawings.rois) contours.push_back(roi.contours);
     const TogetherOptions options{.segment = command.options, .rules = roi_rules(command, drawings.rois)};
-    Together all = segment_together(contours, drawings.grid, drawings.image ? &*drawings.image : nullptr, options, progress);
+    Together all = segment_together(contours, drawings.grid, drawings.image ? &*drawings.image : nullptr, options, work);
     for (const StructurePair& pair : all.pairs) {
         if (pair.relation == Relation::inside)
             result.labels.set_inside(static_cast<std::uint16_t>(pair.first + 1),
@@ -140,7 +128,7 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
     }
     result.notes.push_back(
         fmt::format("{} voxels between structures that touch were given to the nearest", all.closed_voxels));
-    if (!command.mesh.empty()) result.surface = surface_of_all(all, command.options.threads);
+    if (!command.mesh.empty()) result.surface = surface_of_all(all, work);
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);
@@ -177,13 +165,13 @@ void check_roi_words(const SegmentCommand& command) {
 }
 
 void segment_rois(const SegmentCommand& command, Console& console) {
-    const Progress progress = console.progress();
-    const RoiDrawings drawings = read_roi_drawings(command, progress);
-    RoiResults result = command.together ? fit_together(command, drawings, progress) : fit_each(command, drawings, progress);
+    const Work work = console.work(command.threads);
+    const RoiDrawings drawings = read_roi_drawings(command, work);
+    RoiResults result = command.together ? fit_together(command, drawings, work) : fit_each(command, drawings, work);
     const std::vector<FittedRoi>& all = result.all;
 
     Provenance made = together(all);
-    for (auto& digest : input_digests(command, progress)) made.push_back(std::move(digest));
+    for (auto& digest : input_digests(command, work)) made.push_back(std::move(digest));
     if (command.date) made.emplace_back("date", utc_date());
 
     const auto add = [&](const std::vector<std::string>& more) {
@@ -191,7 +179,7 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     };
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
-        add(is_dicom_name(path) ? write_structures(path, result.structures, command.image, made, progress)
+        add(is_dicom_name(path) ? write_structures(path, result.structures, command.image, made, work)
                                 : write_label_map(path, result, made));
     });
     if (!command.rtstruct.empty())

@@ -158,11 +158,8 @@ std::string escaped(std::string_view text) {
 /// Stages follow one another without anyone knowing how many are to come: each takes half of what is left of the bar.
 class TagProgress {
 public:
-    Progress progress(const std::stop_token& stop) {
-        Progress progress;
-        progress.stop = stop;
-        progress.callback = [this](std::string_view stage, double fraction) { report(stage, fraction); };
-        return progress;
+    Work work(int threads, const std::stop_token& stop) {
+        return {threads, [this](std::string_view stage, double fraction) { report(stage, fraction); }, stop};
     }
 
 private:
@@ -206,11 +203,11 @@ struct Made {
     Segmentation result;
 };
 
-void write_outputs(const SlicerCommand& command, const Made& made, const Progress& progress) {
+void write_outputs(const SlicerCommand& command, const Made& made, const Work& work) {
     const Segmentation& result = made.result;
     Provenance how = provenance(made.contours, result.mask.grid, result.report);
-    how.emplace_back("contour_files_sha256", files_sha256(command.contours, progress));
-    how.emplace_back("image_sha256", file_sha256(command.reference, progress));
+    how.emplace_back("contour_files_sha256", files_sha256(command.contours, work));
+    how.emplace_back("image_sha256", file_sha256(command.reference, work));
     Outputs outputs;
     if (!command.output_mask.empty())
         outputs.write(command.output_mask,
@@ -223,12 +220,12 @@ void write_outputs(const SlicerCommand& command, const Made& made, const Progres
     outputs.commit();
 }
 
-Made fit(const SlicerCommand& command, const Progress& progress) {
+Made fit(const SlicerCommand& command, const Work& work) {
     ReadContours contours = read_contours(command.contours);
-    const Grid grid = read_grid(command.reference, {}, progress);
+    const Grid grid = read_grid(command.reference, {}, work);
     SegmentOptions options = command.options;
     options.mesh = !command.output_model.empty();
-    Segmentation result = segment(contours.contours, grid, options, progress);
+    Segmentation result = segment(contours.contours, grid, options, work);
     return {std::move(contours.contours), std::move(result)};
 }
 
@@ -269,8 +266,8 @@ void run(const SlicerCommand& command, Console& console) {
         "<filter-start>\n<filter-name>{}</filter-name>\n<filter-comment>reading</filter-comment>\n</filter-start>\n",
         kName));
     TagProgress tags;
-    const Made made = fit(command, tags.progress(console.stop_token()));
-    write_outputs(command, made, Progress{{}, console.stop_token()});
+    const Made made = fit(command, tags.work(command.threads, console.stop_token()));
+    write_outputs(command, made, Work{.stop = console.stop_token()});
     for (const std::string& warning : made.result.report.warnings)
         tell(fmt::format("<filter-comment>{}</filter-comment>\nwarning: {}\n", escaped(warning), warning));
     tell(
@@ -285,7 +282,7 @@ std::string slicer_description(const SlicerCommand& defaults) {
                        fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
                        fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
                        fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)),
-                       fmt::arg("quality", o.quality), fmt::arg("threads", o.threads));
+                       fmt::arg("quality", o.quality), fmt::arg("threads", defaults.threads));
 }
 
 }  // namespace kontur::app

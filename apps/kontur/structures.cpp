@@ -30,14 +30,14 @@ bool has_layers(const std::vector<NrrdSegment>& segments) {
 }
 
 /// Segments of several layers, each of which is a label map.
-Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& segments, const Progress& progress) {
+Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& segments, const Work& work) {
     std::map<std::int64_t, Image> layers;
     Structures found;
     for (const NrrdSegment& segment : segments) {
         if (!layers.contains(segment.layer)) {
             ReadImageOptions options = input.options;
             options.frame = segment.layer;
-            layers.emplace(segment.layer, read_image(input.path, options, progress));
+            layers.emplace(segment.layer, read_image(input.path, options, work));
         }
         found.segments.push_back(to_dicom(segment));
         found.masks.push_back(select_label(layers.at(segment.layer), static_cast<double>(segment.label_value)));
@@ -75,13 +75,13 @@ std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& color) {
     return result;
 }
 
-Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Progress& progress) {
+Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work) {
     if (label && is_dicom_seg(input.path)) {
-        DicomSeg found = read_dicom_seg(input.path, label, input.options.max_voxels, progress);
+        DicomSeg found = read_dicom_seg(input.path, label, input.options.max_voxels, work);
         for (const std::string& note : found.notes) input.options.on_note(note);
         return std::move(found.labels);
     }
-    Image image = read_image(input.path, input.options, progress);
+    Image image = read_image(input.path, input.options, work);
     if (!label) return image;
     if (!count_labels(image).contains(*label))
         throw Error(ErrorKind::invalid_input, fmt::format("{} has no label {}", input.path.string(), *label));
@@ -118,14 +118,14 @@ bool may_overlap(const ImageInput& input) {
     return std::any_of(segments.begin(), segments.end(), [](const DicomSegment& s) { return s.shared_voxels > 0; });
 }
 
-Structures read_structures(const ImageInput& input, const Progress& progress) {
+Structures read_structures(const ImageInput& input, const Work& work) {
     if (is_dicom_seg(input.path)) {
         const DicomSegmentation about = read_dicom_segmentation(input.path, input.options.max_voxels);
         for (const std::string& note : about.notes) input.options.on_note(note);
-        return without_empty({about.segments, read_dicom_seg_masks(input.path, input.options.max_voxels, progress)}, input);
+        return without_empty({about.segments, read_dicom_seg_masks(input.path, input.options.max_voxels, work)}, input);
     }
-    if (may_overlap(input)) return without_empty(read_layers(input, nrrd_segments(input.path), progress), input);
-    const Image image = read_image(input.path, input.options, progress);
+    if (may_overlap(input)) return without_empty(read_layers(input, nrrd_segments(input.path), work), input);
+    const Image image = read_image(input.path, input.options, work);
     const std::vector<DicomSegment> named = named_segments(input);
     Structures found{segments_of(image, input), {}};
     for (DicomSegment& segment : found.segments) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "files.h"
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/dicom_seg.h"
 
 // What files say about the structures in them, and the structures one by one.
@@ -21,7 +21,7 @@ constexpr std::array<std::uint8_t, 3> kStructureColor{230, 179, 77};  ///< that 
 std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& color);
 
 /// The image; with `label` its voxels of that value alone, the others 0. Throws Error(invalid_input) when it has none.
-Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Progress& progress);
+Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work);
 
 /// What a DICOM SEG or a .seg.nrrd says about its segments, of the layer that is read; empty for other files.
 std::vector<DicomSegment> named_segments(const ImageInput& source);
@@ -40,6 +40,6 @@ bool may_overlap(const ImageInput& input);
 
 /// All structures of a file. Tells `on_note` what the reader decided. Those that it does not name are named after the file,
 /// and by their label where it has several.
-Structures read_structures(const ImageInput& input, const Progress& progress);
+Structures read_structures(const ImageInput& input, const Work& work);
 
 }  // namespace kontur::app

@@ -24,6 +24,7 @@ constexpr double kVoxelsAcross = 64;
 void check(const SuggestCommand& command) {
     std::vector<std::filesystem::path> inputs = command.contours;
     inputs.push_back(command.image.path);
+    inputs.push_back(command.empty_planes);
     for (const std::filesystem::path& path : {command.output, command.sketch})
         if (!path.empty() && !has_extension(path, ".json"))
             throw Error(ErrorKind::unsupported, fmt::format("{} does not end with .json", path.string()));
@@ -66,9 +67,9 @@ std::string line_of(std::size_t number, const SuggestedPlane& one) {
 
 /// One after another, each the best but for those before it.
 std::vector<Plane> skipped(int count, const SurfaceEvidence& evidence, const ContourSet& contours,
-                           SuggestPlaneOptions options) {
+                           SuggestPlaneOptions options, const Work& work) {
     for (int n = 0; n < count; ++n) {
-        const PlaneSuggestions best = suggest_planes(evidence, contours, 1, options);
+        const PlaneSuggestions best = suggest_planes(evidence, contours, 1, options, work);
         if (best.planes.empty()) break;
         options.avoid.push_back(best.planes.front().plane);
     }
@@ -92,27 +93,28 @@ ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh,
 
 void run(const SuggestCommand& command, Console& console) {
     check(command);
-    const Progress progress = console.progress();
+    const Work work = console.work(command.threads);
     ReadContours read = read_contours(command.contours, command.read);
     for (const std::string& note : read.notes) console.warn(note);
-    const ContourSet& contours = read.contours;
+    ContourSet& contours = read.contours;
+    if (!command.empty_planes.empty())
+        for (const Plane& plane : read_planes_json(command.empty_planes)) contours.empty_planes.push_back(plane);
     if (contours.contours.empty())
         throw Error(ErrorKind::invalid_input, "the contour files have no contour; at least 1 is needed");
     const bool has_image = !command.image.path.empty();
-    const Grid grid = has_image ? read_grid(command.image.path, console.noting(command.image.options), progress)
+    const Grid grid = has_image ? read_grid(command.image.path, console.noting(command.image.options), work)
                                 : grid_around_contours(contours);
 
     SegmentOptions options = command.options;
     options.mesh = !command.sketch.empty();
-    const Segmentation made = segment(contours, grid, options, progress);
+    const Segmentation made = segment(contours, grid, options, work);
     for (const std::string& warning : made.report.warnings) console.warn(warning);
     SuggestPlaneOptions choose{.planes = command.among};
     if (has_image) choose.grid = grid;
-    choose.threads = options.threads;
-    const SurfaceEvidence evidence = gather_evidence(made, contours, options.threads);
-    choose.avoid = skipped(command.skip, evidence, contours, choose);
+    const SurfaceEvidence evidence = gather_evidence(made, contours, work);
+    choose.avoid = skipped(command.skip, evidence, contours, choose, work);
     const PlaneSuggestions found =
-        suggest_planes(evidence, contours, static_cast<std::size_t>(command.planes), choose);
+        suggest_planes(evidence, contours, static_cast<std::size_t>(command.planes), choose, work);
 
     std::vector<Plane> planes;
     for (const SuggestedPlane& one : found.planes) planes.push_back(one.plane);

@@ -22,18 +22,18 @@ std::vector<Plane> slice_planes(const Grid& grid) {
     return planes;
 }
 
-std::vector<Plane> read_planes(const TraceCommand& command, Console& console, const Progress& progress) {
+std::vector<Plane> read_planes(const TraceCommand& command, Console& console, const Work& work) {
     if (!command.planes.empty()) return read_planes_json(command.planes);
-    return slice_planes(read_grid(command.image.path, console.noting(command.image.options), progress));
+    return slice_planes(read_grid(command.image.path, console.noting(command.image.options), work));
 }
 
-Provenance provenance_of(const TraceCommand& command, const Progress& progress) {
+Provenance provenance_of(const TraceCommand& command, const Work& work) {
     const TraceOptions& o = command.options;
     std::string options =
         fmt::format("step_mm={} tolerance_mm={} min_area_mm2={}", o.step_mm, o.tolerance_mm, o.min_area_mm2);
     if (command.label) options += fmt::format(" label={}", *command.label);
     return made_by("trace", {{"mask", command.mask}, {"planes", command.planes}, {"image", command.image.path}}, options,
-                   progress);
+                   work);
 }
 
 /// Whatever can be refused before any work is done.
@@ -49,16 +49,16 @@ void check(const TraceCommand& command) {
 
 void run(const TraceCommand& command, Console& console) {
     check(command);
-    const Progress progress = console.progress();
-    const std::vector<Plane> planes = read_planes(command, console, progress);
+    const Work work = console.work(command.threads);
+    const std::vector<Plane> planes = read_planes(command, console, work);
     const ImageInput images{command.image.path, console.noting(command.image.options)};
     for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
-    const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), progress);
-    ContourSet set = trace(mask, planes, command.options, progress);
+    const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), work);
+    ContourSet set = trace(mask, planes, command.options, work);
     if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));
     set.name = command.name;
 
-    const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, progress));
+    const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, work));
     Outputs outputs;
     outputs.write(command.output,
                   [&](const std::filesystem::path& path) { console.note(write_contours(path, set, images, write)); });

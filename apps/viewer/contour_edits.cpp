@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "kontur/base/error.h"
@@ -73,6 +74,23 @@ std::size_t split_at(DrawnContour& contour, std::size_t point) {
     contour.control.insert(contour.control.begin() + static_cast<std::ptrdiff_t>(stretch) + 1,
                            {contour.points[point], contour.control[stretch].kind, point});
     return stretch + 1;
+}
+
+/// The same line with further points: within `reach_mm` of a place no two are farther apart than `step_mm`. Straight parts
+/// of what a hand drew have none between their ends.
+DrawnContour finer(const DrawnContour& contour, const Vec3& place, double reach_mm, double step_mm) {
+    DrawnContour line = contour;
+    line.points.clear();
+    for (std::size_t n = 0; n < contour.points.size(); ++n) {
+        const Vec3 &from = contour.points[n], &to = contour.points[(n + 1) % contour.points.size()];
+        for (std::size_t c = 0; c < contour.control.size(); ++c)
+            if (contour.control[c].index == n) line.control[c].index = line.points.size();
+        line.points.push_back(from);
+        if (distance_to_segment(place, from, to) > reach_mm) continue;
+        const double steps = std::ceil(distance(from, to) / step_mm);
+        for (double step = 1; step < steps; ++step) line.points.push_back(from + (step / steps) * (to - from));
+    }
+    return line;
 }
 
 DrawnContour moved(DrawnContour contour, const Vec3& by) {
@@ -149,11 +167,14 @@ DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceE
     return redrawn(contour, sketch, edges, {.snap = false});
 }
 
-DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to, std::optional<double> radius_mm,
+DrawnContour pull(const DrawnContour& drawn, const Vec3& from, const Vec3& to, std::optional<double> radius_mm,
                   SliceEdges& edges) {
-    const std::vector<double> at = arc_lengths(contour.points);
-    const double whole = at.back(), radius = radius_mm.value_or(whole / 8);
+    constexpr double kSteps = 8;  // within the radius
+    const double radius = radius_mm.value_or(arc_lengths(drawn.points).back() / 8);
     if (!(radius > 0)) refuse(fmt::format("the radius of a pull is {:g} mm; more than 0 is needed", radius));
+    const DrawnContour contour = finer(drawn, from, radius, radius / kSteps);
+    const std::vector<double> at = arc_lengths(contour.points);
+    const double whole = at.back();
     const std::size_t grabbed = nearest_point(contour.points, from);
     const Vec3 by = to - from;
     DrawnContour bent = contour;
@@ -166,6 +187,36 @@ DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to,
     }
     for (ControlPoint& c : bent.control) c.at = bent.points[c.index];
     return redrawn(contour, sketch_of(bent), edges, {.snap = false});
+}
+
+std::optional<DrawnContour> bent(const DrawnContour& contour, const std::function<std::optional<Vec3>(const Vec3&)>& goes_to,
+                                 double step_mm, SliceEdges& edges) {
+    DrawnContour line = contour;
+    line.points.clear();
+    bool any = false;
+    const std::size_t count = contour.points.size();
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::size_t own = stretch_of(contour, n);
+        if (contour.control[own].index == n) line.control[own].index = line.points.size();
+        const Vec3 &from = contour.points[n], along = contour.points[(n + 1) % count] - from;
+        const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(norm(along) / step_mm)));
+        std::vector<Vec3> places;
+        std::vector<std::optional<Vec3>> gone;
+        for (std::size_t step = 0; step <= steps; ++step) {
+            places.push_back(from + (static_cast<double>(step) / static_cast<double>(steps)) * along);
+            gone.push_back(goes_to(places.back()));
+        }
+        line.points.push_back(gone[0].value_or(from));
+        // What stays beside what moves is a point, too: the line leads straight on from there.
+        for (std::size_t step = 1; step < steps; ++step)
+            if (gone[step - 1] || gone[step] || gone[step + 1]) line.points.push_back(gone[step].value_or(places[step]));
+        const bool moves = std::any_of(gone.begin(), gone.end(), [](const auto& to) { return to.has_value(); });
+        if (moves) line.control[own].kind = Stretch::free;
+        any = any || moves;
+    }
+    if (!any) return std::nullopt;
+    for (ControlPoint& c : line.control) c.at = line.points[c.index];
+    return redrawn(contour, sketch_of(line), edges, {.snap = false});
 }
 
 DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges) {

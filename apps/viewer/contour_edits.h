@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "viewer/model.h"
@@ -29,6 +30,11 @@ DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceE
 /// less. Stretches that it bends become free.
 DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to, std::optional<double> radius_mm,
                   SliceEdges& edges);
+
+/// Moves places of the line to where `goes_to` says, nullopt for those that stay; of what moves, no two points are left
+/// farther than `step_mm` apart. Stretches that it bends become free. nullopt where nothing moves.
+std::optional<DrawnContour> bent(const DrawnContour& contour, const std::function<std::optional<Vec3>(const Vec3&)>& goes_to,
+                                 double step_mm, SliceEdges& edges);
 
 /// Replaces the shorter part of the line between the points nearest to the path's two ends by the path.
 DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges);

@@ -53,10 +53,10 @@ Reslice small_raster(const Grid& grid) {
 
 }  // namespace
 
-json dicom_volumes(const std::filesystem::path& folder, const Progress& progress) {
+json dicom_volumes(const std::filesystem::path& folder, const Work& work) {
     json volumes = json::array();
     std::map<std::string, int> volumes_of;
-    for (const DicomSeries& series : list_dicom_series(folder, progress))
+    for (const DicomSeries& series : list_dicom_series(folder, work))
         volumes.push_back(volume_json(series, ++volumes_of[series.series_uid]));
     return volumes;
 }

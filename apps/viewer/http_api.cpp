@@ -12,6 +12,7 @@
 #include <span>
 
 #include "kontur/base/error.h"
+#include "viewer/gzip.h"
 #include "viewer/model_json.h"
 #include "viewer/page.h"
 #include "viewer/start_api.h"
@@ -172,15 +173,30 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     if (get && below("/api/mesh/")) {
         const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
         if (!id) return not_found();
-        return binary(workspace_.session(request.opening)->mesh(*id));
+        if (!target.parameter("coded")) return binary(workspace_.session(request.opening)->mesh(*id));
+        HttpReply reply = binary(gzipped(workspace_.session(request.opening)->mesh(*id, true)));
+        reply.headers.emplace_back("Content-Encoding", "gzip");
+        return reply;
     }
     if (get && target.path == "/api/statistics")
         return {200, "application/json", workspace_.session(request.opening)->statistics(stop), {}};
+    if (get && target.path == "/api/compare") return compared(request, stop);
     if (get && below("/api/export/")) return exported(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
     if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
         return {200, std::move(reply->content_type), std::move(reply->body), {}};
     return not_found();
+}
+
+HttpReply HttpApi::compared(const HttpRequest& request, const std::stop_token& stop) {
+    const auto id = [&](const char* name) {
+        const auto text = request.target.parameter(name);
+        const auto number = text ? whole_number(*text) : std::nullopt;
+        if (!number) throw Error(ErrorKind::invalid_input, fmt::format("'{}' is not a whole number", name));
+        return *number;
+    };
+    const Id first = id("first"), second = id("second");
+    return {200, "application/json", workspace_.session(request.opening)->compare(first, second, stop), {}};
 }
 
 HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& stop) {

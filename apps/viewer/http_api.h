@@ -53,6 +53,7 @@ private:
     static View view_of(const std::string& slice);
 
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
+    HttpReply compared(const HttpRequest& request, const std::stop_token& stop);
     HttpReply exported(const HttpRequest& request, const std::stop_token& stop);
     HttpReply import(const HttpRequest& request, const std::stop_token& stop);
 

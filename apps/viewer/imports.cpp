@@ -45,7 +45,7 @@ constexpr std::size_t kMostImportedLabels = 64;
 constexpr const char* kResult = "result.json";
 
 /// Traced contours keep what matters of a mask at a tenth of a millimetre; smaller sections are specks.
-constexpr TraceOptions kTraceOptions{.step_mm = 0, .tolerance_mm = 0.1, .min_area_mm2 = 4, .threads = 0};
+constexpr TraceOptions kTraceOptions{.step_mm = 0, .tolerance_mm = 0.1, .min_area_mm2 = 4};
 
 // In the process that reads
 
@@ -226,12 +226,12 @@ public:
     Worker& operator=(const Worker&) = delete;
 
     /// Its status as `waitpid` tells it.
-    int wait(const Progress& progress) {
+    int wait(const Work& work) {
         const Clock::time_point start = Clock::now();
         int status = 0;
         for (std::chrono::milliseconds pause(1);; pause = std::min(2 * pause, std::chrono::milliseconds(20))) {
             if (waitpid(id_, &status, WNOHANG) == id_) break;
-            progress.check();
+            work.check();
             if (Clock::now() - start > kPatience) {
                 throw Error(ErrorKind::too_large,
                             fmt::format("reading the file took longer than {} s, and was given up", kPatience.count()));
@@ -254,7 +254,7 @@ private:
     throw Error(ErrorKind::corrupt_file, sentence);
 }
 
-Imported result_in(const fs::path& folder, int status, const Progress& progress) {
+Imported result_in(const fs::path& folder, int status, const Work& work) {
     std::error_code ignored;
     if (!fs::exists(folder / kResult, ignored)) {
         if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
@@ -268,7 +268,7 @@ Imported result_in(const fs::path& folder, int status, const Progress& progress)
     if (result.contains("error")) fail(result["error"]);
     Imported imported;
     for (std::size_t i = 0; i < result.at("sets").get<std::size_t>(); ++i) {
-        progress.check();
+        work.check();
         imported.sets.push_back(read_contours(folder / fmt::format("{}.json", i)).contours);
     }
     imported.notes = result.at("notes").get<std::vector<std::string>>();
@@ -278,11 +278,11 @@ Imported result_in(const fs::path& folder, int status, const Progress& progress)
 
 }  // namespace
 
-Imported import_apart(const std::string& bytes, const Upload& upload, const Progress& progress) {
+Imported import_apart(const std::string& bytes, const Upload& upload, const Work& work) {
     const TemporaryFolder folder;
     write_file_atomically(folder.path() / ("upload" + upload.extension), bytes);
-    const int status = Worker(upload, folder.path()).wait(progress);
-    return result_in(folder.path(), status, progress);
+    const int status = Worker(upload, folder.path()).wait(work);
+    return result_in(folder.path(), status, work);
 }
 
 int import_worker(int argc, char** argv) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/shape/contour.h"
 
 namespace kontur::viewer {
@@ -41,7 +41,7 @@ struct Imported {
 /// What the file holds, read by this program in a process of its own, with limits on memory and time: a file that crashes a
 /// reader, or makes it grow or run on, costs the import and nothing else. Throws the reader's error, and Error(corrupt_file)
 /// or Error(too_large) when that process ends otherwise; Error(cancelled) ends it at once.
-Imported import_apart(const std::string& bytes, const Upload& upload, const Progress& progress = {});
+Imported import_apart(const std::string& bytes, const Upload& upload, const Work& work = {});
 
 /// The word that makes this program that process; for `main`, before it reads its command line.
 inline constexpr const char* kImportWorker = "--import-worker";

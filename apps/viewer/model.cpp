@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/error.h"
 
@@ -50,9 +51,17 @@ DrawnContour as_drawn(const Contour& contour) {
 ContourSet contour_set(const State& state, Id structure) {
     ContourSet set;
     set.name = structure_of(state, structure).name;
+    set.empty_planes = structure_of(state, structure).empty_planes;
     for (const auto& [id, contour] : state.contours)
         if (contour->structure == structure) set.contours.push_back({contour->plane, contour->points, true, contour->hole});
     return set;
+}
+
+bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm) {
+    constexpr double kParallelCosine = 0.99985;
+    return std::abs(dot(contour.plane.normal, plane.normal)) >= kParallelCosine &&
+           std::all_of(contour.points.begin(), contour.points.end(),
+                       [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= 0.5 * thickness_mm; });
 }
 
 const Structure& structure_of(const State& state, Id id) {

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "kontur/shape/contour.h"
+#include "viewer/border_rules.h"
 
 // What a project holds: structures and the contours drawn for them.
 
 namespace kontur::viewer {
-
-/// Of a structure or contour; never used twice in one project.
-using Id = std::int64_t;
 
 /// How the line from one control point to the next was made.
 enum class Stretch { free, line, spline, wire };
@@ -53,6 +51,7 @@ struct Structure {
     std::string name;
     std::string color = "#e8b04a";  ///< "#rrggbb"
     bool visible = true;
+    std::vector<Plane> empty_planes{};  ///< in which nothing of it is seen
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };
@@ -61,10 +60,14 @@ struct Structure {
 struct State {
     std::map<Id, Structure> structures;
     std::map<Id, std::shared_ptr<const DrawnContour>> contours;
+    Borders borders;
 };
 
 /// The structure's contours as the library takes them, in the order they were made.
 ContourSet contour_set(const State& state, Id structure);
+
+/// Whether the contour is drawn in this plane: parallel to it within a degree, and all of it within half of the thickness.
+bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm);
 
 /// Throws Error(invalid_input) naming the id when there is none.
 const Structure& structure_of(const State& state, Id id);

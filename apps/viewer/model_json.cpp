@@ -100,7 +100,11 @@ json to_json(const Plane& plane) {
             {"normal", to_json(plane.normal)}};
 }
 
-json to_json(const Structure& s) { return {{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}}; }
+json to_json(const Structure& s) {
+    json told{{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}};
+    for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
+    return told;
+}
 
 json to_json(const ControlPoint& c) { return {{"at", to_json(c.at)}, {"kind", name(c.kind)}, {"index", c.index}}; }
 
@@ -184,6 +188,17 @@ Plane Members::plane(const char* key) const {
     return plane;
 }
 
+std::vector<Plane> Members::planes(const char* key, std::size_t most) const {
+    const json& array = at(key);
+    if (!array.is_array() || array.size() > most) refuse(fmt::format("'{}' is no array of at most {} planes", key, most));
+    std::vector<Plane> planes;
+    for (const json& item : array) {
+        const json named{{key, item}};
+        planes.push_back(Members(named, limits_).plane(key));
+    }
+    return planes;
+}
+
 Stretch Members::stretch(const char* key) const {
     const std::string word = text(key, 16);
     for (const Stretch kind : {Stretch::free, Stretch::line, Stretch::spline, Stretch::wire})
@@ -201,7 +216,9 @@ std::string Members::color(const char* key) const {
 
 Structure structure_from_json(const json& value) {
     const Members m(value);
-    return {m.id("id"), m.text("name", 200), m.color("color"), m.flag("visible")};
+    Structure structure{m.id("id"), m.text("name", 200), m.color("color"), m.flag("visible")};
+    if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes", kMostEmptyPlanes);
+    return structure;
 }
 
 DrawnContour contour_from_json(const json& value, const Limits& limits) {

@@ -42,6 +42,8 @@ nlohmann::json to_json(const Structure& structure);
 nlohmann::json to_json(const ControlPoint& point);
 nlohmann::json to_json(const DrawnContour& contour);
 
+/// Of one structure.
+constexpr std::size_t kMostEmptyPlanes = 1000;
 Structure structure_from_json(const nlohmann::json& value);
 DrawnContour contour_from_json(const nlohmann::json& value, const Limits& limits = {});
 
@@ -65,6 +67,7 @@ public:
     std::vector<Vec3> points(const char* key) const;
     /// An orthonormal plane; cosines up to 1e-3 off are corrected.
     Plane plane(const char* key) const;
+    std::vector<Plane> planes(const char* key, std::size_t most) const;
     Stretch stretch(const char* key) const;
     std::string color(const char* key) const;
 

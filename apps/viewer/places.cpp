@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/dicom_series.h"
 
 namespace kontur::viewer {
@@ -28,11 +29,6 @@ constexpr int kDeepest = 4;
 
 constexpr std::array kImageEndings{".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha",    ".mhd",  ".mgz",
                                    ".mgh", ".mgh.gz", ".hdr",  ".img",  ".hdr.gz", ".gipl", ".gipl.gz"};
-
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 bool is_hidden(const fs::path& name) { return name.string().starts_with('.'); }
 

@@ -79,6 +79,13 @@ void turn_back(std::vector<Change<Row>>& changes) {
     for (Change<Row>& change : changes) std::swap(change.before, change.after);
 }
 
+/// Of steps and projects from before structures shared borders there is none.
+std::optional<BordersChange> borders_change_from(const json& changes) {
+    if (!changes.contains("borders")) return std::nullopt;
+    const json& change = changes["borders"];
+    return BordersChange{borders_from_json(change.at("before")), borders_from_json(change.at("after"))};
+}
+
 /// `body()`, with everything that JSON or our own checks find wrong told as damage of the file.
 template <class Body>
 auto reading(const Database& database, Body body) {
@@ -160,6 +167,7 @@ void Project::create(const ImageReference& image) {
     save_setting("position", "0");
     save_setting("next_id", "1");
     save_setting("page", "null");
+    save_setting("borders", to_text(viewer::to_json(Borders{.shared = true})));
     write_image(image);
     transaction.commit();
 }
@@ -168,6 +176,8 @@ void Project::load() {
     reading(database_, [&] {
         image_ = {setting("image_path"), setting("image_fingerprint"), choice_from(setting("image_choice"))};
         const json numbers{{"position", parsed(setting("position"))}, {"next_id", parsed(setting("next_id"))}};
+        if (const std::string borders = setting("borders"); !borders.empty())
+            state_.borders = borders_from_json(parsed(borders));
         position_ = Members(numbers).integer("position", 0, kLargestId - 1);
         next_id_ = Members(numbers).id("next_id");
         for (Query rows(database_, "SELECT data FROM structure"); rows.next();) {
@@ -238,7 +248,10 @@ void Project::begin_with(const Commit& commit) {
 
 void Project::commit(const Commit& commit) {
     check_storable(commit);
-    const json changes{{"structures", to_json(commit.structures)}, {"contours", to_json(commit.contours)}};
+    json changes{{"structures", to_json(commit.structures)}, {"contours", to_json(commit.contours)}};
+    if (commit.borders)
+        changes["borders"] = {{"before", viewer::to_json(commit.borders->before)},
+                              {"after", viewer::to_json(commit.borders->after)}};
     Transaction transaction(database_);
     Query(database_, "DELETE FROM history WHERE number > ?1").bind(position_).finish();
     Query(database_, "INSERT INTO history VALUES (?1, ?2, datetime('now'), ?3)")
@@ -257,6 +270,7 @@ std::optional<Commit> Project::undo() {
     if (!commit) return std::nullopt;
     turn_back(commit->structures);
     turn_back(commit->contours);
+    if (commit->borders) std::swap(commit->borders->before, commit->borders->after);
     Transaction transaction(database_);
     store(*commit, position_ - 1);
     transaction.commit();
@@ -291,7 +305,7 @@ std::optional<Commit> Project::step(std::int64_t number) {
     return reading(database_, [&] {
         const json changes = parsed(query.text(1));
         return Commit{query.text(0), changes_from<Structure>(changes.at("structures")),
-                      changes_from<DrawnContour>(changes.at("contours"))};
+                      changes_from<DrawnContour>(changes.at("contours")), borders_change_from(changes)};
     });
 }
 
@@ -300,6 +314,7 @@ void Project::store(const Commit& commit, std::int64_t new_position) {
                "DELETE FROM structure WHERE id = ?1");
     write_rows(database_, commit.contours, "INSERT OR REPLACE INTO contour VALUES (?1, ?2)",
                "DELETE FROM contour WHERE id = ?1");
+    if (commit.borders) save_setting("borders", to_text(viewer::to_json(commit.borders->after)));
     save_setting("position", std::to_string(new_position));
     save_setting("next_id", std::to_string(next_id_));
 }
@@ -313,6 +328,7 @@ void Project::apply(const Commit& commit) {
         if (change.after) state_.contours[change.id] = std::make_shared<const DrawnContour>(*change.after);
         else state_.contours.erase(change.id);
     }
+    if (commit.borders) state_.borders = commit.borders->after;
 }
 
 ImageReference image_of_project(const std::filesystem::path& path) {

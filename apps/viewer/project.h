@@ -19,13 +19,18 @@ struct Change {
     std::optional<Row> before, after;
 };
 
+struct BordersChange {
+    Borders before, after;
+};
+
 /// One step of the history.
 struct Commit {
     std::string label;  ///< what the user did, as in "Undo: LABEL"
     std::vector<Change<Structure>> structures;
     std::vector<Change<DrawnContour>> contours;
+    std::optional<BordersChange> borders{};
 
-    bool is_empty() const { return structures.empty() && contours.empty(); }
+    bool is_empty() const { return structures.empty() && contours.empty() && !borders; }
 };
 
 /// Which of the volumes of a path; nothing where there is only one.

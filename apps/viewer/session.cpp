@@ -197,12 +197,14 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       surfaces_(
           {[this](Id structure, std::int64_t revision, const PlaneCutter& cut) { tell_outlines(structure, revision, cut); },
            [this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
-           [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); }}) {
+           [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); },
+           [this](const std::vector<BorderPair>& pairs, const std::string& problem) { tell_borders(pairs, problem); }}) {
     if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
     if (project_.image().path != opened.reference.path || project_.image().choice != opened.reference.choice)
         project_.save_image(opened.reference);
+    surfaces_.share_borders(project_.state().borders);
     for (const auto& [id, structure] : project_.state().structures) surfaces_.follow_later(surface_task(id));
 }
 
@@ -268,6 +270,8 @@ std::string Session::greeting(const json& more) {
                {"structures", structures},
                {"contours", contours},
                {"surfaces", surfaces},
+               {"borders", to_json(project_.state().borders)},
+               {"border_pairs", borders_found(surfaces_.border_pairs())},
                {"history", history()},
                {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
                {"page", page_state()}};
@@ -379,6 +383,8 @@ const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
         {"structure.add", {&Session::add_structure}},
         {"structure.set", {&Session::set_structure}},
         {"structure.remove", {&Session::remove_structure}},
+        {"borders.set", {&Session::set_borders}},
+        {"borders.rule", {&Session::set_border_rule}},
         {"draft.drop", {&Session::drop_draft}},
         {"undo", {&Session::undo}},
         {"redo", {&Session::redo}},
@@ -402,17 +408,24 @@ json Session::path(const Members& m) {
 }
 
 json Session::put(const std::string& label, DrawnContour contour, const Members& m) {
+    std::vector<DrawnContour> carried = carried_with(contour);
+    json result{{"contour", Told()(contour)}, {"carried", json::array()}};
+    for (const DrawnContour& other : carried) result["carried"].push_back(Told()(other));
     if (m.flag_or("draft", false)) {
-        const Id before = draft_ ? draft_->structure : 0;
-        draft_ = contour;
+        std::set<Id> touched = drafted();
+        draft_ = std::move(contour);
+        carried_ = std::move(carried);
         draft_owner_ = caller_;
-        if (before != 0 && before != contour.structure) follow(before);
-        follow(contour.structure);
-    } else {
-        if (contour.id == 0) contour.id = project_.new_id();
-        commit_ahead(one_contour(label, project_.state(), contour));
+        touched.merge(drafted());
+        for (const Id id : touched) follow(id);
+        return result;
     }
-    return {{"contour", Told()(contour)}};
+    if (contour.id == 0) result["contour"]["id"] = contour.id = project_.new_id();
+    Commit step = one_contour(label, project_.state(), contour);
+    for (DrawnContour& other : carried)
+        step.contours.push_back({other.id, contour_of(project_.state(), other.id), std::move(other)});
+    commit_ahead(step);
+    return result;
 }
 
 json Session::add_contour(const Members& m) {
@@ -526,7 +539,10 @@ json Session::set_structure(const Members& m) {
     if (m.has("name")) after.name = m.text("name", kLongestName);
     if (m.has("color")) after.color = m.color("color");
     after.visible = m.flag_or("visible", after.visible);
+    if (m.has("empty_planes")) after.empty_planes = m.planes("empty_planes", kMostEmptyPlanes);
     std::string label = "Show or hide " + after.name;
+    if (after.empty_planes != before.empty_planes) label = fmt::format("Nothing of {} in a plane", after.name);
+    if (after.empty_planes.size() < before.empty_planes.size()) label = "Forget empty planes of " + after.name;
     if (after.color != before.color) label = "Colour " + after.name;
     if (after.name != before.name) label = "Rename " + before.name;
     commit({label, {{after.id, before, after}}, {}});
@@ -585,7 +601,7 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
     std::size_t points = 0;
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
-        Structure structure{project_.new_id(), name_from(set.name), next_color(state), true};
+        Structure structure{project_.new_id(), name_from(set.name), next_color(state), true, set.empty_planes};
         if (structure.name.empty()) structure.name = free_name(state);
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});
@@ -626,8 +642,9 @@ void Session::begin_with(const ContourSet& set) {
 
 void Session::commit(const Commit& commit) {
     std::set<Id> touched = touched_surfaces(commit);
-    if (draft_) touched.insert(draft_->structure);
+    touched.merge(drafted());
     draft_.reset();
+    carried_.clear();
     try {
         if (!commit.is_empty()) project_.commit(commit);
     } catch (...) {
@@ -643,7 +660,7 @@ void Session::commit_ahead(const Commit& step) {
     const DrawnContour& contour = *step.contours.front().after;
     const bool stays = !step.contours.front().before || step.contours.front().before->structure == contour.structure;
     const bool is_other_draft = draft_ && (draft_->id != contour.id || draft_->structure != contour.structure);
-    if (!stays || is_other_draft) return commit(step);
+    if (!stays || is_other_draft || step.contours.size() > 1 || !carried_.empty()) return commit(step);
     // What the hand released is most often what it showed last, and then its surface is here already, or on its way.
     const bool is_followed = draft_ ? same_surface(*draft_, contour) : touched_surfaces(step).empty();
     draft_ = contour;
@@ -662,7 +679,9 @@ void Session::tell_changes(const Commit& commit) {
     tell({{"event", "changed"},
           {"structures", changes_json(commit.structures)},
           {"contours", changes_json(commit.contours)},
-          {"history", history()}});
+          {"history", history()},
+          {"borders", to_json(project_.state().borders)}});
+    surfaces_.share_borders(project_.state().borders);
 }
 
 void Session::announce(const Commit& commit) {
@@ -675,7 +694,8 @@ void Session::announce(const Commit& commit) {
 std::set<Id> Session::touched_surfaces(const Commit& commit) {
     std::set<Id> touched;
     for (const auto& change : commit.structures)
-        if (!change.before || !change.after) touched.insert(change.id);
+        if (!change.before || !change.after || change.before->empty_planes != change.after->empty_planes)
+            touched.insert(change.id);
     for (const auto& change : commit.contours) {
         if (change.before && change.after && same_surface(*change.before, *change.after)) continue;
         for (const auto& side : {change.before, change.after})
@@ -688,13 +708,21 @@ SurfaceTask Session::surface_task(Id structure) const {
     SurfaceTask task;
     task.structure = structure;
     const State& state = project_.state();
+    if (const auto own = state.structures.find(structure); own != state.structures.end())
+        task.set.empty_planes = own->second.empty_planes;
     const auto add = [&](const DrawnContour& contour) {
         if (contour.structure != structure) return;
         task.set.contours.push_back({contour.plane, contour.points, true, contour.hole});
         task.ids.push_back(contour.id);
     };
     // The draft in its contour's place: what is shown of it is then what will be, to the last bit.
-    for (const auto& [id, contour] : state.contours) add(draft_ && draft_->id == id ? *draft_ : *contour);
+    const auto shown = [&](Id id, const DrawnContour& stored) -> const DrawnContour& {
+        if (draft_ && draft_->id == id) return *draft_;
+        const auto found =
+            std::find_if(carried_.begin(), carried_.end(), [&](const DrawnContour& other) { return other.id == id; });
+        return found == carried_.end() ? stored : *found;
+    };
+    for (const auto& [id, contour] : state.contours) add(shown(id, *contour));
     if (draft_ && !state.contours.contains(draft_->id)) add(*draft_);
     if (const auto found = state.structures.find(structure); found != state.structures.end())
         task.set.name = found->second.name;
@@ -703,9 +731,17 @@ SurfaceTask Session::surface_task(Id structure) const {
 
 void Session::clear_draft() {
     if (!draft_) return;
-    const Id structure = draft_->structure;
+    const std::set<Id> touched = drafted();
     draft_.reset();
-    follow(structure);
+    carried_.clear();
+    for (const Id id : touched) follow(id);
+}
+
+std::set<Id> Session::drafted() const {
+    std::set<Id> structures;
+    if (draft_) structures.insert(draft_->structure);
+    for (const DrawnContour& other : carried_) structures.insert(other.structure);
+    return structures;
 }
 
 }  // namespace kontur::viewer

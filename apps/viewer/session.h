@@ -79,10 +79,13 @@ public:
     // Replies to HTTP requests; errors are exceptions.
     std::string slice(std::string_view request);
     /// Without triangles, and at the stage "none", where there is no surface: it may go while it is asked for.
-    std::string mesh(Id structure);
+    /// `coded`: in few bytes, which are worth compressing.
+    std::string mesh(Id structure, bool coded = false);
     Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {});
     /// Of all structures with contours, as JSON.
     std::string statistics(const std::stop_token& stop = {});
+    /// How two structures agree, voxel by voxel, as JSON.
+    std::string compare(Id first, Id second, const std::stop_token& stop = {});
     ImportReply import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {});
 
     /// One structure for each set, as one step of the history.
@@ -104,7 +107,6 @@ public:
     void wait_for_surfaces() { surfaces_.wait(); }
 
 private:
-    class StatusLine;
     /// What a page sees in one of its views.
     struct WatchedPlane {
         std::string page, view;
@@ -141,6 +143,9 @@ private:
     nlohmann::json save_page(const Members& m);
     nlohmann::json ping(const Members& m);
 
+    nlohmann::json set_borders(const Members& m);
+    nlohmann::json set_border_rule(const Members& m);
+
     /// Stores a new or changed contour, or only shows it when the call is a draft.
     nlohmann::json put(const std::string& label, DrawnContour contour, const Members& m);
     nlohmann::json moved(const std::optional<Commit>& step);
@@ -154,6 +159,14 @@ private:
     SurfaceTask surface_task(Id structure) const;
     void follow(Id structure) { surfaces_.follow(surface_task(structure)); }
     void clear_draft();
+    std::set<Id> drafted() const;
+    /// Neighbours' contours in the plane of a changed contour, where their lines ran along its old one.
+    std::vector<DrawnContour> carried_with(const DrawnContour& contour);
+    /// Whether two structures have no voxel in common, by a rule, or as their surfaces lie.
+    bool exclude(Id a, Id b) const;
+    void commit_borders(const std::string& label, Borders after);
+    void tell_borders(const std::vector<BorderPair>& pairs, const std::string& problem);
+    nlohmann::json borders_found(const std::vector<BorderPair>& pairs) const;
     nlohmann::json history();
     /// Of the image's values; "" where the file names none.
     std::string unit() const;
@@ -164,6 +177,9 @@ private:
     void watch(WatchedPlane plane);
     void tell_outlines(Id structure, std::int64_t revision, const PlaneCutter& cut);
     void tell_status(const std::string& text, std::optional<double> fraction);
+    auto status_teller() {
+        return [this](const std::string& text, std::optional<double> done) { tell_status(text, done); };
+    }
 
     const std::shared_ptr<const Image> image_;
     const std::string title_;
@@ -185,6 +201,7 @@ private:
     mutable std::mutex mutex_;  ///< of what follows
     Project project_;
     std::optional<DrawnContour> draft_;  ///< stands for the contour with its id, or is a new one (id 0)
+    std::vector<DrawnContour> carried_;  ///< neighbours' contours that go with it, in place of those with their ids
     PageId caller_ = 0;                  ///< whose call is carried out
     PageId draft_owner_ = 0;
 

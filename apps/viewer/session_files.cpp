@@ -18,6 +18,7 @@
 #include "viewer/model_json.h"
 #include "viewer/session.h"
 #include "viewer/statistics.h"
+#include "viewer/status_line.h"
 #include "viewer/structure_exports.h"
 #include "viewer/temporary_files.h"
 
@@ -42,29 +43,20 @@ std::string file_name(const std::string& structure, const std::string& kind) {
     return plain_name(structure) + kind.substr(kind.find('.'));
 }
 
-void write_mask_file(const fs::path& path, const ContourSet& set, const Structure& structure, const Grid& grid,
-                     const Progress& progress) {
+void write_mask_file(const fs::path& path, const FittedStructure& one) {
     WriteMaskOptions options;
-    options.segment_name = structure.name;
-    options.segment_color = rgb(structure.color);
-    const Segmentation made = segment(set, grid, {}, progress);
-    options.provenance = provenance(set, grid, made.report);
-    write_mask(path, made.mask, options);
+    options.segment_name = one.structure.name;
+    options.segment_color = rgb(one.structure.color);
+    options.provenance = provenance(one.set, one.made.mask.grid, one.made.report);
+    write_mask(path, one.made.mask, options);
 }
 
-Segmentation segmented(const ContourSet& set, const Grid& grid, const Progress& progress) {
-    SegmentOptions options;
-    options.mesh = true;
-    return segment(set, grid, options, progress);
+void write_mesh_file(const fs::path& path, const FittedStructure& one) {
+    write_mesh(path, *one.made.mesh, provenance(one.set, one.made.mask.grid, one.made.report));
 }
 
-void write_mesh_file(const fs::path& path, const ContourSet& set, const Grid& grid, const Progress& progress) {
-    const Segmentation made = segmented(set, grid, progress);
-    write_mesh(path, *made.mesh, provenance(set, grid, made.report));
-}
-
-void write_picture(const fs::path& path, const ContourSet& set, const Image& image, const Progress& progress) {
-    const Segmentation made = segmented(set, image.grid, progress);
+void write_picture(const fs::path& path, const FittedStructure& one, const Image& image) {
+    const auto& [structure, set, made, shares_border] = one;
     PictureOptions options;
     options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
                      {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
@@ -82,33 +74,8 @@ Provenance provenance_of_drawing(const ContourSet& set, const ImageReference& im
 
 }  // namespace
 
-/// Tells the pages' status lines what is being done, as long as it lives.
-class Session::StatusLine {
-public:
-    StatusLine(Session& session, std::string what) : session_(session), what_(std::move(what)) {}
-    ~StatusLine() { session_.tell_status("", std::nullopt); }
-    StatusLine(const StatusLine&) = delete;
-    StatusLine& operator=(const StatusLine&) = delete;
-
-    /// News by the tenth: more would only cost the page time.
-    Progress progress(const std::stop_token& stop) const {
-        const auto tell = [this, last = std::make_shared<std::pair<std::string_view, int>>()](std::string_view stage,
-                                                                                              double done) {
-            const std::pair<std::string_view, int> now{stage, static_cast<int>(10 * done)};
-            if (*last == now) return;
-            *last = now;
-            session_.tell_status(fmt::format("{}: {}", what_, stage), now.second / 10.0);
-        };
-        return {tell, stop};
-    }
-
-private:
-    Session& session_;
-    const std::string what_;
-};
-
 Download Session::exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
-    const StatusLine line(*this, "Exporting " + name);
+    const StatusLine line(status_teller(), "Exporting " + name);
     const TemporaryFolder folder;
     const fs::path path = folder.path() / name;
     Download download{name, "application/octet-stream", {}};
@@ -117,8 +84,8 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         project_.copy_to(path);
         download.file_name = file_name(project_.path().stem().string(), name);
     } else if (is_export_of_all(name)) {
-        const auto all = fit_structures(state(), image_->grid, name.ends_with(".zip"), line.progress(stop));
-        for (const std::string& note : write_structures(path, name, all, series_, line.progress(stop))) notice("info", note);
+        const auto all = fit_structures(state(), image_->grid, name.ends_with(".zip"), line.work(stop));
+        for (const std::string& note : write_structures(path, name, all, series_, line.work(stop))) notice("info", note);
         download.file_name = plain_name(project_path().stem().string()) + "_" + name;
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
@@ -128,10 +95,13 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         }();
         const Structure& chosen = structure_of(now, *structure);
         const ContourSet set = contour_set(now, *structure);
-        if (is_one_of(name, kMasks)) write_mask_file(path, set, chosen, image_->grid, line.progress(stop));
-        else if (is_one_of(name, kMeshes)) write_mesh_file(path, set, image_->grid, line.progress(stop));
+        const auto made = [&, &now = now](bool with_mesh) {
+            return fit_structure(now, *structure, image_->grid, with_mesh, line.work(stop));
+        };
+        if (is_one_of(name, kMasks)) write_mask_file(path, made(false));
+        else if (is_one_of(name, kMeshes)) write_mesh_file(path, made(true));
         else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
-        else if (name == "picture.png") write_picture(path, set, *image_, line.progress(stop));
+        else if (name == "picture.png") write_picture(path, made(true), *image_);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
         download.file_name = file_name(chosen.name, name);
     }
@@ -140,9 +110,9 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
 }
 
 std::string Session::statistics(const std::stop_token& stop) {
-    const StatusLine line(*this, "Measuring");
+    const StatusLine line(status_teller(), "Measuring");
     nlohmann::json rows = nlohmann::json::array();
-    for (const FittedStructure& one : fit_structures(state(), image_->grid, true, line.progress(stop))) {
+    for (const FittedStructure& one : fit_structures(state(), image_->grid, true, line.work(stop))) {
         const Statistics found = viewer::statistics(*one.made.mesh, one.made.mask, *image_);
         rows.push_back({{"structure", one.structure.id},
                         {"name", one.structure.name},
@@ -161,10 +131,10 @@ std::string Session::statistics(const std::stop_token& stop) {
 }
 
 ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
-    const StatusLine line(*this, "Importing");
-    const Progress progress{{}, stop};
-    const Imported imported = import_apart(bytes, upload, progress);
-    progress.check();
+    const StatusLine line(status_teller(), "Importing");
+    const Work work{.stop = stop};
+    const Imported imported = import_apart(bytes, upload, work);
+    work.check();
     if (!upload.anyway) {
         auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
         if (!doubts.empty()) return {{}, std::move(doubts)};

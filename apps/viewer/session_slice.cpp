@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
-#include "kontur/refine/surface_uncertainty.h"
 #include "kontur/view/outline.h"
 #include "kontur/view/reslice.h"
 #include "viewer/binary_reply.h"
@@ -23,8 +22,7 @@ using nlohmann::json;
 
 constexpr std::int64_t kMostPixelsOnASide = 4096;
 constexpr std::size_t kLongestViewName = 64;
-constexpr std::size_t kMostWatched = 8;      // two pages of four views
-constexpr double kParallelCosine = 0.99985;  // 1 degree
+constexpr std::size_t kMostWatched = 8;  // two pages of four views
 
 // json's default constructor makes null, which cannot throw; clang-tidy sees the throwing cases of the one it calls.
 struct SliceRequest {  // NOLINT(bugprone-exception-escape)
@@ -122,12 +120,6 @@ private:
     std::vector<float> numbers_;
 };
 
-bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm) {
-    return std::abs(dot(contour.plane.normal, plane.normal)) >= kParallelCosine &&
-           std::all_of(contour.points.begin(), contour.points.end(),
-                       [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= 0.5 * thickness_mm; });
-}
-
 /// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
 void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, const Reslice& raster,
                   double thickness_mm, json& head, PixelPoints& lines, PixelPoints& dots) {
@@ -153,14 +145,6 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
         head["crossings"].push_back(dots.add(points));
         head["crossings"].back()["contour"] = id;
     }
-}
-
-std::vector<float> floats(const std::vector<Vec3>& points) {
-    std::vector<float> numbers;
-    numbers.reserve(3 * points.size());
-    for (const Vec3& p : points)
-        for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<float>(p[axis]));
-    return numbers;
 }
 
 }  // namespace
@@ -228,28 +212,6 @@ json Session::outline_of(const Members& m) {
     if (found != surfaces.end() && found->second->mesh)
         for (const Polyline& line : outline(*found->second->mesh, plane)) lines.push_back(to_json(line.points));
     return {{"lines", std::move(lines)}};
-}
-
-std::string Session::mesh(Id structure) {
-    const auto surfaces = surfaces_.all();
-    const auto found = surfaces.find(structure);
-    const bool is_there = found != surfaces.end() && found->second->mesh && state().structures.contains(structure);
-    const Surface none;
-    const TriangleMesh no_mesh;
-    const Surface& surface = is_there ? *found->second : none;
-    const TriangleMesh& mesh = is_there ? *surface.mesh : no_mesh;
-    BinaryReply reply(
-        {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}});
-    reply.add<float>("positions", floats(mesh.points));
-    reply.add<float>("normals", floats(mesh.normals));
-    if (surface.evidence && surface.stage == SurfaceStage::refined) {
-        const std::vector<double> widths = half_widths_mm(evidence_of(surface), mesh.points);
-        const std::vector<float> narrow(widths.begin(), widths.end());
-        reply.add<float>("half_widths_mm", narrow);
-    }
-    reply.add("triangles",
-              std::span(reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), 3 * mesh.triangles.size()));
-    return reply.bytes();
 }
 
 }  // namespace kontur::viewer

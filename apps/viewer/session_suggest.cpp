@@ -17,19 +17,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMostSkipped = 100;
 
-std::vector<Plane> skipped_planes(const Members& m) {
-    std::vector<Plane> planes;
-    if (!m.has("skip")) return planes;
-    const json& array = m.at("skip");
-    if (!array.is_array() || array.size() > kMostSkipped)
-        throw Error(ErrorKind::invalid_input, "'skip' is no array of at most 100 planes");
-    for (const json& item : array) {
-        const json named{{"skip", item}};
-        planes.push_back(Members(named).plane("skip"));
-    }
-    return planes;
-}
-
 }  // namespace
 
 SurfaceEvidence Session::evidence_of(const Surface& surface) const {
@@ -42,7 +29,7 @@ SurfaceEvidence Session::evidence_of(const Surface& surface) const {
 json Session::suggest(const Members& m) {
     const Id structure = m.id("structure");
     SuggestPlaneOptions options{.planes = m.flag_or("slices", false) ? PlaneChoice::image_slices : PlaneChoice::any};
-    options.avoid = skipped_planes(m);
+    if (m.has("skip")) options.avoid = m.planes("skip", kMostSkipped);
     options.grid = image_->grid;
     const auto surfaces = surfaces_.all();
     const auto found = surfaces.find(structure);

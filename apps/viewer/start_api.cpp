@@ -53,13 +53,14 @@ public:
     SearchStatus(const SearchStatus&) = delete;
     SearchStatus& operator=(const SearchStatus&) = delete;
 
-    Progress progress(const std::stop_token& stop) {
-        return {[this](std::string_view, double done) {
-                    const int percent = static_cast<int>(100 * done);
-                    if (percent != std::exchange(last_, percent))
-                        workspace_.tell_status("Looking through DICOM files", percent / 100.0);
-                },
-                stop};
+    Work work(const std::stop_token& stop) {
+        return {.callback =
+                    [this](std::string_view, double done) {
+                        const int percent = static_cast<int>(100 * done);
+                        if (percent != std::exchange(last_, percent))
+                            workspace_.tell_status("Looking through DICOM files", percent / 100.0);
+                    },
+                .stop = stop};
     }
 
 private:
@@ -76,7 +77,7 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
     if (method == "GET" && target.path == "/api/series") {
         const auto folder = places.resolved(needed(target, "path"));
         SearchStatus status(workspace);
-        return json_reply({{"path", folder.string()}, {"volumes", dicom_volumes(folder, status.progress(stop))}});
+        return json_reply({{"path", folder.string()}, {"volumes", dicom_volumes(folder, status.work(stop))}});
     }
     if (method == "GET" && target.path == "/api/thumbnail")
         return StartReply{"application/octet-stream", thumbnail(places.resolved(needed(target, "file")), frame_of(target))};

@@ -15,6 +15,9 @@
 #include "kontur/io/image.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/labels/section_contours.h"
+#include "kontur/segment_together.h"
+#include "viewer/border_sharing.h"
 #include "viewer/file_names.h"
 #include "viewer/temporary_files.h"
 #include "viewer/zip.h"
@@ -86,8 +89,7 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     return notes;
 }
 
-std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images,
-                                   const Progress& progress) {
+std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
     std::vector<Mask> masks;
     std::vector<DicomSegment> segments;
     for (const FittedStructure& one : all) {
@@ -99,18 +101,18 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
     }
     return write_dicom_seg_masks(
         path, masks, segments, images,
-        {.algorithm = {"kontur variational interpolation", KONTUR_VERSION, ""}, .provenance = together(all)}, progress);
+        {.algorithm = {"kontur variational interpolation", KONTUR_VERSION, ""}, .provenance = together(all)}, work);
 }
 
-std::vector<std::string> write_regions(const fs::path& path, const All& all, const DicomSeries& images,
-                                       const Progress& progress) {
+std::vector<std::string> write_regions(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
     StructureSet set{"kontur", {}};
     for (const FittedStructure& one : all) {
         Roi roi;
         roi.name = one.structure.name;
         roi.color = rgb8(one.structure.color);
         roi.generation_algorithm = "SEMIAUTOMATIC";
-        roi.contours = slice_contours(one.made.mask, one.made.function, 0, progress);
+        roi.contours =
+            one.shares_border ? slice_outlines(one.made.mask) : slice_contours(one.made.mask, one.made.function, work);
         roi.contours.name = one.structure.name;
         set.rois.push_back(std::move(roi));
     }
@@ -144,13 +146,51 @@ const DicomSeries& series_of(const std::optional<DicomSeries>& images, std::stri
                 fmt::format("{} would refer to the DICOM images it was made on, and this image is none", name));
 }
 
-}  // namespace
-
-bool is_export_of_all(std::string_view name) {
-    return std::find(kExportsOfAll.begin(), kExportsOfAll.end(), name) != kExportsOfAll.end();
+/// The surfaces with their borders, on a lattice that does not depend on the image's slices; `pairs` as the masks have them.
+void share_surfaces(std::vector<FittedStructure>& all, const std::vector<StructurePair>& pairs, const Work& work) {
+    std::vector<LoneSurface> alone;
+    for (const FittedStructure& one : all)
+        if (!one.made.mesh->triangles.empty())
+            alone.push_back({one.structure.id, std::make_shared<const ContourSet>(one.set), one.made.function,
+                             std::make_shared<const TriangleMesh>(*one.made.mesh)});
+    Borders borders{.shared = true};
+    for (const StructurePair& pair : pairs)
+        if (pair.is_given || pair.relation != Relation::inside)
+            borders.set({all[pair.first].structure.id, all[pair.second].structure.id, pair.relation});
+    const SharedBorders found = BorderSharing().share(alone, borders, work);
+    for (FittedStructure& one : all)
+        if (const auto mesh = found.meshes.find(one.structure.id); mesh != found.meshes.end()) one.made.mesh = *mesh->second;
 }
 
-std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Progress& progress) {
+std::vector<FittedStructure> fit_together(const State& state, const Grid& grid, bool with_mesh, const Work& work) {
+    std::vector<FittedStructure> all;
+    std::vector<ContourSet> sets;
+    std::vector<Id> ids;
+    for (const auto& [id, structure] : state.structures) {
+        ContourSet set = contour_set(state, id);
+        if (set.contours.empty()) continue;
+        sets.push_back(set);
+        ids.push_back(id);
+        all.push_back({structure, std::move(set), {}});
+    }
+    if (all.empty()) return all;
+    TogetherOptions options;
+    options.segment.mesh = with_mesh;
+    options.rules = rules_among(state.borders, ids);
+    Together together = segment_together(sets, grid, options, work);
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        Mask whole = whole_mask(together, n);
+        all[n].made = std::move(together.structures[n]);
+        all[n].made.mask = std::move(whole);
+    }
+    for (const StructurePair& pair : together.pairs)
+        if (pair.relation == Relation::exclusive || (pair.relation == Relation::inside && pair.is_given))
+            all[pair.first].shares_border = all[pair.second].shares_border = true;
+    if (with_mesh) share_surfaces(all, together.pairs, work);
+    return all;
+}
+
+std::vector<FittedStructure> fit_each(const State& state, const Grid& grid, bool with_mesh, const Work& work) {
     std::vector<FittedStructure> all;
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
@@ -158,20 +198,47 @@ std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid
         SegmentOptions options;
         options.mesh = with_mesh;
         try {
-            Segmentation made = segment(set, grid, options, progress);
+            Segmentation made = segment(set, grid, options, work);
             all.push_back({structure, std::move(set), std::move(made)});
         } catch (const Error& error) {
             throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
         }
     }
+    return all;
+}
+
+}  // namespace
+
+std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Work& work) {
+    auto all = (state.borders.shared ? fit_together : fit_each)(state, grid, with_mesh, work);
     if (all.empty()) throw Error(ErrorKind::invalid_input, "no structure has contours");
     return all;
 }
 
+FittedStructure fit_structure(const State& state, Id structure, const Grid& grid, bool with_mesh, const Work& work) {
+    ContourSet set = contour_set(state, structure);
+    const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
+                                      [&](const auto& item) { return item.second->structure == structure; });
+    if (!state.borders.shared || is_alone || set.contours.empty()) {
+        SegmentOptions options;
+        options.mesh = with_mesh;
+        Segmentation made = segment(set, grid, options, work);
+        return {structure_of(state, structure), std::move(set), std::move(made)};
+    }
+    std::vector<FittedStructure> all = fit_structures(state, grid, with_mesh, work);
+    const auto chosen =
+        std::find_if(all.begin(), all.end(), [&](const FittedStructure& one) { return one.structure.id == structure; });
+    return std::move(*chosen);
+}
+
+bool is_export_of_all(std::string_view name) {
+    return std::find(kExportsOfAll.begin(), kExportsOfAll.end(), name) != kExportsOfAll.end();
+}
+
 std::vector<std::string> write_structures(const fs::path& path, std::string_view name, const All& all,
-                                          const std::optional<DicomSeries>& images, const Progress& progress) {
-    if (name == "seg.dcm") return write_seg(path, all, series_of(images, name), progress);
-    if (name == "rtstruct.dcm") return write_regions(path, all, series_of(images, name), progress);
+                                          const std::optional<DicomSeries>& images, const Work& work) {
+    if (name == "seg.dcm") return write_seg(path, all, series_of(images, name), work);
+    if (name == "rtstruct.dcm") return write_regions(path, all, series_of(images, name), work);
     if (name.ends_with(".zip")) return write_meshes(path, name, all), std::vector<std::string>{};
     return write_labels(path, all);
 }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/segment.h"
 #include "viewer/model.h"
@@ -28,11 +28,16 @@ struct FittedStructure {
     Structure structure;
     ContourSet set;
     Segmentation made;
+    bool shares_border = false;  ///< mask and mesh are not those that the function alone would give
 };
 
-/// All structures that have contours, in the order they were made, hidden ones too; with their surfaces if wished. Throws
+/// All structures that have contours, in the order they were made, hidden ones too; with their surfaces if wished. Where the
+/// project's structures share borders, masks and surfaces do, by its rules (see segment_together). Throws
 /// Error(invalid_input) where there is none, and what `segment` throws, with the structure's name.
-std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Progress& progress);
+std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Work& work);
+
+/// One of them; only where borders are shared are the others fitted, too.
+FittedStructure fit_structure(const State& state, Id structure, const Grid& grid, bool with_mesh, const Work& work);
 
 /// Writes the file of this name, one of `kExportsOfAll`. Labels count from 1 in the order of the structures; a voxel in
 /// several of them belongs to the smallest, so that a lesion in an organ is not lost; in DICOM objects it belongs to all.
@@ -40,6 +45,6 @@ std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid
 /// images.
 std::vector<std::string> write_structures(const std::filesystem::path& path, std::string_view name,
                                           const std::vector<FittedStructure>& all, const std::optional<DicomSeries>& images,
-                                          const Progress& progress);
+                                          const Work& work);
 
 }  // namespace kontur::viewer

@@ -37,12 +37,6 @@ std::vector<Conflict> conflicts(const SurfaceTask& task, const std::vector<Cross
     return found;
 }
 
-std::vector<std::vector<Vec3>> cut(const TriangleMesh& mesh, const Plane& plane) {
-    std::vector<std::vector<Vec3>> lines;
-    for (Polyline& line : outline(mesh, plane)) lines.push_back(std::move(line.points));  // a closed mesh: closed lines
-    return lines;
-}
-
 Surface no_surface(Id structure, std::vector<std::string> warnings = {}) {
     Surface surface;
     surface.structure = structure;
@@ -79,6 +73,14 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
 
 }  // namespace
 
+PlaneCutter cutter(const Surface& surface) {
+    return [mesh = surface.mesh](const Plane& plane) {
+        std::vector<std::vector<Vec3>> lines;
+        for (Polyline& line : outline(*mesh, plane)) lines.push_back(std::move(line.points));  // a closed mesh: closed lines
+        return lines;
+    };
+}
+
 std::string_view name(SurfaceStage stage) noexcept {
     switch (stage) {
         case SurfaceStage::outdated:
@@ -97,6 +99,7 @@ Surfaces::~Surfaces() {
     Editors editors;  // ended without the lock, and before the map that their threads look through
     const std::scoped_lock lock(mutex_);
     later_.clear();
+    sharing_stop_.request_stop();  // its thread is ended last
     editors.swap(retired_);
     for (auto& [structure, follower] : followers_) editors.push_back(std::move(follower.editor));
 }
@@ -131,11 +134,12 @@ void Surfaces::follow_later(SurfaceTask task) {
     start_next();
 }
 
+bool Surfaces::is_busy_locked() const {
+    return std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
+}
+
 void Surfaces::start_next() {
-    const auto is_busy = [&] {
-        return std::any_of(followers_.begin(), followers_.end(), [](const auto& f) { return f.second.is_working; });
-    };
-    while (!later_.empty() && !is_busy()) {
+    while (!later_.empty() && !is_busy_locked()) {
         SurfaceTask task = std::move(later_.front());
         later_.pop_front();
         start(std::move(task));
@@ -145,6 +149,7 @@ void Surfaces::start_next() {
 void Surfaces::start(SurfaceTask task) {
     const Id structure = task.structure;
     outdate_locked(structure);
+    sharing_stop_.request_stop();
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
     if (!follower.editor) {
@@ -176,6 +181,9 @@ void Surfaces::wait() {
                 if (follower.editor) editors.push_back(follower.editor);
         }
         for (const auto& editor : editors) editor->wait();
+        std::unique_lock lock(mutex_);
+        sharing_changed_.wait(lock, [&] { return !is_sharing_wanted_ && !is_sharing_; });
+        is_done = is_done && later_.empty();
     }
 }
 
@@ -194,9 +202,11 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
         task = tasks.at(update.edit);
     }
     Surface surface = shown(task, update);
+    const bool is_final = update.kind != EditorUpdate::Kind::preview;
+    if (is_final && hand_over(task, surface, update)) return;
     if (surface.stage == SurfaceStage::refined) {
         surface.revision = next_revision();
-        listener_.outlines(structure, surface.revision, [&](const Plane& plane) { return cut(*surface.mesh, plane); });
+        listener_.outlines(structure, surface.revision, cutter(surface));
     }
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[structure];
@@ -205,7 +215,13 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
     // Of contours that have changed meanwhile it is only on the way to their surface.
     if (!is_newest && surface.stage == SurfaceStage::refined) surface.stage = SurfaceStage::preview;
     publish_locked(std::move(surface));
-    if (!is_newest || update.kind == EditorUpdate::Kind::preview) return;
+    if (!is_newest || !is_final) return;
+    finish_locked(follower, task);
+    // Of borders that are not shared any more, too: surfaces are those of before until then.
+    if ((borders_.shared || sharing_thread_.joinable()) && !is_busy_locked()) ask_to_share_locked();
+}
+
+void Surfaces::finish_locked(Follower& follower, const SurfaceTask& task) {
     follower.stage = {};
     follower.is_working = false;
     if (task.set.contours.empty() && follower.editor) {

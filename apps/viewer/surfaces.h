@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <map>
@@ -8,11 +9,14 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "kontur/live_editor.h"
 #include "kontur/refine/surface_evidence.h"
+#include "viewer/border_sharing.h"
 #include "viewer/model.h"
 
 namespace kontur::viewer {
@@ -59,6 +63,8 @@ struct SurfaceTask {
 /// The closed lines, in mm, where a surface meets a plane.
 using PlaneCutter = std::function<std::vector<std::vector<Vec3>>(const Plane& plane)>;
 
+PlaneCutter cutter(const Surface& surface);
+
 /// Called from the threads that compute, and from those that change contours. Must not call Surfaces.
 struct SurfaceListener {
     /// Told before the surface with this revision, which of previews takes as long again.
@@ -66,10 +72,13 @@ struct SurfaceListener {
     std::function<void(std::shared_ptr<const Surface>)> surface;
     /// What is being computed, and how much of it is done; an empty text when nothing is.
     std::function<void(const std::string& text, std::optional<double> fraction)> status;
+    /// How structures that touch lie to each other, as soon as that is found, or why it could not be.
+    std::function<void(const std::vector<BorderPair>& pairs, const std::string& problem)> borders{};
 };
 
 /// A LiveEditor for each structure that has contours: surfaces follow the contours, previews at once, the refined ones when
-/// the hand rests.
+/// the hand rests. Where structures share borders a refined surface waits until these are found, and then the surfaces of
+/// its neighbours change, too: on a thread of its own, from the functions that there are.
 class Surfaces {
 public:
     explicit Surfaces(SurfaceListener listener) : listener_(std::move(listener)) {}
@@ -84,7 +93,11 @@ public:
     void follow(SurfaceTask task);
     /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed.
     void follow_later(SurfaceTask task);
-    /// Waits until every surface is refined.
+    /// From now on these hold. Does not wait.
+    void share_borders(const Borders& borders);
+    /// How structures lie to each other as far as it has been found.
+    std::vector<BorderPair> border_pairs() const;
+    /// Waits until every surface is refined, with its borders.
     void wait();
 
     /// The last surface of every structure that has had one.
@@ -100,6 +113,11 @@ private:
         int tenths = 0;                      ///< ... and how far it was
         std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
     };
+    /// A refined surface as it was fitted, before borders are shared.
+    struct Alone {
+        Surface surface;
+        ImplicitFunction function;
+    };
     using Editors = std::vector<std::shared_ptr<LiveEditor>>;
 
     void start(SurfaceTask task);
@@ -110,14 +128,31 @@ private:
     void show_progress(Id structure, const EditorUpdate& update);
     void outdate_locked(Id structure);
     void publish_locked(Surface surface);
+    void finish_locked(Follower& follower, const SurfaceTask& task);
+
+    // Sharing borders (surfaces_shared.cpp).
+    bool is_busy_locked() const;
+    bool hand_over(const SurfaceTask& task, const Surface& surface, const EditorUpdate& update);
+    bool ask_to_share_locked();
+    void keep_sharing(const std::stop_token& closed);
+    void share(const std::map<Id, Alone>& alone, const Borders& borders, const std::stop_token& stop);
+    void publish_shared(const Alone& alone, std::shared_ptr<const TriangleMesh> mesh);
 
     const SurfaceListener listener_;
     mutable std::mutex mutex_;
     std::map<Id, std::shared_ptr<const Surface>> latest_;
     std::int64_t revision_ = 0;
+    std::map<Id, Alone> alone_;
+    Borders borders_;
+    std::vector<BorderPair> pairs_;
+    bool is_sharing_wanted_ = false, is_sharing_ = false;
+    std::stop_source sharing_stop_;
+    std::condition_variable_any sharing_changed_;
+    BorderSharing sharing_;  ///< of the thread
     std::deque<SurfaceTask> later_;
     Editors retired_;                   ///< not needed any more; an editor's own thread cannot end it
-    std::map<Id, Follower> followers_;  ///< last: their threads use all above
+    std::map<Id, Follower> followers_;  ///< their threads use all above
+    std::jthread sharing_thread_;       ///< last: it does, too
 };
 
 }  // namespace kontur::viewer

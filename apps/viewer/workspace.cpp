@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kontur/base/error.h"
+#include "kontur/io/frame_needed.h"
 #include "viewer/model_json.h"
 
 namespace kontur::viewer {
@@ -151,10 +152,12 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
         const auto begun = std::chrono::steady_clock::now();
         while (!last_.expired() && std::chrono::steady_clock::now() - begun < kPatience)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        const Progress progress{[this](std::string_view stage, double fraction) { tell_progress(stage, fraction); }, stop};
-        std::shared_ptr<Session> session = open(progress);
-        progress.check();
-        adopt(std::move(session));
+        const Work work{.callback = [this](std::string_view stage, double fraction) { tell_progress(stage, fraction); },
+                        .stop = stop};
+        adopt(open(work));  // a stop that comes later finds a project that is there: it counts as opened
+    } catch (const FrameNeeded& error) {
+        failure = std::current_exception();
+        fail(name(error.kind()), error.what(), error.frames());
     } catch (const Error& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what());
@@ -182,14 +185,16 @@ void Workspace::adopt(std::shared_ptr<Session> session) {
     tell(to_text({{"event", "opened"}}));
 }
 
-void Workspace::fail(std::string_view kind, const std::string& sentence) {
+void Workspace::fail(std::string_view kind, const std::string& sentence, std::optional<std::int64_t> frames) {
     {
         const std::scoped_lock lock(mutex_);
         opening_.reset();
         sentence_ = kind == name(ErrorKind::cancelled) ? "" : sentence;
     }
     finished_.notify_all();
-    tell(to_text({{"event", "failed"}, {"error", error_json(kind, sentence)}}));
+    json error = error_json(kind, sentence);
+    if (frames) error["frames"] = *frames;
+    tell(to_text({{"event", "failed"}, {"error", std::move(error)}}));
 }
 
 void Workspace::tell_progress(std::string_view stage, double fraction) {
@@ -217,8 +222,7 @@ void Workspace::open(const OpenRequest& request) {
     OpenRequest checked = request;
     const bool is_known = request.path == kExample || recent_.contains(request.path);
     if (!is_known) checked.path = services_.places.resolved(request.path.string());
-    begin(checked.path.filename().string(),
-          [this, checked](const Progress& progress) { return services_.open(checked, progress); });
+    begin(checked.path.filename().string(), [this, checked](const Work& work) { return services_.open(checked, work); });
 }
 
 void Workspace::cancel() {

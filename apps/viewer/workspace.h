@@ -17,7 +17,7 @@
 #include <string_view>
 #include <thread>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "viewer/places.h"
 #include "viewer/recent.h"
 #include "viewer/session.h"
@@ -37,11 +37,11 @@ inline constexpr const char* kExample = "phantom";
 /// for all pages; reading runs in the background. Safe for concurrent use.
 class Workspace {
 public:
-    using Open = std::function<std::shared_ptr<Session>(const Progress&)>;
+    using Open = std::function<std::shared_ptr<Session>(const Work&)>;
 
     struct Services {
         /// Makes the session for what a page asks for. Errors are exceptions.
-        std::function<std::shared_ptr<Session>(const OpenRequest&, const Progress&)> open{};
+        std::function<std::shared_ptr<Session>(const OpenRequest&, const Work&)> open{};
         Places places{};
         std::filesystem::path recent{};  ///< the file that lists projects; empty: none is kept
     };
@@ -98,7 +98,8 @@ private:
     std::string start_event() const;
     void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop);
     void adopt(std::shared_ptr<Session> session);
-    void fail(std::string_view kind, const std::string& sentence);
+    /// `frames`: how many the file has, where one of them has to be chosen.
+    void fail(std::string_view kind, const std::string& sentence, std::optional<std::int64_t> frames = {});
     void tell_progress(std::string_view stage, double fraction);
     void tell(const std::string& message);
 

@@ -52,10 +52,8 @@ void Annotator::draw(const Plane& plane, bool is_shown, bool and_fit) {
 void Annotator::fit() {
     segmentation_.reset();
     try {
-        SegmentOptions options;
-        options.threads = 1;
-        segmentation_ = segment(contours_, truth_.grid(), options);
-        evidence_ = gather_evidence(*segmentation_, contours_, 1);
+        segmentation_ = segment(contours_, truth_.grid(), {}, {.threads = 1});
+        evidence_ = gather_evidence(*segmentation_, contours_, {.threads = 1});
     } catch (const Error&) {  // counts as nothing drawn
     }
 }

@@ -89,8 +89,7 @@ std::vector<Contour> Truth::draw(const Plane& plane) const {
     options.step_mm = 0.4 * cube;
     options.tolerance_mm = 0.2 * cube;
     options.min_area_mm2 = 12 * cube * cube;
-    options.threads = 1;
-    std::vector<Contour> contours = trace(fine_, std::span(&plane, 1), options).contours;
+    std::vector<Contour> contours = trace(fine_, std::span(&plane, 1), options, {.threads = 1}).contours;
     if (hand_ == Hand::unsteady) {
         const Vec3& n = plane.normal;
         const long long seed = std::llround(1e3 * (dot(plane.origin, n) + 7 * n.x + 13 * n.y + 29 * n.z));

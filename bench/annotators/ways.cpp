@@ -104,9 +104,9 @@ Planes orthogonal(const Truth& truth, std::size_t count) {
 
 std::optional<Plane> suggested(const Annotator& annotator, PlaneChoice choice) {
     if (!annotator.segmentation()) return std::nullopt;
-    SuggestPlaneOptions options{choice, annotator.truth().grid(), {}, 1};
+    SuggestPlaneOptions options{choice, annotator.truth().grid()};
     options.avoid = annotator.planes();  // those in which there was nothing, too
-    const PlaneSuggestions found = suggest_planes(annotator.evidence(), annotator.contours(), 1, options);
+    const PlaneSuggestions found = suggest_planes(annotator.evidence(), annotator.contours(), 1, options, {.threads = 1});
     if (found.planes.empty()) return std::nullopt;
     return found.planes.front().plane;
 }

@@ -54,7 +54,7 @@ def segment_case(row, folder, threads):
     notes = []
     contours = kontur.read_contours(files, roi=row.get("roi"), on_note=notes.append)
     if "name" in row:
-        contours = kontur.ContourSet(contours, row["name"], contours.interior, contours.exterior, contours.surface)
+        contours = kontur.ContourSet(contours, row["name"], contours.interior, contours.exterior, contours.surface, contours.empty_planes)
     digests = {"contour_files_sha256": kontur.files_sha256(files)}
     if "image" in row:
         grid = kontur.read_grid(folder / row["image"], on_note=notes.append)
@@ -63,7 +63,7 @@ def segment_case(row, folder, threads):
         spacing = [float(word) for word in row["spacing_mm"].split(",")]
         grid = kontur.grid_around(contours.bounding_box, spacing * (3 // len(spacing)), float(row.get("margin_mm", 10)))
     options = {name: number(row[name]) for name in OPTIONS if name in row}
-    image = kontur.read_image(folder / row["image"]) if "image" in row and options.get("use_image") == "auto" else None
+    image = kontur.read_image(folder / row["image"]) if "image" in row and options.get("use_image") != "off" else None
     made = kontur.segment(contours, grid, image=image, mesh="mesh" in row, threads=threads, **options)
     provenance = kontur.provenance(contours, grid, made.report) | digests
     names = {"segment_name": contours.name} if contours.name else {}

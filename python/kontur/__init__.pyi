@@ -134,6 +134,7 @@ class ContourSet:
         interior: ArrayLike | None = None,
         exterior: ArrayLike | None = None,
         surface: Sequence[SurfacePoint] = ...,
+        empty_planes: Sequence[Plane] = ...,
     ) -> None: ...
     @property
     def contours(self) -> tuple[Contour, ...]: ...
@@ -145,6 +146,8 @@ class ContourSet:
     def exterior(self) -> NDArray[numpy.float64]: ...
     @property
     def surface(self) -> list[SurfacePoint]: ...
+    @property
+    def empty_planes(self) -> list[Plane]: ...
     @property
     def point_count(self) -> int: ...
     @property
@@ -310,12 +313,12 @@ class Editor:
         quality: float = 1.0,
         solver: _Solver = "automatic",
         tolerance_mm: float | None = None,
-        threads: int = 0,
     ) -> None: ...
     def preview(
         self,
         contours: ContourSet,
         *,
+        threads: int = 0,
         progress: _Progress | None = None,
         stop: _Stop | None = None,
     ) -> EditedSurface: ...
@@ -323,6 +326,7 @@ class Editor:
         self,
         contours: ContourSet,
         *,
+        threads: int = 0,
         progress: _Progress | None = None,
         stop: _Stop | None = None,
     ) -> EditedSurface: ...
@@ -349,13 +353,12 @@ class FastFunction:
         tolerance_mm: float = 0.01,
         gradient_tolerance: float = 0.01,
         expected_points: int = 0,
-        threads: int = 0,
     ) -> None: ...
     def values(
-        self, points: ArrayLike, *, progress: _Progress | None = None, stop: _Stop | None = None
+        self, points: ArrayLike, *, threads: int = 0, progress: _Progress | None = None, stop: _Stop | None = None
     ) -> NDArray[numpy.float64]: ...
     def gradients(
-        self, points: ArrayLike, *, progress: _Progress | None = None, stop: _Stop | None = None
+        self, points: ArrayLike, *, threads: int = 0, progress: _Progress | None = None, stop: _Stop | None = None
     ) -> NDArray[numpy.float64]: ...
     @property
     def exact(self) -> ImplicitFunction: ...
@@ -632,6 +635,12 @@ class PreparedContours:
     @property
     def coplanar(self) -> bool: ...
 
+class AskedPoint:
+    @property
+    def position(self) -> NDArray[numpy.float64]: ...
+    @property
+    def share(self) -> float: ...
+
 class RefineReport:
     @property
     def verdict(self) -> str: ...
@@ -647,6 +656,8 @@ class RefineReport:
     def intensities(self) -> int: ...
     @property
     def on_contours_mm(self) -> float: ...
+    @property
+    def asked(self) -> list[AskedPoint]: ...
 
 class Residual:
     @property
@@ -971,7 +982,7 @@ def fill_labels(
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -989,7 +1000,7 @@ def fill_labels(
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -1007,7 +1018,7 @@ def fill_labels(
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -1025,7 +1036,7 @@ def fill_labels(
     ends: _FillEnds = "closed",
     jointly: bool = True,
     shape_weight: float = 0.7,
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     smoothing_voxels: float = 0.7,
     only: Sequence[int] = [],
     threads: int = 0,
@@ -1316,7 +1327,7 @@ def segment(
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,
     voxelizer: _Voxelizer = "adaptive",
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     mesh: Literal[True],
     threads: int = 0,
     max_memory_mb: float | None = None,
@@ -1340,7 +1351,7 @@ def segment(
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,
     voxelizer: _Voxelizer = "adaptive",
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     mesh: bool = False,
     threads: int = 0,
     max_memory_mb: float | None = None,
@@ -1365,7 +1376,7 @@ def segment_together(
     solver: _Solver = "automatic",
     tolerance_mm: float | None = None,
     voxelizer: _Voxelizer = "adaptive",
-    use_image: _UseImage = "off",
+    use_image: _UseImage = "auto",
     mesh: bool = False,
     threads: int = 0,
     max_memory_mb: float | None = None,

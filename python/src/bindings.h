@@ -49,6 +49,7 @@ void picklable(Class& type, Arguments arguments) {
 }
 
 /// Arguments that most long functions end with.
+inline const py::arg_v kThreads = py::arg("threads") = 0;
 inline const py::arg_v kProgress = py::arg("progress") = py::none();
 inline const py::arg_v kStop = py::arg("stop") = py::none();
 

@@ -69,6 +69,9 @@ std::vector<double> list_of(const ArrayOf<double>& numbers, const char* what) {
 std::string filled_in(std::string help, const std::string& options) {
     const std::pair<std::string_view, std::string_view> marks[] = {
         {"@options\n", options},
+        {"@threads\n", R"(threads : int
+    0: the machine's. The result does not depend on it.
+)"},
         {"@progress\n", R"(progress, stop : optional
     As for `segment`.
 )"},

@@ -102,7 +102,7 @@ template <class Other>
 void append(std::string&, const Other&) {}
 
 /// `help` with the keywords' part in place of its line "@options", and what many functions say in place of the lines
-/// "@progress", "@on_note" and "@provenance".
+/// "@threads", "@progress", "@on_note" and "@provenance".
 std::string filled_in(std::string help, const std::string& options);
 
 template <class... Extra>

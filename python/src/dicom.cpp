@@ -189,7 +189,7 @@ DicomVolume
 )",
         [keywords](const fs::path& path, const py::object& progress, const py::object& stop, const py::kwargs& given) {
             const DicomSeriesOptions options = keywords.parse("read_dicom_series", given);
-            return run({progress, stop}, [&](const Progress& p) { return read_dicom_series(path, options, p); });
+            return run({progress, stop}, [&](const Work& work) { return read_dicom_series(path, options, work); });
         },
         py::arg("path"), py::kw_only(), kProgress, kStop, KeywordText(keywords));
     define(
@@ -207,7 +207,7 @@ DicomGrid
 )",
         [keywords](const fs::path& path, const py::object& progress, const py::object& stop, const py::kwargs& given) {
             const DicomSeriesOptions options = keywords.parse("read_dicom_grid", given);
-            return run({progress, stop}, [&](const Progress& p) { return read_dicom_grid(path, options, p); });
+            return run({progress, stop}, [&](const Work& work) { return read_dicom_grid(path, options, work); });
         },
         py::arg("path"), py::kw_only(), kProgress, kStop, KeywordText(keywords));
 }

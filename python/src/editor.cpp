@@ -39,8 +39,7 @@ Keywords<EditorOptions> editor_keywords() {
         .field("corners", segment(&SegmentOptions::corners), "")
         .field("quality", segment(&SegmentOptions::quality), "")
         .field("solver", segment(&SegmentOptions::solver), "")
-        .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "")
-        .field("threads", segment(&SegmentOptions::threads), "");
+        .field("tolerance_mm", segment(&SegmentOptions::tolerance_mm), "");
 }
 
 void bind_editor_itself(py::module_& m) {
@@ -82,22 +81,22 @@ Examples
                init_doc.c_str());
     method(
         editor, "preview", "The EditedSurface through a ContourSet, fitted to a part of its points.",
-        [](SharedEditor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) {
+        [](SharedEditor& self, const ContourSet& contours, int threads, const py::object& progress, const py::object& stop) {
+            return run({progress, stop, threads}, [&](const Work& work) {
                 const std::lock_guard lock(self.mutex);
-                return self.editor.preview(contours, p);
+                return self.editor.preview(contours, work);
             });
         },
-        py::arg("contours"), py::kw_only(), kProgress, kStop);
+        py::arg("contours"), py::kw_only(), kThreads, kProgress, kStop);
     method(
         editor, "refine", "The final EditedSurface through a ContourSet: the same function as `segment`'s.",
-        [](SharedEditor& self, const ContourSet& contours, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) {
+        [](SharedEditor& self, const ContourSet& contours, int threads, const py::object& progress, const py::object& stop) {
+            return run({progress, stop, threads}, [&](const Work& work) {
                 const std::lock_guard lock(self.mutex);
-                return self.editor.refine(contours, p);
+                return self.editor.refine(contours, work);
             });
         },
-        py::arg("contours"), py::kw_only(), kProgress, kStop);
+        py::arg("contours"), py::kw_only(), kThreads, kProgress, kStop);
 }
 
 }  // namespace

@@ -16,8 +16,7 @@ Keywords<TraceOptions> trace_keywords() {
     return Keywords<TraceOptions>()
         .field("step_mm", &TraceOptions::step_mm, "Sampling distance on a plane; 0: half the mask's smallest spacing.")
         .field("tolerance_mm", &TraceOptions::tolerance_mm, "How far dropped points may lie off the contour.")
-        .field("min_area_mm2", &TraceOptions::min_area_mm2, "Smaller contours are dropped.")
-        .field("threads", &TraceOptions::threads, "0: the machine's.");
+        .field("min_area_mm2", &TraceOptions::min_area_mm2, "Smaller contours are dropped.");
 }
 
 void bind_lattice(py::module_& m) {
@@ -59,10 +58,10 @@ SurfaceLattice
 )",
         [](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
            const py::object& progress, const py::object& stop) {
-            return run({progress, stop},
-                       [&](const Progress& p) { return track_surface(function, grid, starts, threads, p); });
+            return run({progress, stop, threads},
+                       [&](const Work& work) { return track_surface(function, grid, starts, work); });
         },
-        py::arg("function"), py::arg("grid"), py::arg("starts"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+        py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
     define(
         m, "track_surface_adaptively",
         R"(Follows the surface as `track_surface` does, from a fraction of the function values.
@@ -87,10 +86,10 @@ SurfaceLattice
 )",
         [](const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts, int threads,
            const py::object& progress, const py::object& stop) {
-            return run({progress, stop},
-                       [&](const Progress& p) { return track_surface_adaptively(function, grid, starts, threads, p); });
+            return run({progress, stop, threads},
+                       [&](const Work& work) { return track_surface_adaptively(function, grid, starts, work); });
         },
-        py::arg("function"), py::arg("grid"), py::arg("starts"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+        py::arg("function"), py::arg("grid"), py::arg("starts"), kThreads, py::kw_only(), kProgress, kStop);
     define(
         m, "preview_surface", R"(The surface through the starts on a lattice of its own, whatever grid a mask would have.
 
@@ -114,10 +113,11 @@ TriangleMesh
 )",
         [](const ImplicitFunction& function, const std::vector<Vec3>& starts, double spacing_mm, int threads,
            const Vec3& anchor_mm, const py::object& progress, const py::object& stop) {
-            const PreviewOptions options{.spacing_mm = spacing_mm, .threads = threads, .anchor_mm = anchor_mm};
-            return run({progress, stop}, [&](const Progress& p) { return preview_surface(function, starts, options, p); });
+            const PreviewOptions options{.spacing_mm = spacing_mm, .anchor_mm = anchor_mm};
+            return run({progress, stop, threads},
+                       [&](const Work& work) { return preview_surface(function, starts, options, work); });
         },
-        py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, py::arg("threads") = 0,
+        py::arg("function"), py::arg("starts"), py::arg("spacing_mm") = PreviewOptions{}.spacing_mm, kThreads,
         py::arg("anchor_mm") = py::make_tuple(0.0, 0.0, 0.0), py::kw_only(), kProgress, kStop);
     define(
         m, "slice_contours", R"(The surface where it passes through the slices (constant k) of its mask's grid.
@@ -138,9 +138,9 @@ ContourSet
 )",
         [](const Mask& mask, const ImplicitFunction& function, int threads, const py::object& progress,
            const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return slice_contours(mask, function, threads, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return slice_contours(mask, function, work); });
         },
-        py::arg("mask"), py::arg("function"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+        py::arg("mask"), py::arg("function"), kThreads, py::kw_only(), kProgress, kStop);
     define(
         m, "sample_everywhere", R"(Evaluates every voxel centre: slow, and finds what no start leads to.
 
@@ -158,13 +158,15 @@ SurfaceLattice
 )",
         [](const ImplicitFunction& function, const Grid& grid, int threads, const py::object& progress,
            const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return sample_everywhere(function, grid, threads, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return sample_everywhere(function, grid, work); });
         },
-        py::arg("function"), py::arg("grid"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+        py::arg("function"), py::arg("grid"), kThreads, py::kw_only(), kProgress, kStop);
     define(
         m, "fill", "The Mask of the voxels inside of the surface found.",
-        [](const SurfaceLattice& surface, int threads) { return unlocked([&] { return fill(surface, threads); }); },
-        py::arg("surface"), py::arg("threads") = 0);
+        [](const SurfaceLattice& surface, int threads) {
+            return unlocked([&] { return fill(surface, {.threads = threads}); });
+        },
+        py::arg("surface"), kThreads);
     define(
         m, "polygonize", R"(The surface as a closed TriangleMesh with normals.
 
@@ -183,9 +185,9 @@ TriangleMesh
 )",
         [](const SurfaceLattice& surface, const ImplicitFunction& function, int threads, const py::object& progress,
            const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return polygonize(surface, function, threads, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return polygonize(surface, function, work); });
         },
-        py::arg("surface"), py::arg("function"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+        py::arg("surface"), py::arg("function"), kThreads, py::kw_only(), kProgress, kStop);
     define(
         m, "rasterize", R"(The voxels that contours drawn on the grid's slices (constant k) enclose, even-odd.
 
@@ -209,6 +211,7 @@ Parameters
 ----------
 mask : Mask
 planes : sequence of Plane
+@threads
 @progress
 @options
 
@@ -225,12 +228,12 @@ Examples
 >>> contours.bounding_box.round(6).tolist()
 [[1.5, 1.5, 3.5], [5.5, 5.5, 3.5]]
 )",
-        [tracing](const Mask& mask, const std::vector<Plane>& planes, const py::object& progress, const py::object& stop,
-                  const py::kwargs& given) {
+        [tracing](const Mask& mask, const std::vector<Plane>& planes, int threads, const py::object& progress,
+                  const py::object& stop, const py::kwargs& given) {
             const TraceOptions options = tracing.parse("trace", given);
-            return run({progress, stop}, [&](const Progress& p) { return trace(mask, planes, options, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return trace(mask, planes, options, work); });
         },
-        py::arg("mask"), py::arg("planes"), py::kw_only(), kProgress, kStop, KeywordText(tracing));
+        py::arg("mask"), py::arg("planes"), py::kw_only(), kThreads, kProgress, kStop, KeywordText(tracing));
 }
 
 }  // namespace kontur::python

@@ -34,24 +34,24 @@ private:
     std::optional<FastFunction> fast_;
 };
 
-py::array_t<double> values_at(SharedFastFunction& self, const ArrayOf<double>& points, const py::object& progress,
-                              const py::object& stop) {
+py::array_t<double> values_at(SharedFastFunction& self, const ArrayOf<double>& points, int threads,
+                              const py::object& progress, const py::object& stop) {
     py::array_t<double> values(leading_shape(points));
     const std::span out(values.mutable_data(), static_cast<std::size_t>(values.size()));
-    run_work({progress, stop}, [&, all = span_of(points)](const Progress& p) {
-        self.with([&](FastFunction& fast) { fast.values(all, out, p); });
+    run_work({progress, stop, threads}, [&, all = span_of(points)](const Work& work) {
+        self.with([&](FastFunction& fast) { fast.values(all, out, work); });
     });
     return values;
 }
 
-py::array_t<double> gradients_at(SharedFastFunction& self, const ArrayOf<double>& points, const py::object& progress,
-                                 const py::object& stop) {
+py::array_t<double> gradients_at(SharedFastFunction& self, const ArrayOf<double>& points, int threads,
+                                 const py::object& progress, const py::object& stop) {
     std::vector<py::ssize_t> shape = leading_shape(points);
     shape.push_back(3);
     py::array_t<double> gradients(shape);
     const std::span out(reinterpret_cast<Vec3*>(gradients.mutable_data()), static_cast<std::size_t>(gradients.size() / 3));
-    run_work({progress, stop}, [&, all = span_of(points)](const Progress& p) {
-        self.with([&](FastFunction& fast) { fast.gradients(all, out, p); });
+    run_work({progress, stop, threads}, [&, all = span_of(points)](const Work& work) {
+        self.with([&](FastFunction& fast) { fast.gradients(all, out, work); });
     });
     return gradients;
 }
@@ -73,8 +73,7 @@ void bind_fast_functions(py::module_& m) {
             .field("gradient_tolerance", &FastOptions::gradient_tolerance,
                    "Largest error of a gradient (mm per mm) accepted there.")
             .field("expected_points", &FastOptions::expected_points,
-                   "How many will be evaluated; decides what preparation pays.")
-            .field("threads", &FastOptions::threads, "0: the machine's.");
+                   "How many will be evaluated; decides what preparation pays.");
     const std::string help = filled_in(R"(Values and gradients of an ImplicitFunction at many points, faster.
 
 Near centres are summed directly, the smooth rest is interpolated. Each call compares some of its values with direct sums; if
@@ -109,26 +108,28 @@ Parameters
 ----------
 points : array_like, shape (..., 3)
     mm (LPS).
+@threads
 @progress
 
 Returns
 -------
 ndarray, shape (...), float64
 )",
-           &values_at, py::arg("points"), py::kw_only(), kProgress, kStop);
+           &values_at, py::arg("points"), py::kw_only(), kThreads, kProgress, kStop);
     method(fast, "gradients", R"(Gradients of f per mm at points; they point inward.
 
 Parameters
 ----------
 points : array_like, shape (..., 3)
     mm (LPS).
+@threads
 @progress
 
 Returns
 -------
 ndarray, shape (..., 3), float64
 )",
-           &gradients_at, py::arg("points"), py::kw_only(), kProgress, kStop);
+           &gradients_at, py::arg("points"), py::kw_only(), kThreads, kProgress, kStop);
     fast.def_property_readonly(
         "exact",
         [](SharedFastFunction& self) { return self.with([](FastFunction& f) { return ImplicitFunction(f.exact()); }); },

@@ -121,7 +121,7 @@ Returns
 str
 )",
         [](const std::vector<fs::path>& paths, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return files_sha256(paths, p); });
+            return run({progress, stop}, [&](const Work& work) { return files_sha256(paths, work); });
         },
         py::arg("paths"), py::kw_only(), kProgress, kStop);
 }

@@ -57,8 +57,7 @@ Keywords<Options>& solve_fields(Keywords<Options>& keywords, Access access) {
         .field("smoothing", to(&SolveOptions::smoothing), "On unit coordinates; 0 interpolates exactly.")
         .field("tolerance_mm", to(&SolveOptions::tolerance_mm), "Of the iterative solver, at all constraints.")
         .field("max_iterations", to(&SolveOptions::max_iterations), "Of the iterative solver.")
-        .field("max_memory_mb", to(&SolveOptions::max_memory_mb), "A dense matrix larger than this is refused.")
-        .field("threads", to(&SolveOptions::threads), "0: the machine's. The result does not depend on it.");
+        .field("max_memory_mb", to(&SolveOptions::max_memory_mb), "A dense matrix larger than this is refused.");
 }
 
 Keywords<SolveOptions> solve_keywords() {
@@ -263,6 +262,7 @@ PreparedContours
 Parameters
 ----------
 prepared : PreparedContours
+@threads
 @progress
 @options
 
@@ -270,12 +270,12 @@ Returns
 -------
 FittedFunction
 )",
-        [fitting](const PreparedContours& prepared, const py::object& progress, const py::object& stop,
+        [fitting](const PreparedContours& prepared, int threads, const py::object& progress, const py::object& stop,
                   const py::kwargs& given) {
             const FitOptions options = fitting.parse("fit", given);
-            return run({progress, stop}, [&](const Progress& p) { return fit(prepared, options, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return fit(prepared, options, work); });
         },
-        py::arg("prepared"), py::kw_only(), kProgress, kStop, KeywordText(fitting));
+        py::arg("prepared"), py::kw_only(), kThreads, kProgress, kStop, KeywordText(fitting));
     const auto solving = solve_keywords();
     define(
         m, "solve", R"(The variational interpolant through constraints (Turk and O'Brien 2002).
@@ -285,6 +285,7 @@ With the screened kernel it is the function that departs least from its mean, wi
 Parameters
 ----------
 constraints : ConstraintSet
+@threads
 @progress
 @options
 
@@ -304,12 +305,12 @@ Examples
 >>> bool(abs(solution.function(corners[4]) - 1) < 1e-9)
 True
 )",
-        [solving](const ConstraintSet& constraints, const py::object& progress, const py::object& stop,
+        [solving](const ConstraintSet& constraints, int threads, const py::object& progress, const py::object& stop,
                   const py::kwargs& given) {
             const SolveOptions options = solving.parse("solve", given);
-            return run({progress, stop}, [&](const Progress& p) { return solve(constraints, options, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return solve(constraints, options, work); });
         },
-        py::arg("constraints"), py::kw_only(), kProgress, kStop, KeywordText(solving));
+        py::arg("constraints"), py::kw_only(), kThreads, kProgress, kStop, KeywordText(solving));
 }
 
 }  // namespace

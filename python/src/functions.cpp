@@ -34,7 +34,7 @@ py::array_t<double> values_at(const ImplicitFunction& function, const ArrayOf<do
     py::array_t<double> values(leading_shape(points));
     const std::span out(values.mutable_data(), static_cast<std::size_t>(values.size()));
     const ReleasedLock released;
-    function.values(span_of(points), out, threads);
+    function.values(span_of(points), out, {.threads = threads});
     return values;
 }
 
@@ -44,7 +44,7 @@ py::array_t<double> gradients_at(const ImplicitFunction& function, const ArrayOf
     py::array_t<double> gradients(shape);
     const std::span out(reinterpret_cast<Vec3*>(gradients.mutable_data()), static_cast<std::size_t>(gradients.size() / 3));
     const ReleasedLock released;
-    function.gradients(span_of(points), out, threads);
+    function.gradients(span_of(points), out, {.threads = threads});
     return gradients;
 }
 
@@ -107,8 +107,8 @@ Returns
 ndarray, shape (...), float64
     About the distance to the surface in mm close to it, > 0 inside.
 )",
-           &values_at, py::arg("points"), py::arg("threads") = 0);
-    method(function, "__call__", "The same as `values`.", &values_at, py::arg("points"), py::arg("threads") = 0);
+           &values_at, py::arg("points"), kThreads);
+    method(function, "__call__", "The same as `values`.", &values_at, py::arg("points"), kThreads);
     method(function, "gradients", R"(Gradients of f per mm at points; they point inward.
 
 Parameters
@@ -122,7 +122,7 @@ Returns
 -------
 ndarray, shape (..., 3), float64
 )",
-           &gradients_at, py::arg("points"), py::arg("threads") = 0);
+           &gradients_at, py::arg("points"), kThreads);
     function.def("__repr__", [](const ImplicitFunction& f) {
         return py::str("<ImplicitFunction, {}, {} centres>").format(py::cast(f.kernel()), f.centers().size());
     });
@@ -157,9 +157,9 @@ Returns
 Residual
 )",
         [](const ImplicitFunction& f, const ContourSet& contours, int threads) {
-            return unlocked([&] { return residual(f, contours, threads); });
+            return unlocked([&] { return residual(f, contours, {.threads = threads}); });
         },
-        py::arg("function"), py::arg("contours"), py::arg("threads") = 0);
+        py::arg("function"), py::arg("contours"), kThreads);
 }
 
 }  // namespace kontur::python

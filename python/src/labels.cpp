@@ -42,7 +42,6 @@ Keywords<FillOptions> fill_keywords() {
                "slices left out, that this helps.")
         .field("smoothing_voxels", &FillOptions::smoothing_voxels, "Of the painted outlines, standard deviation in voxels.")
         .field("only", &FillOptions::labels, "Only these labels; empty: all.")
-        .field("threads", &FillOptions::threads, "0: the machine's. The result does not depend on it.")
         .field("max_memory_mb", &FillOptions::max_memory_mb,
                "Refuse a run of which the process would hold more; None: the machine's memory.");
 }
@@ -106,6 +105,7 @@ image : Image, optional
     What was painted on, for `use_image`, on any grid of the same frame; an array of labels lies at the origin.
 return_report : bool
     Also return the FillReport.
+@threads
 progress : callable, optional
     As for `segment`.
 stop : object with is_set(), optional
@@ -132,7 +132,7 @@ Examples
 True
 )",
         [keywords](const py::object& labels, const std::optional<std::array<double, 3>>& spacing, const Image* reference,
-                   bool return_report, const py::object& progress, const py::object& stop,
+                   bool return_report, int threads, const py::object& progress, const py::object& stop,
                    const py::kwargs& given) -> py::object {
             const FillOptions options = keywords.parse("fill_labels", given);
             const bool is_image = py::isinstance<Image>(labels);
@@ -147,8 +147,8 @@ True
                 is_image
                     ? labels.cast<const Image&>()
                     : py::module_::import("kontur").attr("Image")(array, py::cast(grid_of(array, *spacing))).cast<Image>();
-            Filling filling = run({progress, stop},
-                                  [&](const Progress& p) { return fill_labels(std::move(image), reference, options, p); });
+            Filling filling = run({progress, stop, threads},
+                                  [&](const Work& work) { return fill_labels(std::move(image), reference, options, work); });
             FillReport report = std::move(filling.report);
             py::object full = py::cast(std::move(filling.labels));
             if (!is_image) full = full.attr("samples").attr("astype")(array.dtype());
@@ -156,7 +156,7 @@ True
             return full;
         },
         py::arg("labels"), py::arg("spacing") = py::none(), py::kw_only(), py::arg("image") = py::none(),
-        py::arg("return_report") = false, kProgress, kStop, KeywordText(keywords));
+        py::arg("return_report") = false, kThreads, kProgress, kStop, KeywordText(keywords));
 }
 
 }  // namespace kontur::python

@@ -29,10 +29,10 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    static std::shared_ptr<Session> start(const EditorOptions& options, py::object listener) {
+    static std::shared_ptr<Session> start(const EditorOptions& options, py::object listener, int threads) {
         auto session = std::make_shared<Session>(std::move(listener));
-        session->editor_ =
-            std::make_unique<LiveEditor>(options, [session](const EditorUpdate& update) { session->take(update); });
+        session->editor_ = std::make_unique<LiveEditor>(
+            options, [session](const EditorUpdate& update) { session->take(update); }, LiveEditor::BandListener{}, threads);
         return session;
     }
 
@@ -101,8 +101,8 @@ private:
 /// A LiveEditor whose listener is Python's. Its members and those of the class are guarded by the interpreter's lock.
 class ListenedEditor {
 public:
-    ListenedEditor(const EditorOptions& options, py::object listener)
-        : session_(Session::start(options, std::move(listener))) {
+    ListenedEditor(const EditorOptions& options, py::object listener, int threads)
+        : session_(Session::start(options, std::move(listener), threads)) {
         all().insert(this);
     }
     ~ListenedEditor() { end(); }
@@ -216,6 +216,7 @@ Parameters
 ----------
 listener : callable
     Called with each EditorUpdate, from the editor's thread, one at a time; it must not call `wait` or `close`.
+@threads
 @options
 
 Examples
@@ -230,14 +231,14 @@ Examples
 )",
                                        keywords.documentation());
     py::class_<ListenedEditor> editor(m, "LiveEditor", help.c_str());
-    const std::string init_doc = docstring("__init__", "self, listener, *", "", KeywordText(keywords));
-    editor.def(py::init([keywords](py::object listener, const py::kwargs& given) {
+    const std::string init_doc = docstring("__init__", "self, listener, *, threads=0", "", KeywordText(keywords));
+    editor.def(py::init([keywords](py::object listener, int threads, const py::kwargs& given) {
                    const EditorOptions options = keywords.parse("LiveEditor", given);
                    if (PyCallable_Check(listener.ptr()) == 0)
                        throw py::type_error("listener: a callable is needed, not " + py::repr(listener).cast<std::string>());
-                   return std::make_unique<ListenedEditor>(options, std::move(listener));
+                   return std::make_unique<ListenedEditor>(options, std::move(listener), threads);
                }),
-               py::arg("listener"), init_doc.c_str());
+               py::arg("listener"), py::kw_only(), kThreads, init_doc.c_str());
     method(editor, "edit", "The contours are now this ContourSet; returns the number of the edit, from 1. Does not wait.",
            &ListenedEditor::edit, py::arg("contours"));
     method(editor, "wait",

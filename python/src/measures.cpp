@@ -59,9 +59,9 @@ Examples
 (0.75, 1.0)
 )",
         [](const Mask& a, const Mask& b, int threads, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return compare(a, b, CompareOptions{threads}, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return compare(a, b, work); });
         },
-        py::arg("a"), py::arg("b"), py::arg("threads") = 0, py::kw_only(), kProgress, kStop);
+        py::arg("a"), py::arg("b"), kThreads, py::kw_only(), kProgress, kStop);
     define(
         m, "component_sizes", "Voxel counts of the mask's face-connected components, largest first: list of int.",
         [](const Mask& mask) { return unlocked([&] { return component_sizes(mask); }); }, py::arg("mask"));

@@ -84,17 +84,16 @@ Parameters
         liver_doc.c_str());
     define(m, "phantom_volumes", "The scans that `kontur phantom` writes: list of PhantomVolume.", &phantom_volumes);
 
-    const auto keywords =
-        Keywords<PhantomOptions>()
-            .field("seed", &PhantomOptions::seed, "Of the noise.")
-            .field("noise_hu", &PhantomOptions::noise_hu, "Standard deviation, Hounsfield units.")
-            .field("threads", &PhantomOptions::threads, "0: the machine's. The result does not depend on it.");
+    const auto keywords = Keywords<PhantomOptions>()
+                              .field("seed", &PhantomOptions::seed, "Of the noise.")
+                              .field("noise_hu", &PhantomOptions::noise_hu, "Standard deviation, Hounsfield units.");
     define(
         m, "make_phantom_image", R"(A synthetic CT of the phantom's abdomen on any grid.
 
 Parameters
 ----------
 grid : Grid
+@threads
 @progress
 @options
 
@@ -103,17 +102,18 @@ Returns
 Image
     int16, Hounsfield units.
 )",
-        [keywords](const Grid& grid, const py::object& progress, const py::object& stop, const py::kwargs& given) {
+        [keywords](const Grid& grid, int threads, const py::object& progress, const py::object& stop,
+                   const py::kwargs& given) {
             const PhantomOptions options = keywords.parse("make_phantom_image", given);
-            return run({progress, stop}, [&](const Progress& p) { return make_phantom_image(grid, options, p); });
+            return run({progress, stop, threads}, [&](const Work& work) { return make_phantom_image(grid, options, work); });
         },
-        py::arg("grid"), py::kw_only(), kProgress, kStop, KeywordText(keywords));
+        py::arg("grid"), py::kw_only(), kThreads, kProgress, kStop, KeywordText(keywords));
     define(
         m, "make_truth_mask", "The Mask of the voxels whose centres lie inside a body.",
         [](const Body& body, const Grid& grid, int threads) {
-            return unlocked([&] { return make_truth_mask(body, grid, threads); });
+            return unlocked([&] { return make_truth_mask(body, grid, {.threads = threads}); });
         },
-        py::arg("body"), py::arg("grid"), py::arg("threads") = 0);
+        py::arg("body"), py::arg("grid"), kThreads);
 }
 
 }  // namespace kontur::python

@@ -54,14 +54,14 @@ ndarray, shape (height_px, width_px, 3), uint8
 )",
         [](const TriangleMesh& mesh, const ContourSet& contours, const Image* image, int width_px, int height_px,
            const std::string& title, const Facts& facts, const std::optional<WindowPair>& window, int threads) {
-            PictureOptions options{width_px, height_px, title, {}, {}, threads};
+            PictureOptions options{width_px, height_px, title, {}, {}};
             for (const auto& [caption, value] : facts) options.facts.push_back({caption, value});
             if (window) options.window = Window{window->first, window->second};
-            return pixels_of(unlocked([&] { return make_picture(mesh, contours, image, options); }));
+            return pixels_of(unlocked([&] { return make_picture(mesh, contours, image, options, {.threads = threads}); }));
         },
         py::arg("mesh"), py::arg("contours"), py::arg("image") = py::none(), py::kw_only(),
         py::arg("width_px") = defaults.width_px, py::arg("height_px") = defaults.height_px, py::arg("title") = "",
-        py::arg("facts") = py::tuple(), py::arg("window") = py::none(), py::arg("threads") = defaults.threads);
+        py::arg("facts") = py::tuple(), py::arg("window") = py::none(), kThreads);
     define(
         m, "write_png", "Writes pixels, shape (height, width, 3), uint8, as an sRGB PNG, whole or not at all.",
         [](const std::filesystem::path& path, const ArrayOf<std::uint8_t>& pixels, const py::object& items) {

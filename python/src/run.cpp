@@ -57,18 +57,17 @@ void attend(const Listener& listener, const std::vector<Event>& events, std::sto
 
 }  // namespace
 
-void run_work(const Listener& listener, const std::function<void(const Progress&)>& work) {
+void run_work(const Listener& listener, const std::function<void(const Work&)>& task) {
     Relay relay;
     std::stop_source source;
-    Progress progress;
-    progress.stop = source.get_token();
+    Work work{.threads = listener.threads, .stop = source.get_token()};
     if (!listener.progress.is_none())
-        progress.callback = [&relay](std::string_view stage, double fraction) { relay.report(stage, fraction); };
+        work.callback = [&relay](std::string_view stage, double fraction) { relay.report(stage, fraction); };
 
     std::exception_ptr failure;
     std::thread worker([&] {
         try {
-            work(progress);
+            task(work);
         } catch (...) {
             failure = std::current_exception();
         }

@@ -36,30 +36,32 @@ private:
     PyThreadState* state_;
 };
 
-/// What the caller of a long function hands in: a callable (stage, fraction) and an object with is_set(); both may be None.
+/// What the caller of a long function hands in: a callable (stage, fraction) and an object with is_set(), which may both be
+/// None, and on how many threads to work.
 struct Listener {
     py::object progress;
     py::object stop;
+    int threads = 0;
 };
 
-/// Runs `work` on a thread of its own without the interpreter's lock, while this thread calls `listener.progress`, looks at
+/// Runs `task` on a thread of its own without the interpreter's lock, while this thread calls `listener.progress`, looks at
 /// `listener.stop` and lets Python handle signals every 20 ms. Ctrl-C and an exception of the callback stop the work and
 /// are raised from here; `listener.stop` raises CancelledError.
-void run_work(const Listener& listener, const std::function<void(const Progress&)>& work);
+void run_work(const Listener& listener, const std::function<void(const Work&)>& task);
 
 /// The same for work with a result.
-template <class Work>
-auto run(const Listener& listener, const Work& work) {
-    std::optional<decltype(work(Progress{}))> result;
-    run_work(listener, [&](const Progress& progress) { result.emplace(work(progress)); });
+template <class Task>
+auto run(const Listener& listener, const Task& task) {
+    std::optional<decltype(task(Work{}))> result;
+    run_work(listener, [&](const Work& work) { result.emplace(task(work)); });
     return std::move(*result);
 }
 
-/// For short calls: the result of `work`, computed without the interpreter's lock.
-template <class Work>
-auto unlocked(const Work& work) {
+/// For short calls: the result of `task`, computed without the interpreter's lock.
+template <class Task>
+auto unlocked(const Task& task) {
     const ReleasedLock released;
-    return work();
+    return task();
 }
 
 }  // namespace kontur::python

@@ -60,11 +60,16 @@ py::object mesh_of(const py::object& self) {
 }
 
 void bind_refine_report(py::module_& m) {
+    py::class_<AskedPoint> asked(m, "AskedPoint", "A place of the surface at which the image was asked.");
+    Fields(asked)
+        .field("position", &AskedPoint::position, "ndarray, shape (3,): mm.")
+        .field("share", &AskedPoint::share, "float: of the error without the image that it leaves, 0 to 1.")
+        .picklable();
     py::class_<RefineReport> type(m, "RefineReport", "What became of the image between the contours.");
     Fields(type)
-        .field(
-            "verdict", &RefineReport::verdict,
-            "str: 'none' (no image, or not asked for), 'unknown' (too few planes to tell), 'no_help' (not used) or 'used'.")
+        .field("verdict", &RefineReport::verdict,
+               "str: 'none' (no image, or not asked for), 'labels' (a mask or label map), 'unknown' (too few planes to "
+               "tell), 'no_help' and 'astray' (not used) or 'used'.")
         .field("planes_left_out", &RefineReport::planes_left_out, "int: one after another, to see whether the image helps.")
         .field("error_without_mm", &RefineReport::error_without_mm,
                "float: mean distance of contours left out from the surface through the others.")
@@ -72,6 +77,7 @@ void bind_refine_report(py::module_& m) {
         .field("largest_move_mm", &RefineReport::largest_move_mm, "float: of the surface.")
         .field("intensities", &RefineReport::intensities, "int: read from the image.")
         .field("on_contours_mm", &RefineReport::on_contours_mm, "float: the largest change of f at any drawn point.")
+        .field("asked", &RefineReport::asked, "list of AskedPoint: where the image was asked.")
         .picklable();
     type.def("__str__", [](const RefineReport& report) { return sentence(report); });
 }
@@ -177,7 +183,6 @@ Keywords<SegmentOptions> segment_keywords() {
                "'auto': where an image is given, let it tell how the surface runs between the contours, if it is shown, at "
                "contours left out, that this helps.")
         .field("mesh", &SegmentOptions::mesh, "Also make the surface.")
-        .field("threads", &SegmentOptions::threads, "0: the machine's. The result does not depend on it.")
         .field("max_memory_mb", &SegmentOptions::max_memory_mb,
                "Refuse a run of which the process would hold more; None: the machine's memory.");
 }
@@ -200,6 +205,7 @@ grid : Grid
     Such as `image.grid`.
 image : Image, optional
     What was drawn on, for `use_image`.
+@threads
 progress : callable, optional
     Called now and then on this thread with the stage's name and its done fraction from 0 to 1. An exception that it raises
     stops the work and is raised from here.
@@ -228,12 +234,13 @@ True
 >>> kidney.report.residual.max_mm < 0.5
 True
 )",
-        [keywords](const ContourSet& contours, const Grid& grid, const Image* image, const py::object& progress,
+        [keywords](const ContourSet& contours, const Grid& grid, const Image* image, int threads, const py::object& progress,
                    const py::object& stop, const py::kwargs& given) {
             const SegmentOptions options = keywords.parse("segment", given);
-            return run({progress, stop}, [&](const Progress& p) { return segment(contours, grid, image, options, p); });
+            return run({progress, stop, threads},
+                       [&](const Work& work) { return segment(contours, grid, image, options, work); });
         },
-        py::arg("contours"), py::arg("grid"), py::kw_only(), py::arg("image") = py::none(), kProgress, kStop,
+        py::arg("contours"), py::arg("grid"), py::kw_only(), py::arg("image") = py::none(), kThreads, kProgress, kStop,
         KeywordText(keywords));
     define(
         m, "provenance", R"(What determines a result, for `write_mask` and `write_mesh`.

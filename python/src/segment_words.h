@@ -31,7 +31,8 @@ struct Words<UseImage> {
 
 template <>
 struct Words<ImageVerdict> {
-    static constexpr std::array values{ImageVerdict::none, ImageVerdict::unknown, ImageVerdict::no_help, ImageVerdict::used};
+    static constexpr std::array values{ImageVerdict::none,    ImageVerdict::labels, ImageVerdict::unknown,
+                                       ImageVerdict::no_help, ImageVerdict::astray, ImageVerdict::used};
 };
 
 }  // namespace kontur::python

@@ -96,7 +96,8 @@ Image
 )",
         [](const fs::path& path, std::optional<std::int64_t> segment, std::int64_t most, const py::object& on_note,
            const py::object& progress, const py::object& stop) {
-            DicomSeg seg = run({progress, stop}, [&](const Progress& p) { return read_dicom_seg(path, segment, most, p); });
+            DicomSeg seg =
+                run({progress, stop}, [&](const Work& work) { return read_dicom_seg(path, segment, most, work); });
             give_notes(seg.notes, on_note);
             return std::move(seg.labels);
         },
@@ -118,7 +119,7 @@ list of Mask
     In the order of `read_dicom_segmentation`, all on its grid.
 )",
         [](const fs::path& path, std::int64_t most, const py::object& progress, const py::object& stop) {
-            return run({progress, stop}, [&](const Progress& p) { return read_dicom_seg_masks(path, most, p); });
+            return run({progress, stop}, [&](const Work& work) { return read_dicom_seg_masks(path, most, work); });
         },
         py::arg("path"), max_voxels, py::kw_only(), kProgress, kStop);
 
@@ -159,7 +160,7 @@ images : DicomSeries
             const WriteDicomSegOptions options = options_of("write_dicom_seg", given, provenance);
             const Image volume = labels_from(labels);
             give_notes(run({progress, stop},
-                           [&](const Progress& p) { return write_dicom_seg(path, volume, segments, images, options, p); }),
+                           [&](const Work& work) { return write_dicom_seg(path, volume, segments, images, options, work); }),
                        on_note);
         },
         py::arg("path"), py::arg("labels"), py::arg("segments"), py::arg("images"), py::kw_only(), kOnNote, kProgress, kStop,
@@ -187,7 +188,7 @@ images : DicomSeries
             const WriteDicomSegOptions options = options_of("write_dicom_seg_masks", given, provenance);
             give_notes(
                 run({progress, stop},
-                    [&](const Progress& p) { return write_dicom_seg_masks(path, masks, segments, images, options, p); }),
+                    [&](const Work& work) { return write_dicom_seg_masks(path, masks, segments, images, options, work); }),
                 on_note);
         },
         py::arg("path"), py::arg("masks"), py::arg("segments"), py::arg("images"), py::kw_only(), kOnNote, kProgress, kStop,

@@ -111,6 +111,7 @@ rules : sequence of (structure, relation, structure)
     What is known of pairs: structures by position or name, and 'exclusive', 'inside' (the first in the second, which gets its
     voxels, too) or 'overlap'. What no rule says follows from the masks: inside from 80 % of the smaller one on, overlap from
     25 % on, else exclusive.
+@threads
 progress : callable, optional
     As for `segment`.
 stop : object with is_set(), optional
@@ -137,14 +138,14 @@ Examples
 True
 )",
         [keywords](const std::vector<ContourSet>& contours, const Grid& grid, const Image* image, const py::sequence& rules,
-                   const py::object& progress, const py::object& stop, const py::kwargs& given) {
+                   int threads, const py::object& progress, const py::object& stop, const py::kwargs& given) {
             const TogetherOptions options{.segment = keywords.parse("segment_together", given),
                                           .rules = rules_from(rules, contours)};
-            return run({progress, stop},
-                       [&](const Progress& p) { return segment_together(contours, grid, image, options, p); });
+            return run({progress, stop, threads},
+                       [&](const Work& work) { return segment_together(contours, grid, image, options, work); });
         },
         py::arg("contours"), py::arg("grid"), py::kw_only(), py::arg("image") = py::none(), py::arg("rules") = py::tuple(),
-        kProgress, kStop, KeywordText(keywords));
+        kThreads, kProgress, kStop, KeywordText(keywords));
 }
 
 }  // namespace kontur::python

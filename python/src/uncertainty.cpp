@@ -86,7 +86,7 @@ void bind_suggest_planes(py::module_& m) {
         m, "suggest_planes", R"(Where to draw next.
 
 While all planes drawn are parallel, one at right angles to them; after that the plane that brings the surface nearest to what is
-drawn. Never one that misses the surface, and never one that runs along a drawn plane.
+drawn. Never one that misses the surface, and never one that runs along a drawn plane or one of `contours.empty_planes`.
 
 Parameters
 ----------
@@ -122,13 +122,13 @@ True
             if (count < 1)
                 throw Error(ErrorKind::invalid_input, std::to_string(count) + " planes are asked for; at least 1 is needed");
             return unlocked([&] {
-                return suggest_planes(gather_evidence(made, contours, threads), contours, static_cast<std::size_t>(count),
-                                      {among, grid, avoid, threads})
+                return suggest_planes(gather_evidence(made, contours, {.threads = threads}), contours,
+                                      static_cast<std::size_t>(count), {among, grid, avoid}, {.threads = threads})
                     .planes;
             });
         },
         py::arg("segmentation"), py::arg("contours"), py::arg("count") = 1, py::arg("among") = PlaneChoice::any,
-        py::arg("grid") = py::none(), py::arg("avoid") = py::tuple(), py::arg("threads") = 0);
+        py::arg("grid") = py::none(), py::arg("avoid") = py::tuple(), kThreads);
 }
 
 void bind_half_widths(py::module_& m) {
@@ -161,12 +161,13 @@ True
         [](const Segmentation& made, const ContourSet& contours, const ArrayOf<double>& points, int threads) {
             const std::span<const Vec3> rows = points_of(points);
             std::vector<double> widths = unlocked([&] {
-                return half_widths_mm(gather_evidence(made, contours, threads), {rows.begin(), rows.end()}, threads);
+                return half_widths_mm(gather_evidence(made, contours, {.threads = threads}), {rows.begin(), rows.end()},
+                                      {.threads = threads});
             });
             const auto count = static_cast<py::ssize_t>(widths.size());
             return owning_array(std::move(widths), {count});
         },
-        py::arg("segmentation"), py::arg("contours"), py::arg("points"), py::arg("threads") = 0);
+        py::arg("segmentation"), py::arg("contours"), py::arg("points"), kThreads);
 }
 
 void bind_map(py::module_& m) {
@@ -187,9 +188,12 @@ Image
     float32, mm, at the voxels on both sides of the border; 0 elsewhere, and below three different planes everywhere.
 )",
         [](const Segmentation& made, const ContourSet& contours, int threads) {
-            return unlocked([&] { return uncertainty_map(made.mask, gather_evidence(made, contours, threads), threads); });
+            return unlocked([&] {
+                return uncertainty_map(made.mask, gather_evidence(made, contours, {.threads = threads}),
+                                       {.threads = threads});
+            });
         },
-        py::arg("segmentation"), py::arg("contours"), py::arg("threads") = 0);
+        py::arg("segmentation"), py::arg("contours"), kThreads);
 }
 
 }  // namespace

@@ -24,9 +24,9 @@ def test_the_same_bytes_as_the_command_line(tmp_path, name, options, words):
     case = kontur.phantom_case(name)
     kontur.write_contours(tmp_path / "contours.json", case.contours)
     kontur.write_image(tmp_path / "image.nrrd", kontur.make_phantom_image(case.grid))
-    contours, grid = kontur.read_contours(tmp_path / "contours.json"), kontur.read_grid(tmp_path / "image.nrrd")
-    result = kontur.segment(contours, grid, mesh=True, **options)
-    made = kontur.provenance(contours, grid, result.report) | {
+    contours, image = kontur.read_contours(tmp_path / "contours.json"), kontur.read_image(tmp_path / "image.nrrd")
+    result = kontur.segment(contours, image.grid, image=image, mesh=True, **options)
+    made = kontur.provenance(contours, image.grid, result.report) | {
         "contour_files_sha256": kontur.files_sha256([tmp_path / "contours.json"]),
         "image_sha256": kontur.files_sha256([tmp_path / "image.nrrd"]),
     }

@@ -88,9 +88,9 @@ def test_the_report_is_the_command_lines(tmp_path, case):
     subprocess.run([os.environ["KONTUR_CLI"], "segment", "contours.json", "--image", "image.nrrd", "--output", "m.nii.gz",
                     "--report", "report.json", "--quality", "0.7"], cwd=tmp_path, check=True, capture_output=True, timeout=400)
     written = json.loads((tmp_path / "report.json").read_text())
-    contours, grid = kontur.read_contours(tmp_path / "contours.json"), kontur.read_grid(tmp_path / "image.nrrd")
-    report = kontur.segment(contours, grid, quality=0.7).report
-    made = kontur.provenance(contours, grid, report) | {
+    contours, image = kontur.read_contours(tmp_path / "contours.json"), kontur.read_image(tmp_path / "image.nrrd")
+    report = kontur.segment(contours, image.grid, image=image, quality=0.7).report
+    made = kontur.provenance(contours, image.grid, report) | {
         "contour_files_sha256": kontur.files_sha256([tmp_path / "contours.json"]),
         "image_sha256": kontur.files_sha256([tmp_path / "image.nrrd"]),
     }

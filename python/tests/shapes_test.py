@@ -118,13 +118,14 @@ def test_a_set_is_a_sequence_of_its_contours(case):
 
 def test_a_slice_of_a_set_is_a_set(case):
     whole = kontur.ContourSet(case.contours, name="kidney", interior=[[1, 2, 3]], exterior=[[4, 5, 6]],
-                              surface=[kontur.SurfacePoint([7, 8, 9])])
+                              surface=[kontur.SurfacePoint([7, 8, 9])], empty_planes=[kontur.Plane([0, 0, 90], [0, 0, 1])])
     assert len(whole) == 6 and whole[:] == whole
     for some in (slice(1, 4), slice(None, None, 2), slice(None, None, -1), slice(4, 1), slice(-2, 100)):
         part = whole[some]
         assert isinstance(part, kontur.ContourSet) and list(part) == list(whole)[some]
         assert (part.name, part.interior.tolist(), part.exterior.tolist()) == ("kidney", [[1, 2, 3]], [[4, 5, 6]])
-        assert part.surface == whole.surface
+        assert part.surface == whole.surface and part.empty_planes == whole.empty_planes
+    assert pickle.loads(pickle.dumps(whole)) == whole != kontur.ContourSet(whole.contours, whole.name)
     with pytest.raises(ValueError):
         whole[::0]
 

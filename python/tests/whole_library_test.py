@@ -18,7 +18,7 @@ SAME = {
     "sample": "Image", "Result": "Segmentation", "Filling": "fill_labels", "DicomSeg": "read_dicom_seg", "DicomAlgorithm": "write_dicom_seg", "LabelName": "write_image",
     "ReadContours": "read_contours", "PictureFact": "make_picture", "RgbImage": "write_png", "Pixel": "EdgeMap", "PixelPosition": "EdgeMap",
     "DenseLiver": "dense_liver_case", "ErrorKind": "Error", "Severity": "Finding", "FindingKind": "Finding", "UnitFrame": "ImplicitFunction",
-    "BoundaryPoint": "PreparedContours", "Progress": "segment", "Affine3": "Grid", "Vec3": "Contour", "Index3": "Grid", "Box3": "grid_around",
+    "BoundaryPoint": "PreparedContours", "Work": "segment", "Affine3": "Grid", "Vec3": "Contour", "Index3": "Grid", "Box3": "grid_around",
     "OutlineLine": "outline", "whole_mask": "Together", "Window": "suggest_window",
 }
 

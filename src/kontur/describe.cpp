@@ -109,7 +109,7 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
 
 }  // namespace
 
-SegmentReport describe(const StageResults& results, const SegmentOptions& options) {
+SegmentReport describe(const StageResults& results, const SegmentOptions& options, const Work& work) {
     const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
     const ContourSet& contours = drawing.contours;
     SegmentReport report;
@@ -126,7 +126,7 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     append(report.warnings, prepared.notes);
     append(report.warnings, missed_clicks(contours, fitted.function, 2 * stages.prepare.click_margin_mm));
     describe_fit(prepared, fitted, stages.fit, report);
-    report.residual = residual(fitted.function, contours, options.threads);
+    report.residual = residual(fitted.function, contours, work);
     describe_crossings(drawing, mask.grid, report);
     describe_mask(surface, mask, report);
     describe_lost_clicks(contours, fitted.function, mask, report.warnings);
@@ -138,7 +138,8 @@ EvidenceFacts evidence_facts(const SegmentReport& report, const Grid& grid) {
     return {.volume_mm3 = 1000 * report.mask_volume_ml,
             .voxel_mm = std::min({spacing.x, spacing.y, spacing.z}),
             .residual_mm = report.residual.rms_mm,
-            .disagreement_mm = trusted_disagreement_mm(disagreement(report.crossings))};
+            .disagreement_mm = trusted_disagreement_mm(disagreement(report.crossings)),
+            .asked = report.image.asked};
 }
 
 Provenance provenance(const ContourSet& contours, const Grid& grid, const SegmentReport& report) {
@@ -146,11 +147,12 @@ Provenance provenance(const ContourSet& contours, const Grid& grid, const Segmen
         {"contours_sha256", contours_sha256(contours)},
         {"grid_sha256", grid_sha256(grid)},
         {"version", KONTUR_VERSION},
-        {"options", fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} "
-                                "quality={} solver={} tolerance_mm={} voxelizer={} image={}",
-                                name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
-                                name(report.corners), report.normal_offset_mm, report.smoothing, report.quality,
-                                name(report.solver), report.tolerance_mm, name(report.voxelizer), name(report.image.verdict))},
+        {"options",
+         fmt::format("kernel={} normals={} conflicts={} fill_rule={} corners={} normal_offset_mm={} smoothing={} "
+                     "quality={} solver={} tolerance_mm={} voxelizer={} image={}",
+                     name(report.kernel), name(report.normals), name(report.conflicts), name(report.fill_rule),
+                     name(report.corners), report.normal_offset_mm, report.smoothing, report.quality, name(report.solver),
+                     report.tolerance_mm, name(report.voxelizer), name(report.image.verdict))},
     };
 }
 

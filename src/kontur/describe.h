@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kontur/base/work.h"
 #include "kontur/extract/track.h"
 #include "kontur/refine/surface_evidence.h"
 #include "kontur/segment_report.h"
@@ -21,7 +22,7 @@ struct StageResults {
 };
 
 /// The report of a run, with a sentence on each choice and doubt; `seconds` and `estimated_memory_mb` are left to `segment`.
-SegmentReport describe(const StageResults& results, const SegmentOptions& options);
+SegmentReport describe(const StageResults& results, const SegmentOptions& options, const Work& work);
 
 /// What the report says of the drawing's own error.
 EvidenceFacts evidence_facts(const SegmentReport& report, const Grid& grid);

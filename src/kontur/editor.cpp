@@ -26,12 +26,12 @@ bool same_drawing(const Contour& a, const Contour& b) {
 }
 
 EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts, const PreviewOptions& lattice,
-                         const Progress& progress) {
+                         const Work& work) {
     EditedSurface surface;
     surface.function = fit.function;
     surface.solves = fit.solves;
     surface.spacing_mm = lattice.spacing_mm;
-    surface.mesh = preview_surface(surface.function, starts, lattice, progress);
+    surface.mesh = preview_surface(surface.function, starts, lattice, work);
     return surface;
 }
 
@@ -80,14 +80,14 @@ void Editor::remember(const ContourSet& contours, const PreparedContours& prepar
             known_[static_cast<std::size_t>(prepared.points[i].contour)].slopes.push_back(slopes[i]);
 }
 
-EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
+EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
                               const std::function<void(const SurfaceBand&)>& ahead) {
     if (drawn.contours.empty()) return {};
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
     const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
     StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
+    const PreparedContours prepared = prepare(drawing, stages, work);
     watch.lap("prepare");
     stages.fit.most_points = options_.preview_points;
     stages.fit.tilt_points = options_.preview_points;
@@ -98,33 +98,33 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Progress& progress,
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
         stages.fit.rounds = 1;
     }
-    const FittedFunction fitted = fit(prepared, stages.fit, progress);
+    const FittedFunction fitted = fit(prepared, stages.fit, work);
     watch.lap("fit");
     const std::vector<Vec3> starts =
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
-    const PreviewOptions lattice{preview_spacing(drawing.diameter_mm()), options_.segment.threads};
-    if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm, lattice.threads}, progress));
-    EditedSurface surface = surface_of(fitted, starts, lattice, progress);
+    const PreviewOptions lattice{preview_spacing(drawing.diameter_mm())};
+    if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm}, work));
+    EditedSurface surface = surface_of(fitted, starts, lattice, work);
     watch.lap("mesh");
     surface.seconds = std::move(seconds);
     remember(drawing.contours, prepared, fitted.slopes);
     return surface;
 }
 
-EditedSurface Editor::refine(const ContourSet& drawn, const Progress& progress) const {
+EditedSurface Editor::refine(const ContourSet& drawn, const Work& work) const {
     EditedSurface surface;
     surface.refined = true;
     if (drawn.contours.empty()) return surface;
     const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
     const StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
+    const PreparedContours prepared = prepare(drawing, stages, work);
     const double spacing_mm =
         options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(drawing.diameter_mm()) / 3;
-    const FittedFunction fitted = fit(prepared, stages.fit, progress);
+    const FittedFunction fitted = fit(prepared, stages.fit, work);
     surface = surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
-                         {spacing_mm, options_.segment.threads}, progress);
+                         {spacing_mm}, work);
     surface.refined = true;
-    surface.residual = residual(surface.function, drawing.contours, options_.segment.threads);
+    surface.residual = residual(surface.function, drawing.contours, work);
     return surface;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/prepare.h"
 #include "kontur/extract/surface_band.h"
 #include "kontur/fit/residual.h"
@@ -47,9 +48,9 @@ public:
     /// Throws Error as check_contours and solve do; then the edit before stays the last one. A set without contours gives an
     /// empty surface.
     /// `ahead` is told as soon as the surface can be cut by planes, halfway to the mesh; not without contours.
-    EditedSurface preview(const ContourSet& contours, const Progress& progress = {},
+    EditedSurface preview(const ContourSet& contours, const Work& work = {},
                           const std::function<void(const SurfaceBand&)>& ahead = {});
-    EditedSurface refine(const ContourSet& contours, const Progress& progress = {}) const;
+    EditedSurface refine(const ContourSet& contours, const Work& work = {}) const;
 
     const EditorOptions& options() const { return options_; }
 

@@ -81,14 +81,14 @@ struct Fitted {
 
 class Filler {
 public:
-    Filler(Image labels, const Image* image, const FillOptions& options)
-        : map_(std::move(labels)), image_(image), options_(options) {}
+    Filler(Image labels, const Image* image, const FillOptions& options, const Work& work)
+        : map_(std::move(labels)), image_(image), options_(options), work_(work) {}
 
     const Grid& grid() const { return map_.labels().grid; }
 
     /// Fits one object and gives it what nobody painted and no deeper one has. Returns what became of the image.
-    RefineReport add(const PaintedObject& object, const IndexBox& range, const Progress& progress) {
-        Segmentation result = fit(object, range, image_, progress);
+    RefineReport add(const PaintedObject& object, const IndexBox& range) {
+        Segmentation result = fit(object, range, image_);
         follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -103,7 +103,7 @@ public:
     }
 
     /// Fits labels that touch as one object; what that claims and none of them has goes to the one that is nearest.
-    void close_gaps(const std::vector<std::int64_t>& labels, const Progress& progress) {
+    void close_gaps(const std::vector<std::int64_t>& labels) {
         std::vector<const PaintedObject*> objects;
         for (const std::int64_t label : labels)
             if (const auto found = fitted_.find(label); found != fitted_.end()) objects.push_back(found->second.object);
@@ -112,7 +112,7 @@ public:
         if (all.slices.size() < 2) return;
         const IndexBox range = range_of(all, grid(), options_.ends);
         if (!is_anything_left_out(all, range)) return;
-        Segmentation result = fit(all, range, nullptr, progress);
+        Segmentation result = fit(all, range, nullptr);
         follow_shapes(all, range, result);
         std::vector<std::size_t> gaps;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -126,13 +126,11 @@ public:
     Image take() { return map_.take(); }
 
 private:
-    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image,
-                     const Progress& progress) const {
+    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image) const {
         SegmentOptions segmenting;
         segmenting.use_image = options_.use_image;
-        segmenting.threads = options_.threads;
         segmenting.max_memory_mb = options_.max_memory_mb;
-        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, progress);
+        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, work_);
     }
 
     /// Calls visit(index, offset), both of the image, for the voxels of a mask on a range.
@@ -177,7 +175,7 @@ private:
                     shape_mm.push_back(depth);
                 }
         const double weight = options_.shape_weight * shape.trust() * variance_left(result.report.image);
-        const std::vector<double> fit_mm = depths_mm(result.function, places, options_.threads);
+        const std::vector<double> fit_mm = depths_mm(result.function, places, work_);
         for (std::size_t n = 0; n < differing.size(); ++n)
             result.mask.values[differing[n]] = std::lerp(fit_mm[n], shape_mm[n], weight) > 0;
     }
@@ -193,8 +191,8 @@ private:
 
     void contest(std::int64_t label, std::int64_t other, const std::vector<std::size_t>& voxels) {
         const std::vector<Vec3> places = centers_mm(voxels);
-        const std::vector<double> own = depths_mm(fitted_.at(label).function, places, options_.threads);
-        const std::vector<double> others = depths_mm(fitted_.at(other).function, places, options_.threads);
+        const std::vector<double> own = depths_mm(fitted_.at(label).function, places, work_);
+        const std::vector<double> others = depths_mm(fitted_.at(other).function, places, work_);
         for (std::size_t n = 0; n < voxels.size(); ++n)
             if (own[n] > others[n]) map_.set_label(voxels[n], label);
         contested_ += static_cast<std::int64_t>(voxels.size());
@@ -208,7 +206,7 @@ private:
             const PaintedObject& object = *objects[structure];
             return fitted_.at(object.label).range.contains(at) && !object.is_known(at);
         };
-        const auto owners = owners_of_gaps(structures, centers_mm(voxels), may_own, options_.threads);
+        const auto owners = owners_of_gaps(structures, centers_mm(voxels), may_own, work_);
         for (std::size_t n = 0; n < voxels.size(); ++n) {
             if (!owners[n]) continue;
             map_.set_label(voxels[n], objects[*owners[n]]->label);
@@ -219,6 +217,7 @@ private:
     FilledMap map_;
     const Image* image_;
     FillOptions options_;
+    const Work& work_;
     std::map<std::int64_t, Fitted> fitted_;
     std::int64_t contested_ = 0, closed_ = 0;
 };
@@ -226,7 +225,6 @@ private:
 void check(const std::map<std::int64_t, LabelBox>& boxes, const FillOptions& options) {
     check_not_below_0("the smoothing of the painted outlines", options.smoothing_voxels, " voxels");
     check_from_0_to_1("the weight of the shape-based interpolation", options.shape_weight);
-    check_threads(options.threads);
     if (boxes.empty()) throw Error(ErrorKind::invalid_input, "nothing is painted: all voxels of the label map are 0");
     for (const std::int64_t label : options.labels)
         if (!boxes.contains(label))
@@ -246,11 +244,11 @@ void check_image_near(const Image* image, const Grid& labels) {
 }
 
 std::vector<PaintedObject> look(const Image& labels, const std::map<std::int64_t, LabelBox>& boxes,
-                                const FillOptions& options, const Progress& progress) {
+                                const FillOptions& options, const Work& work) {
     const std::int64_t margin = 1 + static_cast<std::int64_t>(std::ceil(3 * options.smoothing_voxels));
     std::vector<PaintedObject> objects;
     for (const auto& [label, found] : boxes) {
-        progress.report("find slices", static_cast<double>(objects.size()) / static_cast<double>(boxes.size()));
+        work.report("find slices", static_cast<double>(objects.size()) / static_cast<double>(boxes.size()));
         const auto& some = options.labels;
         if (some.empty() || std::find(some.begin(), some.end(), label) != some.end())
             objects.push_back(painted_object(labels, label, found, margin));
@@ -258,11 +256,11 @@ std::vector<PaintedObject> look(const Image& labels, const std::map<std::int64_t
     return objects;
 }
 
-/// Calls `work`; what cannot be fitted becomes a warning.
-template <class Work>
-void or_warn(std::int64_t label, std::vector<std::string>& warnings, const Work& work) {
+/// Calls `task`; what cannot be fitted becomes a warning.
+template <class Task>
+void or_warn(std::int64_t label, std::vector<std::string>& warnings, const Task& task) {
     try {
-        work();
+        task();
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::invalid_input && error.kind() != ErrorKind::singular_system)
             throw error.with_context(fmt::format("label {}", label));
@@ -284,33 +282,34 @@ std::string_view name(FillEnds ends) noexcept {
     return "?";
 }
 
-Filling fill_labels(Image labels, const FillOptions& options, const Progress& progress) {
-    return fill_labels(std::move(labels), nullptr, options, progress);
+Filling fill_labels(Image labels, const FillOptions& options, const Work& work) {
+    return fill_labels(std::move(labels), nullptr, options, work);
 }
 
-Filling fill_labels(Image labels, const Image* image, const FillOptions& options, const Progress& progress) {
+Filling fill_labels(Image labels, const Image* image, const FillOptions& options, const Work& work) {
     FillReport report;
     Stopwatch watch(report.seconds);
     const std::map<std::int64_t, LabelBox> boxes = label_boxes(labels);
     check(boxes, options);
+    check_threads(work.threads);
     check_image_near(image, labels.grid);
-    const std::vector<PaintedObject> objects = look(labels, boxes, options, progress);
+    const std::vector<PaintedObject> objects = look(labels, boxes, options, work);
     const std::vector<std::vector<std::int64_t>> touching =
         options.jointly ? touching_labels(labels) : std::vector<std::vector<std::int64_t>>{};
     watch.lap("find slices");
 
-    Filler filler(std::move(labels), image, options);
+    Filler filler(std::move(labels), image, options, work);
     for (const PaintedObject& object : objects) {
         FilledLabel& filled = report.labels.emplace_back();
         filled.label = object.label, filled.painted_voxels = object.found.voxels;
         for (const PaintedSlice& slice : object.slices) ++filled.slices[static_cast<std::size_t>(slice.axis)];
         const IndexBox range = range_of(object, filler.grid(), options.ends);
         if (is_anything_left_out(object, range))
-            or_warn(object.label, filled.warnings, [&] { filled.image = filler.add(object, range, progress); });
+            or_warn(object.label, filled.warnings, [&] { filled.image = filler.add(object, range); });
         else filled.warnings.push_back("no slice was left out");
     }
     watch.lap("fill");
-    for (const auto& set : touching) filler.close_gaps(set, progress);
+    for (const auto& set : touching) filler.close_gaps(set);
     watch.lap("close gaps");
 
     report.contested_voxels = filler.contested();

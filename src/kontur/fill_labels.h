@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/refine/refine.h"
 #include "kontur/shape/volume.h"
 
@@ -31,11 +31,10 @@ struct FillOptions {
     /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where
     /// the slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).
     double shape_weight = 0.7;
-    UseImage use_image = UseImage::off;     ///< between the painted slices; where an image is given
-    double smoothing_voxels = 0.7;          ///< of the painted outlines, see SectionContourOptions
-    std::vector<std::int64_t> labels{};     ///< only these; empty: all
-    int threads = 0;                        ///< 0: the machine's
-    std::optional<double> max_memory_mb{};  ///< as SegmentOptions'
+    UseImage use_image = UseImage::automatic;  ///< between the painted slices; where an image is given
+    double smoothing_voxels = 0.7;             ///< of the painted outlines, see SectionContourOptions
+    std::vector<std::int64_t> labels{};        ///< only these; empty: all
+    std::optional<double> max_memory_mb{};     ///< as SegmentOptions'
 };
 
 /// What became of one label.
@@ -70,7 +69,7 @@ struct Filling {
 /// within the labels' boxes. With `use_image` the image (on any grid of the same frame) tells, where it helps, how each
 /// label's surface runs between the slices; the shape-based interpolation then counts less, by the square of how much
 /// smaller the image makes the error at slices left out. The same bytes for any number of threads.
-Filling fill_labels(Image labels, const FillOptions& options = {}, const Progress& progress = {});
-Filling fill_labels(Image labels, const Image* image, const FillOptions& options = {}, const Progress& progress = {});
+Filling fill_labels(Image labels, const FillOptions& options = {}, const Work& work = {});
+Filling fill_labels(Image labels, const Image* image, const FillOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

@@ -8,9 +8,9 @@
 #include "kontur/base/geometry.h"
 #include "kontur/base/parallel.h"
 #include "kontur/base/printable.h"
-#include "kontur/base/progress.h"
 #include "kontur/base/sha256.h"
 #include "kontur/base/smallest_ball.h"
+#include "kontur/base/work.h"
 
 // What goes in and comes out.
 #include "kontur/shape/box_tree.h"

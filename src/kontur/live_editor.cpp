@@ -17,6 +17,7 @@ struct LiveEditor::Worker {
     };
 
     Editor editor;
+    int threads;
     Listener listener;
     BandListener ahead;
     std::mutex mutex;  // guards all below
@@ -28,8 +29,9 @@ struct LiveEditor::Worker {
     bool closing = false;
     std::jthread thread;  // last: starts when all else is there
 
-    Worker(const EditorOptions& options, Listener to, BandListener band_to)
+    Worker(const EditorOptions& options, Listener to, BandListener band_to, int threads_of_work)
         : editor(options),
+          threads(threads_of_work),
           listener(std::move(to)),
           ahead(std::move(band_to)),
           thread([this](const std::stop_token& closed) { run(closed); }) {}
@@ -63,12 +65,12 @@ struct LiveEditor::Worker {
         try {
             std::function<void(const SurfaceBand&)> tell_ahead;
             if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(edit.number, band); };
-            update.surface = editor.preview(edit.contours, progress_of(edit, closed), tell_ahead);
+            update.surface = editor.preview(edit.contours, work_for(edit, closed), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;
             listener(update);
             const std::stop_token stop = start_refining();
             if (stop.stop_requested()) return;
-            update.surface = editor.refine(edit.contours, progress_of(edit, stop));
+            update.surface = editor.refine(edit.contours, work_for(edit, stop));
             update.kind = EditorUpdate::Kind::refined;
             listener(update);
         } catch (const std::exception& error) {
@@ -97,8 +99,9 @@ struct LiveEditor::Worker {
         return refining.get_token();
     }
 
-    Progress progress_of(const Edit& edit, std::stop_token stop) {
-        return {[this, number = edit.number](std::string_view stage, double done) {
+    Work work_for(const Edit& edit, std::stop_token stop) {
+        return {threads,
+                [this, number = edit.number](std::string_view stage, double done) {
                     EditorUpdate update;
                     update.edit = number;
                     update.stage = stage;
@@ -109,8 +112,8 @@ struct LiveEditor::Worker {
     }
 };
 
-LiveEditor::LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead)
-    : worker_(std::make_unique<Worker>(options, std::move(listener), std::move(ahead))) {}
+LiveEditor::LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead, int threads)
+    : worker_(std::make_unique<Worker>(options, std::move(listener), std::move(ahead), threads)) {}
 
 LiveEditor::~LiveEditor() = default;
 

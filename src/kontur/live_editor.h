@@ -39,8 +39,8 @@ public:
     /// Likewise, when a preview can be cut by planes but has no mesh yet.
     using BandListener = std::function<void(std::uint64_t edit, const SurfaceBand& band)>;
 
-    /// Throws as Editor does.
-    LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {});
+    /// Works on so many threads (0: the machine's). Throws as Editor does.
+    LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {}, int threads = 0);
     /// Cancels what runs and waits for it.
     ~LiveEditor();
 

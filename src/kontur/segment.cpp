@@ -12,52 +12,51 @@
 
 namespace kontur {
 
-Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOptions& options, const Progress& progress) {
-    return segment(drawn, grid, nullptr, options, progress);
+Segmentation segment(const ContourSet& drawn, const Grid& grid, const SegmentOptions& options, const Work& work) {
+    return segment(drawn, grid, nullptr, options, work);
 }
 
 Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* image, const SegmentOptions& options,
-                     const Progress& progress) {
+                     const Work& work) {
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
     Drawing drawing = read_drawing(drawn, options.fill_rule);
     check_grid(grid);
     if (const auto warning = check_contours_inside(drawing.contours, grid)) drawing.notes.push_back(*warning);
     const StageOptions stages = stage_options(options, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
+    const PreparedContours prepared = prepare(drawing, stages, work);
     const double memory_mb = estimated_memory_mb(drawing, prepared, grid, options);
     check_memory(memory_mb, options);
     watch.lap("prepare");
 
-    const FittedFunction by_contours = fit(prepared, stages.fit, progress);
+    const FittedFunction by_contours = fit(prepared, stages.fit, work);
     watch.lap("fit");
-    const auto [fitted, image_report] = refine(drawing, prepared, by_contours, image, options.use_image, stages, progress);
+    const auto [fitted, image_report] = refine(drawing, prepared, by_contours, image, options.use_image, stages, work);
     if (image_report.verdict != ImageVerdict::none) watch.lap("refine");
 
     const std::vector<Vec3> starts =
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
-    const FindSurfaceOptions finding{options.voxelizer, options.threads};
-    const SurfaceLattice surface = find_surface(fitted.function, grid, starts, finding, progress);
-    Segmentation result{fill(surface, options.threads), fitted.function, {}, {}, {}};
+    const SurfaceLattice surface = find_surface(fitted.function, grid, starts, options.voxelizer, work);
+    Segmentation result{fill(surface, work), fitted.function, {}, {}, {}};
     watch.lap("voxelize");
 
     if (options.mesh) {
         const double spacing_mm = kMeshSpacingFraction * drawing.diameter_mm();
-        result.mesh = surface_mesh(surface, fitted.function, starts, spacing_mm, finding, progress);
+        result.mesh = surface_mesh(surface, fitted.function, starts, spacing_mm, options.voxelizer, work);
         watch.lap("polygonize");
     }
 
-    result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask}, options);
-    result.samples = sample_surface(surface, fitted.function, kSurfaceSamples, options.threads);
-    result.report.uncertainty = surface_uncertainty(gather_evidence(result, drawing.contours, options.threads));
+    result.report = describe({drawing, stages, prepared, fitted, image_report, surface, result.mask}, options, work);
+    result.samples = sample_surface(surface, fitted.function, kSurfaceSamples, work);
+    result.report.uncertainty = surface_uncertainty(gather_evidence(result, drawing.contours, work));
     watch.lap("measure");
     result.report.estimated_memory_mb = memory_mb;
     result.report.seconds = std::move(seconds);
     return result;
 }
 
-SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, int threads) {
-    return gather_evidence(made.samples, contours, evidence_facts(made.report, made.mask.grid), threads);
+SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, const Work& work) {
+    return gather_evidence(made.samples, contours, evidence_facts(made.report, made.mask.grid), work);
 }
 
 }  // namespace kontur

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/refine/surface_evidence.h"
 #include "kontur/segment_options.h"
@@ -27,11 +27,11 @@ struct Segmentation {
 /// contours; without one they do alone. Throws Error as check_contours, check_contours_inside, solve and check_grid do,
 /// and Error(too_large) with the estimate for a run beyond `max_memory_mb`. The same bytes for any number of threads.
 Segmentation segment(const ContourSet& contours, const Grid& grid, const SegmentOptions& options = {},
-                     const Progress& progress = {});
+                     const Work& work = {});
 Segmentation segment(const ContourSet& contours, const Grid& grid, const Image* image, const SegmentOptions& options = {},
-                     const Progress& progress = {});
+                     const Work& work = {});
 
 /// For suggest_planes and half_widths_mm: what is known of the surface from the `contours` that it was made from.
-SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, int threads = 0);
+SurfaceEvidence gather_evidence(const Segmentation& made, const ContourSet& contours, const Work& work = {});
 
 }  // namespace kontur

@@ -27,9 +27,8 @@ struct SegmentOptions {
     Solver solver = Solver::automatic;
     std::optional<double> tolerance_mm{};  ///< of the iterative solver, at all constraints; unset: 1.5e-5 of the diameter
     Voxelizer voxelizer = Voxelizer::adaptive;
-    UseImage use_image = UseImage::off;  ///< between the contours; where an image is given
-    bool mesh = false;                   ///< also make the surface
-    int threads = 0;                     ///< 0: the machine's
+    UseImage use_image = UseImage::automatic;  ///< between the contours; where an image is given
+    bool mesh = false;                         ///< also make the surface
     /// A run of which the process would hold more is refused before it begins to solve; unset: the machine's memory.
     std::optional<double> max_memory_mb{};
 };

@@ -37,7 +37,7 @@ struct SegmentReport {
     double quality = 1;
     Solver solver = Solver::automatic;
     Voxelizer voxelizer = Voxelizer::adaptive;
-    UseImage use_image = UseImage::off;
+    UseImage use_image = UseImage::automatic;
     RefineReport image;  ///< what became of the image between the contours
     int solves = 0;
     int iterations = 0;               ///< over all solves; 0 for direct solvers

@@ -4,30 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/labels/label_boxes.h"
+#include "kontur/labels/structure_pair.h"
 #include "kontur/segment.h"
 
 namespace kontur {
-
-/// How two structures lie to each other.
-enum class Relation {
-    exclusive,  ///< no voxel belongs to both, and where they touch no gap stays between them
-    inside,     ///< the first lies in the second: both have its voxels
-    overlap,    ///< they may share voxels
-};
-std::string_view name(Relation relation) noexcept;
-
-/// Two structures, counted from 0.
-struct StructurePair {
-    std::size_t first = 0, second = 0;
-    Relation relation = Relation::exclusive;
-    std::int64_t shared_voxels = 0;  ///< of the two masks fitted each alone
-    bool is_given = false;           ///< by a rule; else the relation follows from the masks
-};
 
 struct TogetherOptions {
     SegmentOptions segment;
@@ -58,8 +42,8 @@ Mask whole_mask(const Together& together, std::size_t structure);
 /// name or number in front, and Error(invalid_input) for no structures, for a rule about structures that are not there and
 /// for two rules about one pair. The same bytes for any number of threads.
 Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const TogetherOptions& options = {},
-                          const Progress& progress = {});
+                          const Work& work = {});
 Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const Image* image,
-                          const TogetherOptions& options = {}, const Progress& progress = {});
+                          const TogetherOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

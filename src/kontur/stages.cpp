@@ -38,14 +38,12 @@ FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     fit.solve.solver = options.solver;
     fit.solve.smoothing = options.smoothing.value_or(is_surface ? kSurfaceSmoothing : 0.0);
     fit.solve.tolerance_mm = options.tolerance_mm.value_or(kToleranceFraction * diameter_mm);
-    fit.solve.threads = options.threads;
     return fit;
 }
 
 /// The paper's in-plane normals go with its rules for long segments and coplanar contours; surface normals with ours.
 PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& fitting, double diameter_mm) {
-    PrepareOptions prepare{
-        .quality = options.quality, .click_margin_mm = kMarginFraction * diameter_mm, .threads = options.threads};
+    PrepareOptions prepare{.quality = options.quality, .click_margin_mm = kMarginFraction * diameter_mm};
     prepare.corners = options.corners;
     prepare.corner_spacing_mm = 2 * fitting.place.merge_distance_mm;
     if (options.normals == Normals::in_plane) {
@@ -96,27 +94,27 @@ Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
     return drawing;
 }
 
-PreparedContours prepare(const Drawing& drawing, const StageOptions& options) {
-    PreparedContours prepared = prepare(drawing, options.prepare);
+PreparedContours prepare(const Drawing& drawing, const StageOptions& options, const Work& work) {
+    PreparedContours prepared = prepare(drawing, options.prepare, work);
     reconcile(prepared.points, drawing.crossings, options.reconcile);
     return prepared;
 }
 
-ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options) {
+ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work) {
     const Drawing drawing = read_drawing(part, FillRule::declared);
     StageOptions coarse = options;
     coarse.fit.most_points = coarse.fit.tilt_points = kCoarsePoints;
     coarse.fit.most_solves = 1;
-    coarse.fit.solve.threads = coarse.prepare.threads = 1;
     coarse.fit.solve.tolerance_mm *= coarse.fit.early_tolerance_factor;
-    return fit(prepare(drawing, coarse), coarse.fit).function;
+    return fit(prepare(drawing, coarse, work), coarse.fit, work).function;
 }
 
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image* image, UseImage use, const StageOptions& options, const Progress& progress) {
+                       const Image* image, UseImage use, const StageOptions& options, const Work& work) {
     if (!image || use == UseImage::off) return {fitted, {}};
-    const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options); };
-    return refine(drawing, prepared, fitted, *image, fit_part, {.fit = options.fit}, progress);
+    const Work alone{.threads = 1, .stop = work.stop};  // parts are fitted beside each other
+    const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
+    return refine(drawing, prepared, fitted, *image, fit_part, {.fit = options.fit}, work);
 }
 
 std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
 #include "kontur/drawing/prepare.h"
 #include "kontur/drawing/reconcile.h"
@@ -27,16 +28,16 @@ StageOptions stage_options(const SegmentOptions& options, double diameter_mm);
 Drawing read_drawing(const ContourSet& drawn, FillRule rule);
 
 /// The contours as the fit sees them, reconciled where they contradict each other.
-PreparedContours prepare(const Drawing& drawing, const StageOptions& options);
+PreparedContours prepare(const Drawing& drawing, const StageOptions& options, const Work& work = {});
 
 /// f through a part of the contours, from about as many of its points as show the tilts: for how the surface runs between
 /// planes that will do.
-ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options);
+ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work = {});
 
 /// The fit, moved between the contours to where the image shows the border, if there is an image, `use` asks for it and it
 /// helps; else as it came.
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image* image, UseImage use, const StageOptions& options, const Progress& progress = {});
+                       const Image* image, UseImage use, const StageOptions& options, const Work& work = {});
 
 /// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
 /// themselves, and a place near each exterior point that only just got its side: it may have made a cavity. Not near

@@ -58,8 +58,9 @@ def test_segments_keep_names(tmp_path):
 
 
 def test_the_image_is_asked_and_said(tmp_path):
-    file, image = write_nifti(tmp_path / "sparse.nii.gz", painted()), write_nifti(tmp_path / "mr.nii.gz", ball_array() * 100)
-    text = succeed("fill", file, "--image", image, "--use-image", "auto", "--output", tmp_path / "full.nii.gz", "--report", tmp_path / "fill.json")
+    noise = numpy.random.default_rng(5).normal(0, 10, ball_array().shape)
+    file, image = write_nifti(tmp_path / "sparse.nii.gz", painted()), write_nifti(tmp_path / "mr.nii.gz", (ball_array() * 100 + noise).astype("int16"))
+    text = succeed("fill", file, "--image", image, "--output", tmp_path / "full.nii.gz", "--report", tmp_path / "fill.json")
     [label] = json.loads((tmp_path / "fill.json").read_text())["labels"]
     assert label["image"]["verdict"] in ("used", "no_help") and label["image"]["planes_left_out"] > 0
     assert "label 5: " in text and "image" in text
@@ -67,7 +68,7 @@ def test_the_image_is_asked_and_said(tmp_path):
 
 @pytest.mark.parametrize("words, code, sentence", [
     (("--use-image", "auto"), 64, "--use-image requires --image"),
-    (("--image", "sparse.nii.gz"), 65, "--image is for --use-image auto"),
+    (("--image", "sparse.nii.gz", "--use-image", "off"), 65, "--image is for --use-image auto"),
     (("--label", "9"), 65, "the label 9 is to be filled, but no voxel has it"),
     (("--smoothing-voxels", "-1"), 65, "the smoothing of the painted outlines"),
     (("--ends", "flat"), 64, "closed|half|open, not flat"),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur segment end to end: a ball from nine contours."""
+import gzip
 import hashlib
 import json
 import os
@@ -199,15 +200,46 @@ def test_an_interrupt_leaves_everything_as_it_was(folder, stop):
     assert (folder / "out.nii.gz").read_text() == "old"
 
 
-def test_the_image_is_asked_between_the_contours_only_where_told_to(folder):
-    segment(folder, *FROM_IMAGE, "--report", "report.json")
-    assert json.loads((folder / "report.json").read_text())["image"] == {"verdict": "none"}
-    said = segment(folder, *FROM_IMAGE, "--report", "report.json", "--use-image", "auto")
-    image = json.loads((folder / "report.json").read_text())["image"]
+@pytest.fixture
+def ct(folder):
+    noise = numpy.random.default_rng(5).normal(0, 20, ball_array().shape)
+    write_nifti(folder / "ct.nii.gz", (ball_array() * 150 - 100 + noise).astype(numpy.int16))
+    return ["ball.json", "--image", "ct.nii.gz", "--output", "out.nii.gz", "--report", "report.json"]
+
+
+def image_of_report(folder):
+    return json.loads((folder / "report.json").read_text())["image"]
+
+
+def test_the_image_is_asked_between_the_contours_unless_told_not_to(folder, ct):
+    said = segment(folder, *ct)
+    image = image_of_report(folder)
     assert image["verdict"] in ("used", "no_help") and image["planes_left_out"] == 9
     assert image["sentence"] in said
+    segment(folder, *ct, "--use-image", "off")
+    assert image_of_report(folder) == {"verdict": "none"}
     alone = kontur("segment", "ball.json", "--spacing-mm", "1", "--output", "out.nii.gz", "--use-image", "auto", cwd=folder)
     assert alone.returncode != 0 and "--image" in alone.stderr
+
+
+def test_a_mask_in_the_images_place_gives_the_grid_alone(folder):
+    said = segment(folder, *FROM_IMAGE, "--report", "report.json")
+    image = image_of_report(folder)
+    assert image["verdict"] == "labels" and "a mask or a label map; not used" in image["sentence"] and image["sentence"] in said
+    mask = read_nifti(folder / "out.nii.gz")
+    segment(folder, *FROM_IMAGE, "--use-image", "off")
+    assert (read_nifti(folder / "out.nii.gz") == mask).all()
+
+
+def test_of_an_image_that_cannot_be_read_the_grid_will_do(folder, ct):
+    whole = gzip.decompress((folder / "ct.nii.gz").read_bytes())
+    (folder / "ct.nii.gz").write_bytes(gzip.compress(whole[:5000]))
+    segment(folder, *ct)
+    report = json.loads((folder / "report.json").read_text())
+    assert report["image"] == {"verdict": "none"}
+    [warning] = report["warnings"]
+    assert warning.startswith("the image was not used between the contours: ") and "ct.nii.gz" in warning
+    assert dice(read_nifti(folder / "out.nii.gz"), ball_array()) > 0.995
 
 
 def test_the_image_brings_ventricles_nearer_to_the_truth(tmp_path):

@@ -79,6 +79,20 @@ def test_skipping_gives_other_planes_of_less_gain(drawn):
     assert suggested("--skip", 0) == [best]
 
 
+def test_an_empty_plane_is_not_suggested_again_and_the_surface_keeps_out_of_it(drawn, tmp_path):
+    contours, mask = drawn(1)
+    above = plane(numpy.add(CENTER, [0.6 * RADIUS, 0, 0]), [1, 0, 0])
+    empty = write_planes(tmp_path / "empty.json", [above])
+    whole = json.loads(contours.read_text()) | {"empty_planes": [above]}
+    (tmp_path / "whole.json").write_text(json.dumps(whole))
+    sketches = []
+    for words in ([contours, "--empty-planes", empty], [tmp_path / "whole.json"], [contours]):
+        kontur("suggest", *words, "--image", mask, "--planes", 3, "--sketch", tmp_path / "s.json", "--output", tmp_path / "p.json")
+        points = [c["points"] for p in json.loads((tmp_path / "s.json").read_text())["planes"] for c in p["contours"]]
+        sketches.append(numpy.vstack(points)[:, 0].max() - CENTER[0])
+    assert sketches[0] == sketches[1] < 0.6 * RADIUS < sketches[2]
+
+
 def test_works_without_an_image(drawn):
     contours, _ = drawn(3)
     assert "1: through" in kontur("suggest", contours).stdout

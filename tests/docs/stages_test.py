@@ -13,7 +13,7 @@ kontur = pytest.importorskip("kontur", reason="this build has no Python package"
 
 ROOT = pathlib.Path(__file__).parents[2]
 STAGES = ROOT / "docs" / "stages"
-SHARED = {"progress", "stop", "on_note", "listener", "function"}  # described once, in docs/python.md
+SHARED = {"threads", "progress", "stop", "on_note", "listener", "function"}  # described once, in docs/python.md
 
 
 def tables():
@@ -43,7 +43,7 @@ def test_each_option_stands_there_with_its_default(name, table):
 
 def test_every_stage_with_options_has_a_table():
     named = {name for name, _ in TABLES}
-    assert {"prepare", "reconcile", "fit", "solve", "trace", "compare", "Editor", "LiveEditor", "check_contour_set", "FastFunction"} <= named
+    assert {"prepare", "reconcile", "fit", "solve", "trace", "Editor", "LiveEditor", "check_contour_set", "FastFunction"} <= named
 
 
 def test_every_stage_has_a_page_with_a_picture_and_its_source():

@@ -195,7 +195,8 @@ TEST(Bounds, MoveAndScaleWithTheContours) {
 TEST(Bounds, AreTheSameForAnyNumberOfThreads) {
     const ContourSet set = stack({0, 4, 8, 12, 16});
     const DrawnPlanes planes(set);
-    const std::vector<Bound> one = find_bounds(planes, 1).bounds, three = find_bounds(planes, 3).bounds;
+    const std::vector<Bound> one = find_bounds(planes, {.threads = 1}).bounds,
+                             three = find_bounds(planes, {.threads = 3}).bounds;
     ASSERT_EQ(one.size(), three.size());
     for (std::size_t i = 0; i < one.size(); ++i) {
         EXPECT_EQ(one[i].position, three[i].position);

@@ -30,8 +30,8 @@ struct Agreement {
 };
 
 Agreement compare(const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts) {
-    const SurfaceLattice tracked = track_surface(function, grid, starts, 2);
-    const SurfaceLattice adaptive = track_surface_adaptively(function, grid, starts, 2);
+    const SurfaceLattice tracked = track_surface(function, grid, starts, {.threads = 2});
+    const SurfaceLattice adaptive = track_surface_adaptively(function, grid, starts, {.threads = 2});
     const Mask a = fill(tracked), b = fill(adaptive);
     Agreement result{0, 0, static_cast<double>(adaptive.evaluations) / static_cast<double>(tracked.evaluations)};
     for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -133,7 +133,7 @@ TEST(Adaptive, LeavesSmallObjectsAndGridsToTracking) {
         EXPECT_EQ(found.different, 0);
         EXPECT_TRUE(found.evaluations == 1 || size.i == 1);
     }
-    EXPECT_TRUE(track_surface_adaptively(ball, test::grid_about({}, {50, 50, 50}, 1), {}, 1).cells.empty());
+    EXPECT_TRUE(track_surface_adaptively(ball, test::grid_about({}, {50, 50, 50}, 1), {}, {.threads = 1}).cells.empty());
 }
 
 TEST(Adaptive, FindsObjectsBetweenThePointsOfTheCoarseLattice) {
@@ -168,7 +168,7 @@ TEST(Adaptive, FindsObjectsBetweenThePointsOfTheCoarseLattice) {
     }
     const ImplicitFunction function = test::function_through(balls, 0.3);
     EXPECT_EQ(compare(function, grid, balls.points).different, 0);
-    EXPECT_EQ(component_sizes(fill(track_surface_adaptively(function, grid, balls.points, 2))).size(), 4u);
+    EXPECT_EQ(component_sizes(fill(track_surface_adaptively(function, grid, balls.points, {.threads = 2}))).size(), 4u);
 }
 
 TEST(Adaptive, ClosesObjectsCutOffAtTheGridsBorderWithoutMoreValues) {
@@ -207,7 +207,7 @@ TEST(Adaptive, FindsTheComponentsThatStartsTouchAndNoOther) {
                                   both.points.end() - static_cast<std::ptrdiff_t>(second.points.size()));
     for (const auto& starts : {first, second.points, both.points}) {
         EXPECT_GE(compare(function, grid, starts).jaccard(), 0.9999);
-        EXPECT_EQ(component_sizes(fill(track_surface_adaptively(function, grid, starts, 2))).size(),
+        EXPECT_EQ(component_sizes(fill(track_surface_adaptively(function, grid, starts, {.threads = 2}))).size(),
                   starts.size() == both.points.size() ? 2u : 1u);
     }
 }
@@ -243,9 +243,10 @@ TEST(Adaptive, ValuesGrowWithTheSurfaceAndAreAFractionOfTracking) {
     const std::vector<Vec3> starts = points_of(crossing_contours(60));
     const auto evaluations = [&](double spacing) {
         const auto n = static_cast<std::int64_t>(60 / spacing);
-        return static_cast<double>(
-            track_surface_adaptively(crossing_function(), test::grid_about(kCenter, {n, n, n}, spacing), starts, 0)
-                .evaluations);
+        return static_cast<double>(track_surface_adaptively(crossing_function(),
+                                                            test::grid_about(kCenter, {n, n, n}, spacing), starts,
+                                                            {.threads = 0})
+                                       .evaluations);
     };
     const double fine = evaluations(0.25);
     EXPECT_LT(fine, 4.4 * evaluations(0.5));
@@ -281,7 +282,8 @@ TEST(ExpectedSurfaceVoxels, AreAboutThoseThatManySmallBallsPass) {
 
 TEST(Adaptive, MeshIsClosedAndLiesOnTheSurface) {
     const Grid grid = test::changed(test::grid_about(kCenter, {110, 112, 108}, 0.5), test::kMirrored);
-    const SurfaceLattice surface = track_surface_adaptively(crossing_function(), grid, points_of(crossing_contours(60)), 2);
+    const SurfaceLattice surface =
+        track_surface_adaptively(crossing_function(), grid, points_of(crossing_contours(60)), {.threads = 2});
     const TriangleMesh mesh = polygonize(surface, crossing_function());
     const MeshTopology found = topology(mesh);
     EXPECT_TRUE(found.closed && found.oriented);
@@ -293,7 +295,9 @@ TEST(Adaptive, MeshIsClosedAndLiesOnTheSurface) {
 TEST(Adaptive, SameBytesForAnyNumberOfThreads) {
     const std::vector<Vec3> starts = points_of(crossing_contours(60));
     const Grid grid = test::grid_about(kCenter, {110, 112, 108}, 0.5);
-    const auto run = [&](int threads) { return track_surface_adaptively(crossing_function(), grid, starts, threads); };
+    const auto run = [&](int threads) {
+        return track_surface_adaptively(crossing_function(), grid, starts, {.threads = threads});
+    };
     const SurfaceLattice one = run(1);
     for (const int threads : {2, 5}) {
         const SurfaceLattice many = run(threads);
@@ -309,19 +313,20 @@ TEST(Adaptive, ReportsProgressAndStopsWhenAskedTo) {
     double last = 0;
     std::stop_source source;
     int reports = 0;
-    Progress progress{[&](std::string_view stage, double done) {
-                          EXPECT_EQ(stage, "voxelize");
-                          EXPECT_GE(done, last);
-                          EXPECT_LE(done, 1);
-                          last = done;
-                          ++reports;
-                      },
-                      source.get_token()};
-    track_surface_adaptively(crossing_function(), grid, starts, 2, progress);
+    const Work work{2,
+                    [&](std::string_view stage, double done) {
+                        EXPECT_EQ(stage, "voxelize");
+                        EXPECT_GE(done, last);
+                        EXPECT_LE(done, 1);
+                        last = done;
+                        ++reports;
+                    },
+                    source.get_token()};
+    track_surface_adaptively(crossing_function(), grid, starts, work);
     EXPECT_GT(reports, 2);
     source.request_stop();
     last = 0;
-    EXPECT_KONTUR_ERROR(track_surface_adaptively(crossing_function(), grid, starts, 2, progress), ErrorKind::cancelled, "");
+    EXPECT_KONTUR_ERROR(track_surface_adaptively(crossing_function(), grid, starts, work), ErrorKind::cancelled, "");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace kontur {
 namespace {
 
 SurfaceLattice ball_on(const Grid& grid, double radius) {
-    return sample_everywhere(test::ball_function({}, radius), grid, 1);
+    return sample_everywhere(test::ball_function({}, radius), grid, {.threads = 1});
 }
 
 /// How far a place of the grid in mm lies from the nearest centre of the other, in voxels of that.

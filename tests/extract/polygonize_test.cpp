@@ -12,7 +12,7 @@ namespace {
 const Vec3 kCenter{20, -30, 100};
 
 TriangleMesh surface_of(const ImplicitFunction& function, const Grid& grid, int threads = 2) {
-    return polygonize(sample_everywhere(function, grid, threads), function, threads);
+    return polygonize(sample_everywhere(function, grid, {.threads = threads}), function, {.threads = threads});
 }
 
 void expect_solid(const TriangleMesh& mesh, std::int64_t euler) {
@@ -90,7 +90,7 @@ TEST(Polygonize, TwoObjectsAreTwoComponents) {
     const ImplicitFunction function = test::function_through(both);
     const std::vector<Vec3> starts{{-12, 0, 0}, {13, 1, 0}};
     const TriangleMesh mesh =
-        polygonize(track_surface(function, test::grid_about({}, {32, 15, 15}, 1), starts, 1), function);
+        polygonize(track_surface(function, test::grid_about({}, {32, 15, 15}, 1), starts, {.threads = 1}), function);
     expect_solid(mesh, 4);
     EXPECT_EQ(topology(mesh).components, 2);
 }

@@ -76,15 +76,15 @@ TEST(Preview, StopsWhenAskedTo) {
     std::stop_source source;
     source.request_stop();
     EXPECT_KONTUR_ERROR(
-        preview_surface(test::ball_function({}, 5), std::vector<Vec3>{{5, 0, 0}}, {}, {{}, source.get_token()}),
+        preview_surface(test::ball_function({}, 5), std::vector<Vec3>{{5, 0, 0}}, {}, {.stop = source.get_token()}),
         ErrorKind::cancelled, "");
 }
 
 TEST(Preview, SameBytesForAnyNumberOfThreads) {
     const ImplicitFunction ball = test::ball_function(kCenter, kRadius);
-    const TriangleMesh one = preview_surface(ball, points_on_ball(), {.spacing_mm = 1, .threads = 1});
+    const TriangleMesh one = preview_surface(ball, points_on_ball(), {.spacing_mm = 1}, {.threads = 1});
     for (const int threads : {2, 5}) {
-        const TriangleMesh many = preview_surface(ball, points_on_ball(), {.spacing_mm = 1, .threads = threads});
+        const TriangleMesh many = preview_surface(ball, points_on_ball(), {.spacing_mm = 1}, {.threads = threads});
         EXPECT_EQ(many.points, one.points);
         EXPECT_EQ(many.normals, one.normals);
         EXPECT_EQ(many.triangles, one.triangles);

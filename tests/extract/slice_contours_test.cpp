@@ -15,7 +15,9 @@
 namespace kontur {
 namespace {
 
-Mask mask_of(const ImplicitFunction& function, const Grid& grid) { return fill(sample_everywhere(function, grid, 0)); }
+Mask mask_of(const ImplicitFunction& function, const Grid& grid) {
+    return fill(sample_everywhere(function, grid, {.threads = 0}));
+}
 
 /// Largest |f| over the points: how far off the surface they are in mm, up to the slope.
 double worst_value(const ContourSet& set, const ImplicitFunction& function) {
@@ -87,7 +89,7 @@ TEST(SliceContours, EndHalfAVoxelBeyondTheGridsBorderWithoutRepeatedPoints) {
 TEST(SliceContours, AreTheSameForAnyNumberOfThreads) {
     const ImplicitFunction ball = test::ball_function({}, 10);
     const Mask mask = mask_of(ball, test::grid_about({}, {30, 30, 70}, 0.9));
-    const ContourSet one = slice_contours(mask, ball, 1), three = slice_contours(mask, ball, 3);
+    const ContourSet one = slice_contours(mask, ball, {.threads = 1}), three = slice_contours(mask, ball, {.threads = 3});
     ASSERT_EQ(one.contours.size(), three.contours.size());
     for (std::size_t n = 0; n < one.contours.size(); ++n) EXPECT_EQ(one.contours[n].points, three.contours[n].points);
 }

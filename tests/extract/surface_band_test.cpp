@@ -122,7 +122,7 @@ TEST(SurfaceBand, NeedsATenthOfTheValuesOfTheMesh) {
     const Surface surface(phantom_case("liver_orthogonal14_hand"));
     const SurfaceBand band(surface.function, surface.starts, {surface.spacing_mm});
     const Grid lattice = *preview_lattice(surface.starts, surface.spacing_mm);
-    const SurfaceLattice tracked = track_surface_adaptively(surface.function, lattice, surface.starts, 0);
+    const SurfaceLattice tracked = track_surface_adaptively(surface.function, lattice, surface.starts, {.threads = 0});
     const TriangleMesh mesh = preview_surface(surface.function, surface.starts, {surface.spacing_mm});
     const auto of_mesh = static_cast<double>(tracked.evaluations) + 3 * static_cast<double>(mesh.normals.size());
     EXPECT_LT(static_cast<double>(band.evaluations()), 0.1 * of_mesh);

@@ -195,9 +195,10 @@ TEST(Trace, GivesTheSamePointsForAnyNumberOfThreads) {
     std::mt19937 random = test::random_of_this_test();
     const Mask mask = test::ball_mask(grids()[3].grid, {1, 2, 3}, 17);
     const Plane plane = random_plane(random, 5);
-    const ContourSet one = trace(mask, std::span(&plane, 1), {.threads = 1});
+    const ContourSet one = trace(mask, std::span(&plane, 1), {}, {.threads = 1});
     for (const int threads : {2, 3, 8})
-        EXPECT_EQ(trace(mask, std::span(&plane, 1), {.threads = threads}).contours.at(0).points, one.contours.at(0).points);
+        EXPECT_EQ(trace(mask, std::span(&plane, 1), {}, {.threads = threads}).contours.at(0).points,
+                  one.contours.at(0).points);
 }
 
 TEST(Trace, RefusesWhatMakesNoSense) {
@@ -218,11 +219,9 @@ TEST(Trace, RefusesWhatMakesNoSense) {
 TEST(Trace, StopsWhenAsked) {
     std::stop_source source;
     source.request_stop();
-    Progress progress;
-    progress.stop = source.get_token();
+    const Work work{.stop = source.get_token()};
     const std::vector<Plane> planes(2);
-    EXPECT_KONTUR_ERROR(trace(test::ball_mask(grids()[0].grid, {0, 0, 0}, 20), planes, {}, progress), ErrorKind::cancelled,
-                        "");
+    EXPECT_KONTUR_ERROR(trace(test::ball_mask(grids()[0].grid, {0, 0, 0}, 20), planes, {}, work), ErrorKind::cancelled, "");
 }
 
 double distance_to_contours(const Vec3& p, std::span<const Contour> contours) {

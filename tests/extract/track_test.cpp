@@ -135,15 +135,15 @@ std::set<Cell> as_set(const std::vector<Index3>& cells) {
 /// Tracks and samples everywhere, and compares both with brute force. Returns the tracked mask.
 Mask expect_right(const ImplicitFunction& function, const Grid& grid, const std::vector<Vec3>& starts) {
     const Samples samples(function, grid);
-    const SurfaceLattice tracked = track_surface(function, grid, starts, 2);
+    const SurfaceLattice tracked = track_surface(function, grid, starts, {.threads = 2});
     const std::set<Cell> cells = flooded_cells(samples, grid, starts);
     EXPECT_EQ(as_set(tracked.cells), cells);
     EXPECT_EQ(tracked.cells.size(), cells.size()) << "a cell twice";
-    const Mask mask = fill(tracked, 2);
+    const Mask mask = fill(tracked, {.threads = 2});
     EXPECT_TRUE(mask.values == enclosed(samples, grid, cells));
 
-    const SurfaceLattice everywhere = sample_everywhere(function, grid, 2);
-    const Mask all = fill(everywhere, 3);
+    const SurfaceLattice everywhere = sample_everywhere(function, grid, {.threads = 2});
+    const Mask all = fill(everywhere, {.threads = 3});
     EXPECT_EQ(everywhere.evaluations, grid.voxel_count());
     std::int64_t known = 0;
     for (std::int64_t k = 0; k < grid.size.k; ++k)
@@ -158,7 +158,7 @@ Mask expect_right(const ImplicitFunction& function, const Grid& grid, const std:
             }
     EXPECT_EQ(tracked.evaluations, known) << "values computed more than once";
     for (const int threads : {1, 3, 8}) {
-        const SurfaceLattice again = track_surface(function, grid, starts, threads);
+        const SurfaceLattice again = track_surface(function, grid, starts, {.threads = threads});
         EXPECT_EQ(again.cells, tracked.cells);
         EXPECT_EQ(again.evaluations, tracked.evaluations);
     }
@@ -243,16 +243,17 @@ TEST(Track, StartsFarFromTheSurfaceOrTheGridFindNothing) {
     const Mask mask = expect_right(ball, grid, {{0, 0, 0}, {12, 0, 0}});
     EXPECT_EQ(inside_count(mask), 0) << "inside values around a start are no surface";
     for (const Vec3& start : {Vec3{500, 0, 0}, {0, -1e18, 0}, {nan, 0, 0}, {0, infinity, 0}}) {
-        const SurfaceLattice found = track_surface(ball, grid, std::vector<Vec3>{start}, 1);
+        const SurfaceLattice found = track_surface(ball, grid, std::vector<Vec3>{start}, {.threads = 1});
         EXPECT_EQ(found.evaluations, 0);
         EXPECT_TRUE(found.cells.empty());
     }
-    EXPECT_TRUE(track_surface(ball, grid, {}, 1).cells.empty());
+    EXPECT_TRUE(track_surface(ball, grid, {}, {.threads = 1}).cells.empty());
 }
 
 TEST(Track, EvaluatesAboutTheSurfaceOnly) {
     const Grid grid = test::grid_about({}, {100, 100, 100}, 1);
-    const SurfaceLattice found = track_surface(test::ball_function({}, 40), grid, std::vector<Vec3>{{40, 0, 0}}, 0);
+    const SurfaceLattice found =
+        track_surface(test::ball_function({}, 40), grid, std::vector<Vec3>{{40, 0, 0}}, {.threads = 0});
     EXPECT_LT(found.evaluations, 6 * M_PI * 40 * 40 * 2.2);
 }
 
@@ -288,11 +289,11 @@ TEST(Track, SelfIntersectingContoursOfThePhantomFillAllTheirLobes) {
 TEST(Track, StopsWhenAskedTo) {
     std::stop_source source;
     source.request_stop();
-    const Progress stopped{{}, source.get_token()};
+    const Work stopped{.stop = source.get_token()};
     const Grid grid = test::grid_about({}, {20, 20, 20}, 1);
     const std::vector<Vec3> starts{{5, 0, 0}};
-    EXPECT_KONTUR_ERROR(track_surface(test::ball_function({}, 5), grid, starts, 1, stopped), ErrorKind::cancelled, "");
-    EXPECT_KONTUR_ERROR(sample_everywhere(test::ball_function({}, 5), grid, 1, stopped), ErrorKind::cancelled, "");
+    EXPECT_KONTUR_ERROR(track_surface(test::ball_function({}, 5), grid, starts, stopped), ErrorKind::cancelled, "");
+    EXPECT_KONTUR_ERROR(sample_everywhere(test::ball_function({}, 5), grid, stopped), ErrorKind::cancelled, "");
 }
 
 }  // namespace

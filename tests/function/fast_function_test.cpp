@@ -104,21 +104,21 @@ TEST(FastFunction, SameBytesForAnyNumberOfThreadsAndAnyBatch) {
     const ImplicitFunction& function = bumpy(Kernel::triharmonic);
     std::mt19937 random = test::random_of_this_test();
     const std::vector<Vec3> points = points_about_surface(5000, random);
-    const FastOptions options{.expected_points = kPoints, .threads = 1};
+    const FastOptions options{.expected_points = kPoints};
     std::vector<double> all(points.size());
     std::vector<Vec3> gradients(points.size());
     FastFunction at_once(function, options);
-    at_once.values(points, all);
-    at_once.gradients(points, gradients);
+    at_once.values(points, all, {.threads = 1});
+    at_once.gradients(points, gradients, {.threads = 1});
     for (const int threads : {2, 5}) {
-        FastOptions several = options;
-        several.threads = threads;
-        FastFunction in_parts(function, several);
+        FastFunction in_parts(function, options);
         std::vector<double> parts(points.size());
         std::vector<Vec3> gradient_parts(points.size());
         for (std::size_t begin = 0; begin < points.size(); begin += 1000) {
-            in_parts.values(std::span(points).subspan(begin, 1000), std::span(parts).subspan(begin, 1000));
-            in_parts.gradients(std::span(points).subspan(begin, 1000), std::span(gradient_parts).subspan(begin, 1000));
+            in_parts.values(std::span(points).subspan(begin, 1000), std::span(parts).subspan(begin, 1000),
+                            {.threads = threads});
+            in_parts.gradients(std::span(points).subspan(begin, 1000), std::span(gradient_parts).subspan(begin, 1000),
+                               {.threads = threads});
         }
         EXPECT_FALSE(in_parts.is_direct());
         EXPECT_EQ(parts, all);
@@ -192,7 +192,7 @@ TEST(FastFunction, StopsWhenAskedTo) {
     std::vector<Vec3> gradients(10);
     for (const std::int64_t expected : {std::int64_t{0}, kPoints}) {
         const FastOptions options{.expected_points = expected};
-        const Progress stopped{{}, source.get_token()};
+        const Work stopped{.stop = source.get_token()};
         EXPECT_KONTUR_ERROR(FastFunction(bumpy(Kernel::triharmonic), options).values(points, values, stopped),
                             ErrorKind::cancelled, "");
         EXPECT_KONTUR_ERROR(FastFunction(bumpy(Kernel::triharmonic), options).gradients(points, gradients, stopped),

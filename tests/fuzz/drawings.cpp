@@ -73,6 +73,7 @@ void place(Choices& choose, ContourSet& set) {
     for (Vec3& p : set.interior) p = moved(p);
     for (Vec3& p : set.exterior) p = moved(p);
     for (SurfacePoint& p : set.surface) p.position = moved(p.position);
+    for (Plane& plane : set.empty_planes) plane.origin = moved(plane.origin);
 }
 
 }  // namespace
@@ -87,6 +88,7 @@ ContourSet wild_drawing(Choices& choose) {
         if (choose.flag()) point.outward = direction(choose);
         set.surface.push_back(point);
     }
+    for (const Vec3& p : clicks(choose)) set.empty_planes.push_back(make_plane(p, direction(choose)));
     place(choose, set);
     return set;
 }
@@ -172,6 +174,7 @@ ContourSet mixed_drawing(Choices& choose) {
         if (choose.flag()) point.outward = normalized(p);
         set.surface.push_back(point);
     }
+    for (const Vec3& p : points_near(choose, body.radii, 2)) set.empty_planes.push_back(make_plane(p, normalized(p)));
     return set;
 }
 

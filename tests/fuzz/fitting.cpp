@@ -30,7 +30,6 @@ double odd(Choices& choose, double sound) {
 
 PrepareOptions prepare_options(Choices& choose, double diameter) {
     PrepareOptions options;
-    options.threads = 1;
     options.quality = choose.flag() ? 1 : odd(choose, choose.between(0.05, 1));
     options.least_segments = choose.below(50) - 1;
     options.bounds = choose.below(4) != 1;
@@ -68,7 +67,6 @@ FitOptions fit_options(Choices& choose, double diameter, const PreparedContours&
     }
     options.place.normal_offset_mm = odd(choose, choose.between(1e-4, 0.02) * diameter);
     options.place.merge_distance_mm = choose.flag() ? 0 : odd(choose, 6e-4 * diameter);
-    options.solve.threads = 1;
     options.solve.kernel = static_cast<Kernel>(choose.below(3));
     // Dense ones take n^3: some seconds each for the 4,000 of a drawing of 147 points, with the sanitizers.
     if (most_constraints(prepared) < 1200) options.solve.solver = static_cast<Solver>(choose.below(4));
@@ -86,7 +84,6 @@ void check(const FittedFunction& fitted, const PreparedContours& prepared, const
 /// An edit after another: the second preview knows slopes of the first.
 void edit(Choices& choose, const ContourSet& set) {
     EditorOptions options;
-    options.segment.threads = 1;
     options.preview_points = few(choose);
     options.preview_spacing_mm = diameter_mm(set) / (4 + choose.below(12));
     Editor editor(options);

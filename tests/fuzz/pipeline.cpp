@@ -12,7 +12,6 @@ namespace {
 
 SegmentOptions options(Choices& choose) {
     SegmentOptions options;
-    options.threads = 1;
     options.mesh = choose.flag();
     options.normals = choose.below(4) == 0 ? Normals::in_plane : Normals::surface;
     options.fill_rule = choose.below(4) == 0 ? FillRule::declared : FillRule::even_odd;

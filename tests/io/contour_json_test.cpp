@@ -71,6 +71,7 @@ void expect_same(const ContourSet& a, const ContourSet& b) {
     EXPECT_EQ(a.interior, b.interior);
     EXPECT_EQ(a.exterior, b.exterior);
     EXPECT_EQ(a.surface, b.surface);
+    EXPECT_EQ(a.empty_planes, b.empty_planes);
     ASSERT_EQ(a.contours.size(), b.contours.size());
     for (std::size_t i = 0; i < a.contours.size(); ++i) {
         EXPECT_EQ(a.contours[i].plane, b.contours[i].plane) << "contour " << i;
@@ -306,6 +307,18 @@ TEST_F(ContourJson, PlanesNeedNoContours) {
     EXPECT_TRUE(read_contour_json(path).contours.empty());
 }
 
+TEST_F(ContourJson, EmptyPlanesAreReadInTheirFrameAndHaveNoContours) {
+    const ContourSet set =
+        read(R"({"frame": "RAS mm", "planes": [], "empty_planes": [{"origin": [1, 2, 3], "normal": [0, 2, 0]}]})");
+    ASSERT_EQ(set.empty_planes.size(), 1u);
+    EXPECT_EQ(set.empty_planes[0].origin, (Vec3{-1, -2, 3}));
+    EXPECT_EQ(set.empty_planes[0].normal, (Vec3{0, -1, 0}));
+    EXPECT_NE(refusal(R"({"frame": "LPS mm", "planes": [], "empty_planes": [{"origin": [1, 2, 3], "normal": [0, 2, 0],
+                        "contours": [{"points": []}]}]})")
+                  .find("empty_planes: plane 1: has contours"),
+              std::string::npos);
+}
+
 TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
     ContourSet set = read(kSmall);
     write_contour_json(folder_ / "plain.json", set);
@@ -313,6 +326,8 @@ TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
     set.interior = {{1, 2, 3}};
     set.exterior = {{4, 5, 6}, {1e22, 1e-9, 0}};
     set.surface = {{{4, 5, 6}, {}}, {{1, 2, 3}, Vec3{0, 0, 1}}};
+    set.empty_planes = {make_plane({1, 2, 3}, {0, 0.6, 0.8}), make_plane({}, {1, 0, 0})};
+    expect_same(written_and_read(set), set);
     set.contours[0].end = ContourEnd::flat;
     set.contours[2].closed = false;
     set.contours[2].inside = Hand::left;

@@ -192,8 +192,8 @@ TEST(FillLabels, OnlyChosenLabelsAreFilled) {
 
 TEST(FillLabels, SameBytesForAnyNumberOfThreads) {
     const Image sparse = sparse_of(organs(index_grid({44, 43, 42})), [](const Index3& at) { return at.k % 3 == 0; });
-    const auto once = bytes_of_labels(fill_labels(sparse, {.threads = 1}).labels);
-    EXPECT_EQ(bytes_of_labels(fill_labels(sparse, {.threads = 3}).labels), once);
+    const auto once = bytes_of_labels(fill_labels(sparse, {}, {.threads = 1}).labels);
+    EXPECT_EQ(bytes_of_labels(fill_labels(sparse, {}, {.threads = 3}).labels), once);
 }
 
 /// A column that bends back and forth between its painted slices.
@@ -206,10 +206,11 @@ bool is_in_bent_column(const Index3& at) {
 TEST(FillLabels, AnImageShowsHowTheSurfaceRunsBetweenTheSlices) {
     const Grid grid = index_grid({44, 43, 57});
     const Image full = label_map(grid, [](const Index3& at) { return is_in_bent_column(at) && at.k > 3 && at.k < 53; });
-    const Image picture = label_map(grid, [](const Index3& at) { return is_in_bent_column(at) ? 180 : 60; });
+    const Image picture = label_map(grid, [](const Index3& at) {
+        return (is_in_bent_column(at) ? 180 : 60) + (7 * at.i + 13 * at.j + 29 * at.k) % 11;  // no two neighbours alike
+    });
     const Image sparse = sparse_of(full, [](const Index3& at) { return at.k % 6 == 4; });
-    const FillOptions options{.use_image = UseImage::automatic};
-    const Filling without = fill_labels(sparse, options), with = fill_labels(sparse, &picture, options);
+    const Filling without = fill_labels(sparse), with = fill_labels(sparse, &picture);
     EXPECT_EQ(without.report.labels[0].image.verdict, ImageVerdict::none);
     EXPECT_EQ(with.report.labels[0].image.verdict, ImageVerdict::used);
     EXPECT_GT(dice(with.labels, full, 1, 2), dice(without.labels, full, 1, 2) + 0.02);
@@ -222,7 +223,7 @@ TEST(FillLabels, AnImageShowsHowTheSurfaceRunsBetweenTheSlices) {
 TEST(FillLabels, AnImageThatSaysNothingChangesNextToNothing) {
     const Image sparse = sparse_of(ball(), [](const Index3& at) { return at.k % 4 == 0; });
     const Image empty{sparse.grid, std::vector<float>(static_cast<std::size_t>(sparse.grid.voxel_count()), 7.F)};
-    const Filling with = fill_labels(sparse, &empty, {.use_image = UseImage::automatic}), without = fill_labels(sparse);
+    const Filling with = fill_labels(sparse, &empty), without = fill_labels(sparse);
     std::int64_t differing = 0;
     for (std::size_t n = 0; n < bytes_of_labels(sparse).size(); ++n)
         differing += bytes_of_labels(with.labels)[n] != bytes_of_labels(without.labels)[n];
@@ -233,7 +234,7 @@ TEST(FillLabels, AnImageFarAwayIsRefused) {
     const Image sparse = sparse_of(ball(), [](const Index3& at) { return at.k % 4 == 0; });
     Image other{sparse.grid, sparse.samples};
     other.grid.index_to_mm.translation = {0, 500, 0};
-    EXPECT_KONTUR_ERROR(fill_labels(sparse, &other, {.use_image = UseImage::automatic}), ErrorKind::invalid_input,
+    EXPECT_KONTUR_ERROR(fill_labels(sparse, &other), ErrorKind::invalid_input,
                         "the label map and the image lie 457 mm apart");
 }
 

@@ -149,8 +149,8 @@ TEST(SegmentTogether, AnObjectThatReachesBeyondItsFirstBoxIsFoundWhole) {
 
 TEST(SegmentTogether, SameBytesForAnyNumberOfThreads) {
     const auto sets = sectors(0.2);
-    const Together one = segment_together(sets, grid_here(), {.segment = {.threads = 1}});
-    const Together three = segment_together(sets, grid_here(), {.segment = {.threads = 3}});
+    const Together one = segment_together(sets, grid_here(), {}, {.threads = 1});
+    const Together three = segment_together(sets, grid_here(), {}, {.threads = 3});
     for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(one.structures[n].mask.values, three.structures[n].mask.values);
 }
 

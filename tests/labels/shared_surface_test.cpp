@@ -101,7 +101,8 @@ TEST(SharedSurface, PointsLieWhereTheFunctionIsZero) {
     for (const std::size_t object : {1, 2}) {
         std::vector<Vec3> points = surface_of(made.surface, object).points;
         std::erase_if(points, [&](const Vec3& p) { return object == 1 && p.x < 2; });
-        for (const double depth : depths_mm(made.functions[object], points, 1)) EXPECT_NEAR(depth, 0, 0.02) << object;
+        for (const double depth : depths_mm(made.functions[object], points, {.threads = 1}))
+            EXPECT_NEAR(depth, 0, 0.02) << object;
     }
 }
 

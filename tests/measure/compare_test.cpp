@@ -184,9 +184,7 @@ TEST(Compare, StopsWhenAsked) {
     const Mask full{anisotropic({3, 3, 3}), std::vector<std::uint8_t>(27, 1)};
     std::stop_source source;
     source.request_stop();
-    Progress progress;
-    progress.stop = source.get_token();
-    EXPECT_THROW(compare(full, full, {}, progress), Error);
+    EXPECT_THROW(compare(full, full, {.stop = source.get_token()}), Error);
 }
 
 TEST(Compare, AgreesWithScipyOnAnAnisotropicGrid) {

@@ -74,11 +74,11 @@ TEST(Phantom, NoiseHasItsStatedDeviationAndIsCorrelated) {
 
 TEST(Phantom, DependsOnTheSeedButNotOnTheNumberOfThreads) {
     const Grid grid = oblique(coarse_abdomen());
-    const Image one = make_phantom_image(grid, {.seed = 3, .threads = 1});
+    const Image one = make_phantom_image(grid, {.seed = 3}, {.threads = 1});
     for (const int threads : {2, 5})
-        EXPECT_EQ(samples(make_phantom_image(grid, {.seed = 3, .threads = threads})), samples(one));
+        EXPECT_EQ(samples(make_phantom_image(grid, {.seed = 3}, {.threads = threads})), samples(one));
     EXPECT_NE(samples(make_phantom_image(grid, {.seed = 4})), samples(one));
-    EXPECT_EQ(make_truth_mask(liver(), grid, 1).values, make_truth_mask(liver(), grid, 5).values);
+    EXPECT_EQ(make_truth_mask(liver(), grid, {.threads = 1}).values, make_truth_mask(liver(), grid, {.threads = 5}).values);
 }
 
 TEST(Phantom, TruthMasksHoldTheVoxelsWhoseCentresAreInside) {

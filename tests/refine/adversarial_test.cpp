@@ -167,7 +167,8 @@ std::pair<Apart, Apart> changed_by(const Affine3& motion) {
     EXPECT_NEAR(there.refined.report.error_with_mm, here.refined.report.error_with_mm,
                 0.2 * here.refined.report.error_with_mm);
     const ImplicitFunction& function = here.refined.fitted.function;
-    return {apart(function, contours, there.refined.fitted.function, motion), apart(function, contours, here.plain.function)};
+    return {apart(function, contours, there.refined.fitted.function, motion),
+            apart(function, contours, here.plain.function)};
 }
 
 TEST(RefineAdversarial, IsShiftedWithImageAndDrawing) {

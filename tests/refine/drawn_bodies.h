@@ -31,10 +31,8 @@ struct Fitted : Segmentation {
 };
 
 inline Fitted fitted(const ContourSet& contours, const Grid& grid, int threads = 1) {
-    SegmentOptions options;
-    options.threads = threads;
-    Fitted made{segment(contours, grid, options), {}};
-    made.evidence = gather_evidence(made, contours, threads);
+    Fitted made{segment(contours, grid, {}, {.threads = threads}), {}};
+    made.evidence = gather_evidence(made, contours, {.threads = threads});
     return made;
 }
 

@@ -44,7 +44,7 @@ TEST(ExpectedDice, IsNotFarAboveWhatPhantomsHave) {
         const PhantomCase one = phantom_case(name);
         const Grid grid = test::coarse(one.grid, 2);
         const test::Fitted made = test::fitted(one.contours, grid);
-        const double dice = test::dice(made.mask.values, make_truth_mask(*one.body, grid, 1).values);
+        const double dice = test::dice(made.mask.values, make_truth_mask(*one.body, grid, {.threads = 1}).values);
         EXPECT_GT(dice, expected_dice(made.evidence).low) << name;
     }
 }

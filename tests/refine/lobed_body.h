@@ -111,12 +111,13 @@ struct Refinement {
 };
 
 inline Refinement refine_drawing(const ContourSet& contours, const Image& image, int threads = 0, bool gate = true) {
+    const Work work{.threads = threads};
     Drawing drawing = read_drawing(contours, FillRule::even_odd);
-    StageOptions stages = stage_options({.threads = threads}, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
-    FittedFunction plain = fit(prepared, stages.fit);
-    const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, stages); };
-    RefinedFunction refined = refine(drawing, prepared, plain, image, fit_part, {.fit = stages.fit, .gate = gate});
+    StageOptions stages = stage_options({}, drawing.diameter_mm());
+    const PreparedContours prepared = prepare(drawing, stages, work);
+    FittedFunction plain = fit(prepared, stages.fit, work);
+    const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, stages, {.threads = 1}); };
+    RefinedFunction refined = refine(drawing, prepared, plain, image, fit_part, {.fit = stages.fit, .gate = gate}, work);
     return {std::move(drawing), std::move(plain), std::move(refined)};
 }
 

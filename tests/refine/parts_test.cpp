@@ -35,6 +35,24 @@ TEST(IntensityScale, OfNothingIsTheMiddle) {
     EXPECT_EQ(IntensityScale({4, 4, 4, std::nan("")})(100), 0.5);
 }
 
+TEST(IsLabelMap, TellsMasksAndLabelMapsFromIntensities) {
+    const Grid grid = cube_grid(2);
+    EXPECT_TRUE(is_label_map(image_of(grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? 1.0 : 0.0; })));
+    EXPECT_TRUE(is_label_map(image_of(grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? 180.0 : -60.5; })));
+    EXPECT_TRUE(
+        is_label_map(image_of(grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? std::floor(p.z / 12) + 9 : 0.0; })));
+    EXPECT_FALSE(is_label_map(image_of(grid, body_look)));
+    EXPECT_FALSE(is_label_map(image_of(grid, [](const Vec3&) { return 7.0; }))) << "nothing is drawn in it either";
+    const Image noisy = image_of(
+        grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? 100.0 : 40.0; }, 8);
+    Image whole = noisy;
+    for (float& v : std::get<std::vector<float>>(whole.samples)) v = std::round(v);
+    EXPECT_FALSE(is_label_map(noisy));
+    EXPECT_FALSE(is_label_map(whole));
+    for (float& v : std::get<std::vector<float>>(whole.samples)) v = std::max(v, 50.0F);
+    EXPECT_FALSE(is_label_map(whole)) << "a background of one value is no label";
+}
+
 TEST(Appearance, FindsTheOffsetOfABorderThatItHasLearnt) {
     const Image image = image_of(
         cube_grid(1), [](const Vec3& p) { return two_tissues(30 - norm(p)); }, 5);
@@ -46,13 +64,40 @@ TEST(Appearance, FindsTheOffsetOfABorderThatItHasLearnt) {
         const Vec3 normal{std::cos(angle), std::sin(angle), 0};
         examples.push_back({30.0 * normal, normal});
     }
-    const IntensityScale scale(intensities_across(intensities, examples, step, 1));
-    const Appearance appearance(intensities, scale, examples, step, 1);
+    const IntensityScale scale(intensities_across(intensities, examples, step, {.threads = 1}));
+    const Appearance appearance(intensities, scale, examples, step, {.threads = 1});
     for (const double off : {-3.0, -1.0, 0.0, 2.0}) {
         const Vec3 normal = normalized({1, 0.5, 0.8});
         const std::vector<double> likelihood = appearance.log_likelihood({(30 - off) * normal, normal}, 10);
         const auto best = std::max_element(likelihood.begin(), likelihood.end()) - likelihood.begin() - 10;
         EXPECT_NEAR(static_cast<double>(best) * step, off, 0.75) << off;
+    }
+}
+
+/// A dark body in a bright rind, and beyond that air, darker still. The rind is thick where the border was drawn, about the
+/// equator, and thin elsewhere.
+double rind_look(const Vec3& p) {
+    const double depth = 30 - norm(p), rind = std::abs(p.z) < 8 ? 20 : 6;
+    return depth > 0 ? 40 : depth > -rind ? 100 : 25;
+}
+
+TEST(Appearance, TakesNothingBeyondWhatItHasLearntForTheBody) {
+    const Image image = image_of(cube_grid(1, 60), rind_look, 5);
+    const Intensities intensities(image);
+    const double step = intensities.step_mm();
+    std::vector<MovingPoint> examples;
+    for (int n = 0; n < 200; ++n) {
+        const double angle = 2 * M_PI * n / 200;
+        const Vec3 normal{std::cos(angle), std::sin(angle), 0};
+        examples.push_back({30.0 * normal, normal});
+    }
+    const IntensityScale scale(intensities_across(intensities, examples, step, {.threads = 1}));
+    const Appearance appearance(intensities, scale, examples, step, {.threads = 1});
+    for (const Vec3& direction : {Vec3{0.3, 0.2, 1}, Vec3{0, 1, 1}, Vec3{-1, 0.4, -1}}) {
+        const Vec3 normal = normalized(direction);
+        const std::vector<double> likelihood = appearance.log_likelihood({30.0 * normal, normal}, 24);
+        const auto best = std::max_element(likelihood.begin(), likelihood.end()) - likelihood.begin() - 24;
+        EXPECT_NEAR(static_cast<double>(best) * step, 0, 1);
     }
 }
 

@@ -68,16 +68,28 @@ TEST(Refine, SaysThatTooLittleIsDrawnToTell) {
     EXPECT_NE(sentence(r.refined.report).find("not used"), std::string::npos);
 }
 
-TEST(Refine, SegmentUsesTheImageOnlyWhereAskedTo) {
+TEST(Refine, SegmentUsesTheImageUnlessToldNotTo) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     const Image image = image_of(cube_grid(2), body_look, 8);
     const Segmentation without = segment(contours, image.grid);
     const Segmentation off = segment(contours, image.grid, &image, {.use_image = UseImage::off});
-    const Segmentation with = segment(contours, image.grid, &image, {.use_image = UseImage::automatic});
+    const Segmentation with = segment(contours, image.grid, &image);
     EXPECT_EQ(without.mask.values, off.mask.values);
     EXPECT_EQ(off.report.image.verdict, ImageVerdict::none);
     EXPECT_EQ(with.report.image.verdict, ImageVerdict::used);
+    EXPECT_TRUE(off.report.image.asked.empty());
+    EXPECT_GT(with.report.image.asked.size(), 100u);
+    for (const AskedPoint& asked : with.report.image.asked) {
+        EXPECT_NEAR(with.function.value(asked.position), 0, 2.0) << "within a voxel";
+        EXPECT_GE(asked.share, 0);
+        EXPECT_LE(asked.share, 1);
+    }
+    EXPECT_GT(with.report.uncertainty.dice.value, without.report.uncertainty.dice.value);
     EXPECT_NE(without.mask.values, with.mask.values);
+    const Image labels = image_of(image.grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? 1.0 : 0.0; });
+    const Segmentation alone = segment(contours, image.grid, &labels);
+    EXPECT_EQ(alone.report.image.verdict, ImageVerdict::labels);
+    EXPECT_EQ(alone.mask.values, without.mask.values);
     std::int64_t wrong_without = 0, wrong_with = 0;
     for (std::int64_t k = 0; k < image.grid.size.k; ++k)
         for (std::int64_t j = 0; j < image.grid.size.j; ++j)

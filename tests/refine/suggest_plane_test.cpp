@@ -26,7 +26,7 @@ Plane axial(const Body& body, double fraction = 0.5) {
 }
 
 SuggestedPlane next_plane(const test::Fitted& made, const ContourSet& contours, const SuggestPlaneOptions& options = {}) {
-    const PlaneSuggestions found = suggest_planes(made.evidence, contours, 1, options);
+    const PlaneSuggestions found = suggest_planes(made.evidence, contours, 1, options, {.threads = 1});
     EXPECT_EQ(found.planes.size(), 1u);
     return found.planes.at(0);
 }
@@ -83,7 +83,7 @@ TEST(SuggestPlane, NearlyParallelPlanesOfAKidneyAreFollowedByOneAcross) {
     const ContourSet more = drawn(body, {next.plane});
     contours.contours.insert(contours.contours.end(), more.contours.begin(), more.contours.end());
     const test::Fitted after = fitted(contours, grid_for(body));
-    const Mask truth = make_truth_mask(body, grid_for(body), 1);
+    const Mask truth = make_truth_mask(body, grid_for(body), {.threads = 1});
     EXPECT_GT(test::dice(after.mask.values, truth.values), 0.85);
 }
 
@@ -92,7 +92,6 @@ TEST(SuggestPlane, NeverRepeatsADrawnPlaneAndNeverMissesTheObject) {
         for (const Body& body : {kidney(), vertebra()}) {
             SuggestPlaneOptions options{.planes = choice};
             options.grid = grid_for(body);
-            options.threads = 1;
             follow(body, 10, options, [&](const auto& planes, const test::Fitted& made, const SuggestedPlane& next) {
                 for (const Plane& plane : planes) {
                     if (std::abs(dot(plane.normal, next.plane.normal)) < 1 - 1e-9) continue;
@@ -109,7 +108,7 @@ TEST(SuggestPlane, DrawingItLowersTheExpectedErrorInNineOfTenSteps) {
     int steps = 0, lower = 0;
     for (const Body& body : {liver(), kidney(), metastasis(), vertebra()}) {
         double last = 0;
-        follow(body, 8, {.threads = 1}, [&](const auto& planes, const test::Fitted& made, const SuggestedPlane&) {
+        follow(body, 8, {}, [&](const auto& planes, const test::Fitted& made, const SuggestedPlane&) {
             if (planes.size() >= kLeastPlanes) {
                 const double now = sum_of_uncertainty(made);
                 if (last > 0) {
@@ -152,6 +151,17 @@ TEST(SuggestPlane, SkippedPlanesAreNotSuggestedAgain) {
     }
 }
 
+TEST(SuggestPlane, EmptyPlanesAreNotSuggestedAgain) {
+    const Body body = kidney();
+    ContourSet contours = drawn(body, test::three_planes(body.bounds().center()));
+    const test::Fitted made = fitted(contours, grid_for(body));
+    const Plane first = next_plane(made, contours).plane;
+    contours.empty_planes = {first};
+    const Plane second = next_plane(made, contours).plane;
+    EXPECT_NE(second, first);
+    EXPECT_EQ(second, next_plane(made, drawn(body, test::three_planes(body.bounds().center())), {.avoid = {first}}).plane);
+}
+
 TEST(SuggestPlane, AListLeavesLessAndLess) {
     const Body body = vertebra();
     const ContourSet contours = drawn(body, test::three_planes(body.bounds().center()));
@@ -168,7 +178,8 @@ TEST(SuggestPlane, TurnsMovesAndScalesWithTheDrawing) {
     const Body body = kidney();
     const ContourSet contours = drawn(body, test::three_planes(body.bounds().center()));
     const Grid grid = grid_for(body);
-    const PlaneSuggestions here = suggest_planes(fitted(contours, grid).evidence, contours, 4, {.grid = grid, .threads = 1});
+    const PlaneSuggestions here =
+        suggest_planes(fitted(contours, grid).evidence, contours, 4, {.grid = grid}, {.threads = 1});
 
     Affine3 motion = test::kOblique;
     const double scale = 3;
@@ -183,7 +194,7 @@ TEST(SuggestPlane, TurnsMovesAndScalesWithTheDrawing) {
     }
     const Grid moved_grid{grid.size, compose(motion, grid.index_to_mm)};
     const test::Fitted there = fitted(moved, moved_grid);
-    const PlaneSuggestions found = suggest_planes(there.evidence, moved, 4, {.grid = moved_grid, .threads = 1});
+    const PlaneSuggestions found = suggest_planes(there.evidence, moved, 4, {.grid = moved_grid}, {.threads = 1});
     ASSERT_EQ(found.planes.size(), here.planes.size());
     int same = 0;
     for (std::size_t n = 0; n < found.planes.size(); ++n) {
@@ -199,8 +210,8 @@ TEST(SuggestPlane, SameBytesForAnyNumberOfThreads) {
     const Body body = vertebra();
     const ContourSet contours = drawn(body, test::three_planes(body.bounds().center()));
     const test::Fitted made = fitted(contours, grid_for(body));
-    const PlaneSuggestions one = suggest_planes(made.evidence, contours, 3, {.grid = grid_for(body), .threads = 1}),
-                           four = suggest_planes(made.evidence, contours, 3, {.grid = grid_for(body), .threads = 4});
+    const PlaneSuggestions one = suggest_planes(made.evidence, contours, 3, {.grid = grid_for(body)}, {.threads = 1}),
+                           four = suggest_planes(made.evidence, contours, 3, {.grid = grid_for(body)}, {.threads = 4});
     ASSERT_EQ(one.planes.size(), four.planes.size());
     for (std::size_t n = 0; n < one.planes.size(); ++n) {
         EXPECT_EQ(one.planes[n].plane, four.planes[n].plane);
@@ -217,7 +228,7 @@ TEST(SuggestPlane, CostsAtMostTwentyMillionDistances) {
     ContourSet all = contours;
     all.contours.insert(all.contours.end(), across.contours.begin(), across.contours.end());
     const test::Fitted made = fitted(all, grid_for(body));
-    const PlaneSuggestions found = suggest_planes(made.evidence, all, 1, {.grid = grid_for(body), .threads = 1});
+    const PlaneSuggestions found = suggest_planes(made.evidence, all, 1, {.grid = grid_for(body)}, {.threads = 1});
     EXPECT_GT(found.candidates, 50);
     EXPECT_LE(found.candidates, 3 * 24 + 49 * 7);
     EXPECT_GT(found.distances, 0);

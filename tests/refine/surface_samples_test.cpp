@@ -17,7 +17,7 @@ const Vec3 kCenter{3, -50, 700};
 
 SurfaceLattice lattice_of(const Grid& grid) {
     const ImplicitFunction ball = test::ball_function(kCenter, kRadius);
-    return track_surface(ball, grid, std::vector<Vec3>{kCenter + Vec3{kRadius, 0, 0}}, 1);
+    return track_surface(ball, grid, std::vector<Vec3>{kCenter + Vec3{kRadius, 0, 0}}, {.threads = 1});
 }
 
 /// Not centred on the ball: its symmetry would make the same of many crossings.
@@ -44,7 +44,8 @@ void expect_ball(const SurfaceSamples& samples) {
 
 TEST(AreaSamples, SumsOverALatticesSamplesAreIntegralsOverTheBall) {
     for (const Grid& grid : grids()) {
-        const SurfaceSamples samples = sample_surface(lattice_of(grid), test::ball_function(kCenter, kRadius), 1200, 1);
+        const SurfaceSamples samples =
+            sample_surface(lattice_of(grid), test::ball_function(kCenter, kRadius), 1200, {.threads = 1});
         EXPECT_NEAR(static_cast<double>(samples.points.size()), 1200, 12);
         expect_ball(samples);
     }
@@ -52,15 +53,16 @@ TEST(AreaSamples, SumsOverALatticesSamplesAreIntegralsOverTheBall) {
 
 TEST(AreaSamples, SumsOverAMeshsSamplesAreTheSame) {
     const ImplicitFunction ball = test::ball_function(kCenter, kRadius);
-    const TriangleMesh mesh = polygonize(lattice_of(test::grid_about(kCenter, {90, 90, 90}, 0.5)), ball, 1);
-    const SurfaceSamples samples = sample_surface(mesh, ball, 1200, 1);
+    const TriangleMesh mesh = polygonize(lattice_of(test::grid_about(kCenter, {90, 90, 90}, 0.5)), ball, {.threads = 1});
+    const SurfaceSamples samples = sample_surface(mesh, ball, 1200, {.threads = 1});
     EXPECT_EQ(samples.points.size(), 1200u);
     expect_ball(samples);
 }
 
 TEST(AreaSamples, AreAsManyAsThereAreCrossingsWhereThoseAreFew) {
     const Grid coarse = test::grid_about(kCenter, {9, 9, 9}, 6);
-    const SurfaceSamples samples = sample_surface(lattice_of(coarse), test::ball_function(kCenter, kRadius), 100000, 1);
+    const SurfaceSamples samples =
+        sample_surface(lattice_of(coarse), test::ball_function(kCenter, kRadius), 100000, {.threads = 1});
     EXPECT_GT(samples.points.size(), 50u);
     EXPECT_LT(samples.points.size(), 500u);
 }
@@ -75,7 +77,8 @@ TEST(AreaSamples, LeaveOutWhereTheGridsBorderCutsTheObjectOff) {
     Grid half = usual_grid();
     half.size.k = 45;  // ends amid the ball
     half.index_to_mm.translation.z = kCenter.z - 44.5 * 0.8;
-    const SurfaceSamples samples = sample_surface(lattice_of(half), test::ball_function(kCenter, kRadius), 1200, 1);
+    const SurfaceSamples samples =
+        sample_surface(lattice_of(half), test::ball_function(kCenter, kRadius), 1200, {.threads = 1});
     const double area = 2 * std::numbers::pi * kRadius * kRadius;
     EXPECT_NEAR(samples.area_mm2(), area, 0.02 * area);
     for (const Vec3& p : samples.points) EXPECT_NEAR(distance(p, kCenter), kRadius, 0.02);

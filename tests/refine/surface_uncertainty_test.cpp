@@ -79,10 +79,31 @@ TEST(SurfaceUncertainty, DrawingsErrorWidensTheBand) {
     EXPECT_GT(with, before);
 }
 
+TEST(SurfaceUncertainty, WhatTheImageLeavesNarrowsTheBandToNoLessThanTheDrawingsError) {
+    const ContourSet contours = drawn(egg(), test::parallel_planes(egg(), 5));
+    SurfaceEvidence evidence = fitted(contours, test::grid_for(egg())).evidence;
+    const std::vector<double> without = half_widths_mm(evidence);
+    const double dice = expected_dice(evidence).value;
+    std::vector<AskedPoint> asked;
+    for (const Vec3& p : evidence.samples.points) asked.push_back({p, 0.4});
+    evidence.image = ImageShares(asked);
+    std::fill(evidence.shares.begin(), evidence.shares.end(), 0.4);
+    const std::vector<double> with = half_widths_mm(evidence),
+                              there = half_widths_mm(evidence, evidence.samples.points, {.threads = 2});
+    for (std::size_t n = 0; n < with.size(); ++n) {
+        EXPECT_LT(with[n], without[n]);
+        EXPECT_GE(with[n], 0.4 * without[n]);
+        EXPECT_GE(with[n], evidence.voxel_mm / 2);
+        EXPECT_NEAR(there[n] / with[n], 1, 0.35);
+    }
+    EXPECT_GT(expected_dice(evidence).value, dice);
+}
+
 TEST(SurfaceUncertainty, BandAtAnyPointAgreesWithTheSamples) {
     const test::Fitted egg_of_five = fitted(egg(), test::parallel_planes(egg(), 5));
     const SurfaceEvidence& evidence = egg_of_five.evidence;
-    const std::vector<double> own = half_widths_mm(evidence), asked = half_widths_mm(evidence, evidence.samples.points, 1);
+    const std::vector<double> own = half_widths_mm(evidence),
+                              asked = half_widths_mm(evidence, evidence.samples.points, {.threads = 1});
     ASSERT_EQ(own.size(), asked.size());
     for (std::size_t n = 0; n < own.size(); ++n) EXPECT_NEAR(asked[n] / own[n], 1, 0.35);  // |grad f| is a mean there
 }
@@ -105,7 +126,7 @@ TEST(SurfaceUncertainty, BandCoversPhantomsDrawnExactlyAndByHand) {
 
 TEST(SurfaceUncertainty, MapHoldsTheBandAtTheMasksBorderAlone) {
     const test::Fitted made = fitted(egg(), test::parallel_planes(egg(), 5));
-    const Image map = uncertainty_map(made.mask, made.evidence, 1);
+    const Image map = uncertainty_map(made.mask, made.evidence, {.threads = 1});
     ASSERT_EQ(map.grid, made.mask.grid);
     const Grid& grid = map.grid;
     const double step = grid.spacing_mm().x;
@@ -118,7 +139,7 @@ TEST(SurfaceUncertainty, MapHoldsTheBandAtTheMasksBorderAlone) {
                 ++filled;
                 const Vec3 at = grid.center_mm(i, j, k);
                 EXPECT_LT(std::abs(made.function.value(at)), 2 * step);
-                EXPECT_FLOAT_EQ(static_cast<float>(half_widths_mm(made.evidence, {at}, 1).front()),
+                EXPECT_FLOAT_EQ(static_cast<float>(half_widths_mm(made.evidence, {at}, {.threads = 1}).front()),
                                 static_cast<float>(width));
             }
     const double faces = made.evidence.samples.area_mm2() / (step * step);
@@ -126,7 +147,7 @@ TEST(SurfaceUncertainty, MapHoldsTheBandAtTheMasksBorderAlone) {
     EXPECT_LT(static_cast<double>(filled), 3 * faces);
 
     const test::Fitted two = fitted(egg(), test::parallel_planes(egg(), 2));
-    const Image empty = uncertainty_map(two.mask, two.evidence, 1);
+    const Image empty = uncertainty_map(two.mask, two.evidence, {.threads = 1});
     for (std::size_t n = 0; n < two.mask.values.size(); ++n) ASSERT_EQ(sample(empty, n), 0);
 }
 
@@ -134,8 +155,8 @@ TEST(SurfaceUncertainty, SameBytesForAnyNumberOfThreads) {
     const ContourSet contours = drawn(egg(), test::parallel_planes(egg(), 5));
     const test::Fitted one = fitted(contours, test::grid_for(egg()), 1), three = fitted(contours, test::grid_for(egg()), 3);
     EXPECT_EQ(half_widths_mm(one.evidence), half_widths_mm(three.evidence));
-    EXPECT_EQ(half_widths_mm(one.evidence, one.evidence.samples.points, 1),
-              half_widths_mm(one.evidence, one.evidence.samples.points, 3));
+    EXPECT_EQ(half_widths_mm(one.evidence, one.evidence.samples.points, {.threads = 1}),
+              half_widths_mm(one.evidence, one.evidence.samples.points, {.threads = 3}));
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ ContourSet moved(ContourSet set, const Affine3& turn, const Vec3& shift, double 
     }
     for (Vec3& p : set.interior) p = move(p);
     for (Vec3& p : set.exterior) p = move(p);
+    for (Plane& plane : set.empty_planes) plane = make_plane(move(plane.origin), turn.apply(plane.normal));
     return set;
 }
 
@@ -70,6 +71,7 @@ Drawing ball(const std::vector<double>& heights) {
         drawing.contours.contours.push_back(test::circle(make_plane({0, 0, z}, {0, 0, 1}), std::sqrt(400 - z * z), 60));
     drawing.contours.interior = {{0, 0, 1}};
     drawing.contours.exterior = {{0, 0, 24}};
+    drawing.contours.empty_planes = {make_plane({0, 0, -22}, {0, 0.1, 1})};
     return drawing;
 }
 

@@ -88,7 +88,7 @@ TEST(Preconditions, OfPreparingContours) {
     add<PrepareOptions>(rows, "copy_shift_mm", &PrepareOptions::copy_shift_mm, kBelow0, call, "copy");
     add<PrepareOptions>(rows, "click_margin_mm", &PrepareOptions::click_margin_mm, kNotAbove0, call, "margin");
     add<PrepareOptions>(rows, "corner_spacing_mm", &PrepareOptions::corner_spacing_mm, kNotAbove0, call, "corners");
-    add<PrepareOptions>(rows, "threads", &PrepareOptions::threads, {-1}, call, "threads is -1");
+    rows.push_back({"threads", [] { prepare(contours(), {}, {.threads = -1}); }, "threads is -1"});
 
     const Contour& contour = contours().contours.front();
     const std::function<void(const ReduceOptions&)> reducing = [&](const ReduceOptions& o) { reduce(contour, o); };
@@ -196,7 +196,7 @@ TEST(Preconditions, OfFitting) {
     add<SolveOptions>(rows, "tolerance_mm", &SolveOptions::tolerance_mm, kNotAbove0, solving, "tolerance");
     add<SolveOptions>(rows, "max_iterations", &SolveOptions::max_iterations, {0, -1}, solving, "iterations");
     add<SolveOptions>(rows, "max_memory_mb", &SolveOptions::max_memory_mb, {0, -1, kNan}, solving, "memory");
-    add<SolveOptions>(rows, "threads", &SolveOptions::threads, {-2}, solving, "threads");
+    rows.push_back({"threads", [&] { solve(constraints, {}, {.threads = -2}); }, "threads"});
     ConstraintSet values = constraints, trust = constraints, positions = constraints;
     values.values.pop_back();
     trust.trust.pop_back();
@@ -224,7 +224,7 @@ TEST(Preconditions, OfTheFunction) {
     rows.push_back({"gradients", [&] { function.gradients(points, two_gradients); }, "2 gradients for 3 points"});
     rows.push_back({"both", [&] { function.values_and_gradients(points, two, three_gradients); }, "2 values"});
     rows.push_back({"both", [&] { function.values_and_gradients(points, three, two_gradients); }, "2 gradients"});
-    rows.push_back({"threads", [&] { function.values(points, three, -1); }, "threads"});
+    rows.push_back({"threads", [&] { function.values(points, three, {.threads = -1}); }, "threads"});
     rows.push_back({"fast values", [&] { fast.values(points, two); }, "2 values for 3 points"});
     rows.push_back({"fast gradients", [&] { fast.gradients(points, two_gradients); }, "2 gradients for 3 points"});
     rows.push_back({"weights",
@@ -242,7 +242,7 @@ TEST(Preconditions, OfTheFunction) {
     add<FastOptions>(rows, "tolerance_mm", &FastOptions::tolerance_mm, kNotAbove0, call, "values");
     add<FastOptions>(rows, "gradient_tolerance", &FastOptions::gradient_tolerance, kNotAbove0, call, "gradients");
     add<FastOptions>(rows, "expected_points", &FastOptions::expected_points, {-1}, call, "expected points");
-    add<FastOptions>(rows, "threads", &FastOptions::threads, {-1}, call, "threads");
+    rows.push_back({"fast values", [&] { fast.values(points, three, {.threads = -1}); }, "threads"});
     expect_refused(rows);
 }
 
@@ -261,7 +261,7 @@ TEST(Preconditions, OfSegmenting) {
     for (const double value : {0.0, 1.5, kNan}) refuse("quality", [=](SegmentOptions& o) { o.quality = value; });
     for (const double value : {0.0, -5.0, kNan})
         refuse("max_memory_mb", [=](SegmentOptions& o) { o.max_memory_mb = value; });
-    refuse("threads", [](SegmentOptions& o) { o.threads = -1; });
+    rows.push_back({"threads", [] { segment(contours(), grid(), {}, {.threads = -1}); }, "threads"});
 
     Grid empty = grid(), flat = grid(), unknown = grid();
     empty.size.j = 0;
@@ -271,9 +271,10 @@ TEST(Preconditions, OfSegmenting) {
     const Body body = metastasis();
     for (const Grid& odd : {empty, flat, unknown}) {
         rows.push_back({"segment", [=] { segment(contours(), odd); }, "grid"});
-        rows.push_back({"track", [=] { track_surface(segmentation().function, odd, starts, 1); }, "grid"});
-        rows.push_back({"adaptive", [=] { track_surface_adaptively(segmentation().function, odd, starts, 1); }, "grid"});
-        rows.push_back({"everywhere", [=] { sample_everywhere(segmentation().function, odd, 1); }, "grid"});
+        rows.push_back({"track", [=] { track_surface(segmentation().function, odd, starts, {.threads = 1}); }, "grid"});
+        rows.push_back(
+            {"adaptive", [=] { track_surface_adaptively(segmentation().function, odd, starts, {.threads = 1}); }, "grid"});
+        rows.push_back({"everywhere", [=] { sample_everywhere(segmentation().function, odd, {.threads = 1}); }, "grid"});
         rows.push_back({"rasterize", [=] { rasterize(contours(), odd); }, "grid"});
         rows.push_back({"phantom", [=] { make_phantom_image(odd); }, "grid"});
         rows.push_back({"truth", [=] { make_truth_mask(body, odd); }, "grid"});
@@ -288,10 +289,10 @@ TEST(Preconditions, OfSegmenting) {
     }
     for (const double value : {kNan, kInfinite})
         rows.push_back({"margin", [=] { grid_around(bounding_box(contours()), {1, 1, 1}, value); }, "margin"});
-    const SurfaceLattice surface = track_surface(segmentation().function, grid(), starts, 1);
-    rows.push_back({"fill", [&] { fill(surface, -1); }, "threads"});
-    rows.push_back({"polygonize", [&] { polygonize(surface, segmentation().function, -1); }, "threads"});
-    rows.push_back({"residual", [&] { residual(segmentation().function, contours(), -1); }, "threads"});
+    const SurfaceLattice surface = track_surface(segmentation().function, grid(), starts, {.threads = 1});
+    rows.push_back({"fill", [&] { fill(surface, {.threads = -1}); }, "threads"});
+    rows.push_back({"polygonize", [&] { polygonize(surface, segmentation().function, {.threads = -1}); }, "threads"});
+    rows.push_back({"residual", [&] { residual(segmentation().function, contours(), {.threads = -1}); }, "threads"});
     expect_refused(rows);
 }
 
@@ -318,7 +319,8 @@ TEST(Preconditions, OfEditing) {
     }
     for (const double value : kBelow0) refuse("smoothing", [=](SegmentOptions& o) { o.smoothing = value; });
     for (const double value : {0.0, 1.5, kNan}) refuse("quality", [=](SegmentOptions& o) { o.quality = value; });
-    refuse("threads", [](SegmentOptions& o) { o.threads = -1; });
+    rows.push_back({"preview", [] { Editor().preview(contours(), {.threads = -1}); }, "threads"});
+    rows.push_back({"refine", [] { Editor().refine(contours(), {.threads = -1}); }, "threads"});
     expect_refused(rows);
 }
 
@@ -330,22 +332,20 @@ TEST(Preconditions, OfWhatComesAfter) {
     add<TraceOptions>(rows, "step_mm", &TraceOptions::step_mm, kBelow0, tracing, "step_mm");
     add<TraceOptions>(rows, "tolerance_mm", &TraceOptions::tolerance_mm, kBelow0, tracing, "tolerance_mm");
     add<TraceOptions>(rows, "min_area_mm2", &TraceOptions::min_area_mm2, kBelow0, tracing, "min_area_mm2");
-    add<TraceOptions>(rows, "threads", &TraceOptions::threads, {-1}, tracing, "threads");
-    add<CompareOptions>(
-        rows, "compare", &CompareOptions::threads, {-1}, [&](const CompareOptions& o) { compare(mask, mask, o); },
-        "threads");
+    rows.push_back({"trace", [&] { trace(mask, planes, {}, {.threads = -1}); }, "threads"});
+    rows.push_back({"compare", [&] { compare(mask, mask, {.threads = -1}); }, "threads"});
     const std::function<void(const PhantomOptions&)> painting = [](const PhantomOptions& o) {
         make_phantom_image(grid(), o);
     };
     add<PhantomOptions>(rows, "noise_hu", &PhantomOptions::noise_hu, kBelow0, painting, "noise");
-    add<PhantomOptions>(rows, "threads", &PhantomOptions::threads, {-1}, painting, "threads");
+    rows.push_back({"phantom", [] { make_phantom_image(grid(), {}, {.threads = -1}); }, "threads"});
     rows.push_back({"dense liver", [] { dense_liver_case({.points = 0}); }, "points"});
 
     rows.push_back({"trace", [&] { trace(short_mask(), planes); }, "values for a grid"});
     rows.push_back({"compare", [&] { compare(mask, short_mask()); }, "values for a grid"});
     rows.push_back({"components", [] { component_sizes(short_mask()); }, "values for a grid"});
     rows.push_back({"slices", [] { slice_contours(short_mask(), segmentation().function); }, "values for a grid"});
-    rows.push_back({"slices", [&] { slice_contours(mask, segmentation().function, -1); }, "threads"});
+    rows.push_back({"slices", [&] { slice_contours(mask, segmentation().function, {.threads = -1}); }, "threads"});
     rows.push_back({"box", [] { bounding_box(short_mask()); }, "values for a grid"});
     rows.push_back({"label", [] { select_label(short_image(), 1); }, "values for a grid"});
     rows.push_back({"nonzero", [] { select_nonzero(short_image()); }, "values for a grid"});
@@ -356,7 +356,7 @@ TEST(Preconditions, OfWhatComesAfter) {
 
     const TriangleMesh& mesh = *segmentation().mesh;
     rows.push_back({"picture", [&] { make_picture(mesh, contours(), nullptr, {.width_px = 10}); }, "picture"});
-    rows.push_back({"picture", [&] { make_picture(mesh, contours(), nullptr, {.threads = -1}); }, "threads"});
+    rows.push_back({"picture", [&] { make_picture(mesh, contours(), nullptr, {}, {.threads = -1}); }, "threads"});
     rows.push_back({"picture", [] { make_picture(broken_mesh(), contours(), nullptr); }, "mesh"});
     for (const double width : kNotAbove0)
         rows.push_back({"window",
@@ -384,7 +384,7 @@ TEST(Preconditions, OfWhatComesAfter) {
     rows.push_back({"shade", [&] { shade(mesh, tiny); }, "pixel"});
     rows.push_back({"shade", [&] { shade(mesh, good, {.samples = 0}); }, "samples"});
     rows.push_back({"shade", [&] { shade(broken_mesh(), good); }, "mesh"});
-    rows.push_back({"shade", [&] { shade(mesh, good, {.threads = -1}); }, "threads"});
+    rows.push_back({"shade", [&] { shade(mesh, good, {}, {.threads = -1}); }, "threads"});
     for (const double part : {-0.1, 1.1, kNan})
         for (const Vec3& color : {Vec3{part, 0, 0}, Vec3{0, part, 0}, Vec3{0, 0, part}})
             rows.push_back({"colour", [=, &mesh] { shade(mesh, good, {.color = color}); }, "of the material"});

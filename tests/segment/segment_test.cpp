@@ -108,11 +108,9 @@ TEST(Segment, SameBytesForAnyNumberOfThreads) {
         SegmentOptions options;
         options.solver = solver;
         options.mesh = true;
-        options.threads = 1;
-        const Segmentation one = segment(ball_contours(), ball_grid(), options);
+        const Segmentation one = segment(ball_contours(), ball_grid(), options, {.threads = 1});
         for (const int threads : {2, 4}) {
-            options.threads = threads;
-            const Segmentation many = segment(ball_contours(), ball_grid(), options);
+            const Segmentation many = segment(ball_contours(), ball_grid(), options, {.threads = threads});
             EXPECT_TRUE(std::ranges::equal(many.function.weights(), one.function.weights()));
             EXPECT_TRUE(many.mask.values == one.mask.values);
             EXPECT_EQ(many.mesh->points, one.mesh->points);
@@ -154,6 +152,35 @@ TEST(Segment, InteriorAndExteriorPointsGetTheirSide) {
     EXPECT_LT(without.value(bump), 0);
     EXPECT_LT(with.value(dent), 0);
     EXPECT_GT(with.value(bump), 0);
+}
+
+TEST(Segment, WhatIsSupposedInAnEmptyPlaneDisappearsAndContoursStay) {
+    ContourSet set;
+    for (const double z : {-12.0, -4.0, 4.0})
+        set.contours.push_back(test::circle(make_plane(kCenter + Vec3{0, 0, z}, {0, 0, 1}), 15, 60));
+    const Plane empty = make_plane(kCenter + Vec3{0, 0, 8}, {0, 0.1, 1});
+    const auto most_in = [&](const Segmentation& made, double least) {
+        double most = -1e9;
+        for (double x = -30; x <= 30; x += 1.5)
+            for (double y = -30; y <= 30; y += 1.5)
+                for (double z = least; z <= 0; z += 1)
+                    most = std::max(most, made.function.value(empty.from_uv(x, y) - z * empty.normal));
+        return most;
+    };
+    const Segmentation without = segment(set, ball_grid());
+    ASSERT_GT(most_in(without, 0), 0) << "there would be nothing to take away";
+    set.empty_planes = {empty};
+    const Segmentation with = segment(set, ball_grid());
+    EXPECT_LT(most_in(with, -15), 0) << "nor does anything go on behind it";
+    EXPECT_LT(with.report.residual.max_mm, 0.5);
+    EXPECT_LT(with.report.mask_voxels, without.report.mask_voxels);
+    EXPECT_EQ(with.report.mask_components, 1);
+    EXPECT_FALSE(warns(with.report, "nothing is seen"));
+
+    set.empty_planes = {make_plane(kCenter + Vec3{0, 0, 4}, {0, 0, 1})};
+    const Segmentation contradicted = segment(set, ball_grid());
+    EXPECT_EQ(contradicted.mask.values, without.mask.values);
+    EXPECT_TRUE(warns(contradicted.report, "contradicted by contour 3"));
 }
 
 TEST(Segment, SingleCircleIsAClosedBody) {
@@ -241,7 +268,7 @@ TEST(Segment, StopsAtWhicheverReportItIsAskedTo) {
     options.mesh = true;
     std::vector<std::pair<std::string, double>> reports;
     segment(contours, ball_grid(), options,
-            {[&](std::string_view stage, double done) { reports.emplace_back(stage, done); }, {}});
+            {.callback = [&](std::string_view stage, double done) { reports.emplace_back(stage, done); }});
     ASSERT_GT(reports.size(), 8u);
     for (const auto& [stage, done] : reports) {
         EXPECT_GE(done, 0) << stage;
@@ -250,11 +277,12 @@ TEST(Segment, StopsAtWhicheverReportItIsAskedTo) {
     for (std::size_t stop_at = 1; stop_at <= reports.size(); stop_at += stop_at < 3 ? 1 : reports.size() / 5) {
         std::stop_source source;
         std::size_t count = 0;
-        const Progress progress{[&](std::string_view, double) {
-                                    if (++count == stop_at) source.request_stop();
-                                },
-                                source.get_token()};
-        EXPECT_KONTUR_ERROR(segment(contours, ball_grid(), options, progress), ErrorKind::cancelled, "cancelled");
+        const Work work{.callback =
+                            [&](std::string_view, double) {
+                                if (++count == stop_at) source.request_stop();
+                            },
+                        .stop = source.get_token()};
+        EXPECT_KONTUR_ERROR(segment(contours, ball_grid(), options, work), ErrorKind::cancelled, "cancelled");
         EXPECT_EQ(count, stop_at);
     }
 }

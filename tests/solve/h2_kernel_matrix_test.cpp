@@ -66,7 +66,7 @@ std::vector<double> product(const KernelMatrix& matrix, const std::vector<double
 /// Largest error of the product with random weights, over the tolerance times the norm of the weights.
 double relative_error(Kernel kernel, const Points& points, const H2Options& options, std::mt19937& random) {
     const std::vector<double> w = random_weights(points.size(), random);
-    const std::vector<double> found = product(H2KernelMatrix(kernel, PointArrays(points), options, 2), w),
+    const std::vector<double> found = product(H2KernelMatrix(kernel, PointArrays(points), options, {.threads = 2}), w),
                               expected = exact_product(kernel, points, w);
     double squares = 0, largest = 0;
     for (const double v : w) squares += v * v;
@@ -123,7 +123,7 @@ TEST(H2KernelMatrix, DegenerateClustersDoNotSpoilIt) {
 TEST(H2KernelMatrix, IsSymmetric) {
     std::mt19937 random = test::random_of_this_test();
     const Points points = contours(2500);
-    const H2KernelMatrix matrix(Kernel::triharmonic, PointArrays(points), {.tolerance = 1e-4}, 2);
+    const H2KernelMatrix matrix(Kernel::triharmonic, PointArrays(points), {.tolerance = 1e-4}, {.threads = 2});
     const std::vector<double> a = random_weights(points.size(), random), b = random_weights(points.size(), random);
     const std::vector<double> ma = product(matrix, a), mb = product(matrix, b);
     double a_mb = 0, b_ma = 0, size = 0;
@@ -139,14 +139,15 @@ TEST(H2KernelMatrix, SameBytesForAnyNumberOfThreads) {
     std::mt19937 random = test::random_of_this_test();
     const Points points = contours(4000);
     const std::vector<double> w = random_weights(points.size(), random);
-    const std::vector<double> one = product(H2KernelMatrix(Kernel::triharmonic, PointArrays(points), {}, 1), w);
+    const std::vector<double> one = product(H2KernelMatrix(Kernel::triharmonic, PointArrays(points), {}, {.threads = 1}), w);
     for (const int threads : {2, 3, 8})
-        EXPECT_EQ(product(H2KernelMatrix(Kernel::triharmonic, PointArrays(points), {}, threads), w), one) << threads;
+        EXPECT_EQ(product(H2KernelMatrix(Kernel::triharmonic, PointArrays(points), {}, {.threads = threads}), w), one)
+            << threads;
 }
 
 TEST(H2KernelMatrix, EvaluationsAndMemoryGrowLinearly) {
     const auto matrix = [](std::size_t count) {
-        return H2KernelMatrix(Kernel::triharmonic, PointArrays(contours(count)), {.tolerance = 1e-6}, 2);
+        return H2KernelMatrix(Kernel::triharmonic, PointArrays(contours(count)), {.tolerance = 1e-6}, {.threads = 2});
     };
     const H2KernelMatrix small = matrix(5000), large = matrix(20000);
     EXPECT_LT(large.evaluations(), 5.5 * small.evaluations());
@@ -157,17 +158,17 @@ TEST(H2KernelMatrix, EvaluationsAndMemoryGrowLinearly) {
 TEST(H2KernelMatrix, StopsWhenAsked) {
     const PointArrays points(contours(3000));
     std::stop_source stop;
-    const H2KernelMatrix matrix(Kernel::triharmonic, points, {}, 2, {{}, stop.get_token()});
+    const H2KernelMatrix matrix(Kernel::triharmonic, points, {}, {.threads = 2, .stop = stop.get_token()});
     stop.request_stop();
     const std::vector<double> w(points.size(), 1.0);
     EXPECT_THROW(product(matrix, w), Error);
-    EXPECT_THROW(H2KernelMatrix(Kernel::triharmonic, points, {}, 2, {{}, stop.get_token()}), Error);
+    EXPECT_THROW(H2KernelMatrix(Kernel::triharmonic, points, {}, {.threads = 2, .stop = stop.get_token()}), Error);
 }
 
 TEST(ClusterTree, ClustersAreRunsInTheirBoxes) {
     std::mt19937 random = test::random_of_this_test();
     const Points points = cloud(1000, random);
-    const ClusterTree tree(PointArrays(points), 20, 3);
+    const ClusterTree tree(PointArrays(points), 20, {.threads = 3});
     EXPECT_EQ(std::set<std::int32_t>(tree.order.begin(), tree.order.end()).size(), points.size());
     for (const Cluster& cluster : tree.clusters) {
         for (std::int32_t i = cluster.begin; i < cluster.end; ++i)
@@ -189,7 +190,7 @@ TEST(ClusterTree, ClustersAreRunsInTheirBoxes) {
 TEST(PartitionPairs, EveryPairOfPointsIsInOneBlock) {
     std::mt19937 random = test::random_of_this_test();
     const std::size_t n = 400;
-    const ClusterTree tree(PointArrays(cloud(n, random)), 8, 1);
+    const ClusterTree tree(PointArrays(cloud(n, random)), 8, {.threads = 1});
     const Partition partition = partition_pairs(tree, 1.5);
     EXPECT_GT(partition.far.size(), 0u);
     std::vector<int> seen(n * n);

@@ -32,8 +32,8 @@ TEST(DirectKernelMatrix, MultipliesAsTheFullSumDoes) {
         for (const std::size_t count : {1, 2, 31, 32, 33, 64, 65, 1000, 1500}) {
             const Problem p = random_problem(count, random);
             std::vector<double> expected(count), product(count, -1.0);
-            sum_kernel(kernel, p.points, p.weights, p.points, expected, 1);
-            DirectKernelMatrix(kernel, p.points, 2).multiply(p.weights, product);
+            sum_kernel(kernel, p.points, p.weights, p.points, expected, {.threads = 1});
+            DirectKernelMatrix(kernel, p.points, {.threads = 2}).multiply(p.weights, product);
             for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << count << " points, " << i;
         }
 }
@@ -42,9 +42,9 @@ TEST(DirectKernelMatrix, IsTheSameForAnyNumberOfThreads) {
     std::mt19937 random = test::random_of_this_test();
     const Problem p = random_problem(1234, random);
     std::vector<double> one(1234), other(1234);
-    DirectKernelMatrix(Kernel::triharmonic, p.points, 1).multiply(p.weights, one);
+    DirectKernelMatrix(Kernel::triharmonic, p.points, {.threads = 1}).multiply(p.weights, one);
     for (const int threads : {2, 3, 8}) {
-        DirectKernelMatrix(Kernel::triharmonic, p.points, threads).multiply(p.weights, other);
+        DirectKernelMatrix(Kernel::triharmonic, p.points, {.threads = threads}).multiply(p.weights, other);
         EXPECT_EQ(one, other) << threads;
     }
 }

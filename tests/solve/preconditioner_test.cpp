@@ -129,9 +129,10 @@ TEST(Preconditioner, IsSymmetricDefiniteAndTheSameForAnyNumberOfThreads) {
     std::normal_distribution<double> normal;
     const PointArrays points = random_points(1500, random);
     const auto made_with = [&](int threads) {
-        return Preconditioner(Kernel::triharmonic,
-                              std::make_shared<PreconditionerPattern>(points, PreconditionerOptions{}, threads),
-                              std::vector(points.size(), 0.0), threads);
+        return Preconditioner(
+            Kernel::triharmonic,
+            std::make_shared<PreconditionerPattern>(points, PreconditionerOptions{}, Work{.threads = threads}),
+            std::vector(points.size(), 0.0), {.threads = threads});
     };
     const Preconditioner one = made_with(1);
     std::vector<double> a(points.size()), b(points.size()), ma(a.size()), mb(a.size()), again(a.size());
@@ -172,7 +173,7 @@ TEST(PreconditionerPattern, StopsWhenAsked) {
     std::mt19937 random = test::random_of_this_test();
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW(PreconditionerPattern(random_points(2000, random), {}, 2, {{}, stop.get_token()}), Error);
+    EXPECT_THROW(PreconditionerPattern(random_points(2000, random), {}, {.threads = 2, .stop = stop.get_token()}), Error);
 }
 
 TEST(EarlierNeighbours, AreTheNearestToAnyMember) {
@@ -180,7 +181,7 @@ TEST(EarlierNeighbours, AreTheNearestToAnyMember) {
     PointArrays points = random_points(1200, random);
     for (std::size_t i = 301; i < 330; ++i)
         for (auto* axis : {&points.x, &points.y, &points.z}) (*axis)[i] = (*axis)[300] + 0.1 * (*axis)[i];
-    const EarlierNeighbours neighbours(points, 2);
+    const EarlierNeighbours neighbours(points, {.threads = 2});
     for (const auto& [begin, end, count] :
          {std::array{0, 4, 10}, {5, 9, 10}, {300, 330, 40}, {700, 701, 25}, {1100, 1120, 2000}}) {
         std::vector<std::pair<double, int>> all;

@@ -202,9 +202,9 @@ TEST(Solve, SameBytesForAnyNumberOfThreads) {
     const ConstraintSet set = crossing_contours(70);  // several tiles and supernodes
     ASSERT_GT(set.size(), 1000u);
     for (const Solver solver : kSolvers) {
-        const ImplicitFunction one = solve(set, {.solver = solver, .threads = 1}).function;
+        const ImplicitFunction one = solve(set, {.solver = solver}, {.threads = 1}).function;
         for (const int threads : {2, 3, 8}) {
-            const ImplicitFunction many = solve(set, {.solver = solver, .threads = threads}).function;
+            const ImplicitFunction many = solve(set, {.solver = solver}, {.threads = threads}).function;
             EXPECT_TRUE(std::ranges::equal(many.weights(), one.weights())) << name(solver) << " " << threads;
             EXPECT_EQ(many.polynomial(), one.polynomial()) << name(solver) << " " << threads;
         }
@@ -313,7 +313,7 @@ TEST(Solve, StopsWhenAskedTo) {
     for (const Solver solver : kSolvers) {
         std::stop_source source;
         source.request_stop();
-        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {{}, source.get_token()}), ErrorKind::cancelled, "cancelled");
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {.stop = source.get_token()}), ErrorKind::cancelled, "cancelled");
     }
     for (const Solver solver : {Solver::cholesky, Solver::iterative}) {  // half-way; dsysv cannot be interrupted
         std::stop_source source;
@@ -321,8 +321,8 @@ TEST(Solve, StopsWhenAskedTo) {
         const auto stop_at_the_third = [&](std::string_view, double) {
             if (++reports == 3) source.request_stop();
         };
-        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {stop_at_the_third, source.get_token()}), ErrorKind::cancelled,
-                            "cancelled");
+        EXPECT_KONTUR_ERROR(solve(set, {.solver = solver}, {.callback = stop_at_the_third, .stop = source.get_token()}),
+                            ErrorKind::cancelled, "cancelled");
         EXPECT_EQ(reports, 3) << name(solver);
     }
 }
@@ -354,7 +354,7 @@ TEST(Solve, HierarchicalProductsReachTheToleranceAndAgreeWithCholesky) {
 TEST(Solve, HierarchicalProductsGiveTheSameBytesForAnyNumberOfThreads) {
     const ConstraintSet set = crossing_contours(80);
     const auto weights = [&](int threads) {
-        const Solution solution = solve(set, {.products = Products::hierarchical, .threads = threads});
+        const Solution solution = solve(set, {.products = Products::hierarchical}, {.threads = threads});
         return std::vector<double>(solution.function.weights().begin(), solution.function.weights().end());
     };
     const std::vector<double> one = weights(1);

@@ -99,8 +99,8 @@ TEST(SlicePanel, SurfaceContourAndCrossingHaveTheirColoursAtTheirPlaces) {
 TEST(SurfacePanel, HiddenHalfOfAContourIsFaint) {
     const TriangleMesh mesh = ball({}, 20, 5);
     Canvas canvas(300, 300), empty(300, 300);
-    picture::draw_surface_panel(canvas, {{0, 0, 300, 300}, 1}, mesh, three_circles({}, 20), 1);
-    picture::draw_surface_panel(empty, {{0, 0, 300, 300}, 1}, {}, three_circles({}, 20), 1);
+    picture::draw_surface_panel(canvas, {{0, 0, 300, 300}, 1}, mesh, three_circles({}, 20), {.threads = 1});
+    picture::draw_surface_panel(empty, {{0, 0, 300, 300}, 1}, {}, three_circles({}, 20), {.threads = 1});
     const int with_surface = count_color(canvas.image(), picture::kDrawn), all = count_color(empty.image(), picture::kDrawn);
     EXPECT_GT(with_surface, 0.4 * all);
     EXPECT_LT(with_surface, 0.75 * all);
@@ -109,13 +109,12 @@ TEST(SurfacePanel, HiddenHalfOfAContourIsFaint) {
 TEST(Picture, HasTheAskedSizeAndTheSameBytesForAnyNumberOfThreads) {
     const TriangleMesh mesh = ball({10, 20, 30}, 15, 4);
     const ContourSet set = three_circles({10, 20, 30}, 18);
-    PictureOptions options{.width_px = 640, .height_px = 400, .facts = {{"Residual", "0.1 mm"}}, .threads = 1};
-    const RgbImage one = make_picture(mesh, set, nullptr, options);
+    PictureOptions options{.width_px = 640, .height_px = 400, .facts = {{"Residual", "0.1 mm"}}};
+    const RgbImage one = make_picture(mesh, set, nullptr, options, {.threads = 1});
     EXPECT_EQ(one.width, 640);
     EXPECT_EQ(one.height, 400);
     EXPECT_EQ(one.bytes.size(), 3u * 640 * 400);
-    options.threads = 3;
-    EXPECT_EQ(make_picture(mesh, set, nullptr, options), one);
+    EXPECT_EQ(make_picture(mesh, set, nullptr, options, {.threads = 3}), one);
     EXPECT_GT(count_color(one, picture::kSurface), 100);
     EXPECT_GT(count_color(one, picture::kDrawn), 200);
 }

@@ -51,7 +51,7 @@ TEST(Camera, FitShowsEverythingWithItsMargin) {
 TEST(RenderDepth, BallHasItsDepthNormalAndAreaEverywhere) {
     const Vec3 center{3, -4, 5};
     const Camera camera{view_plane(center, {0.4, -0.8, 0.3}), 120, 120, 0.2};
-    const DepthBuffer buffer = render_depth(ball(center, 10, 5), camera, 2);
+    const DepthBuffer buffer = render_depth(ball(center, 10, 5), camera, {.threads = 2});
     int covered = 0;
     for (int y = 0; y < 120; ++y)
         for (int x = 0; x < 120; ++x) {
@@ -71,7 +71,7 @@ TEST(RenderDepth, BallHasItsDepthNormalAndAreaEverywhere) {
 TEST(RenderDepth, LeavesNoGapBetweenTrianglesOfAnySize) {
     for (const int levels : {0, 2, 7}) {
         const Camera camera{view_plane({}, {0.3, -0.7, 0.6}), 64, 64, 0.01};
-        const DepthBuffer buffer = render_depth(ball({}, 1, levels), camera, 1);
+        const DepthBuffer buffer = render_depth(ball({}, 1, levels), camera, {.threads = 1});
         for (const auto& pixel : buffer.pixels) ASSERT_TRUE(pixel.is_covered()) << levels;
     }
 }
@@ -85,13 +85,14 @@ TEST(RenderDepth, NearerSurfaceHidesTheFarther) {
     }
     mesh.points.insert(mesh.points.end(), front.points.begin(), front.points.end());
     mesh.normals.insert(mesh.normals.end(), front.normals.begin(), front.normals.end());
-    const DepthBuffer buffer = render_depth(mesh, {view_plane({}, kFromFront), 101, 101, 0.2}, 1);
+    const DepthBuffer buffer = render_depth(mesh, {view_plane({}, kFromFront), 101, 101, 0.2}, {.threads = 1});
     EXPECT_NEAR(buffer.at(50, 50).depth_mm, 52, 0.1);
     EXPECT_NEAR(buffer.at(50, 30).depth_mm, 3, 0.1);
 }
 
 TEST(RenderDepth, ClipsWhatLiesBesideThePicture) {
-    const DepthBuffer buffer = render_depth(ball({1000, 0, 0}, 5, 3), {view_plane({}, kFromFront), 50, 50, 0.2}, 1);
+    const DepthBuffer buffer =
+        render_depth(ball({1000, 0, 0}, 5, 3), {view_plane({}, kFromFront), 50, 50, 0.2}, {.threads = 1});
     for (const auto& pixel : buffer.pixels) EXPECT_FALSE(pixel.is_covered());
 }
 
@@ -104,7 +105,8 @@ TEST(RenderDepth, LeavesOutTrianglesThatAreNotFinite) {
         mesh.points.insert(mesh.points.end(), {{bad, 0, 0}, {0, bad, 0}, {0, 0, bad}});
         mesh.normals.resize(mesh.points.size());
         mesh.triangles.push_back({first, first + 1, first + 2});
-        const DepthBuffer expected = render_depth(whole, camera, 1), buffer = render_depth(mesh, camera, 1);
+        const DepthBuffer expected = render_depth(whole, camera, {.threads = 1}),
+                          buffer = render_depth(mesh, camera, {.threads = 1});
         for (std::size_t i = 0; i < buffer.pixels.size(); ++i)
             ASSERT_EQ(buffer.pixels[i].depth_mm, expected.pixels[i].depth_mm) << bad;
     }
@@ -149,8 +151,8 @@ TEST(Shade, HollowIsDarkerThanTheSameSlopeInTheOpen) {
 TEST(Shade, SameBytesForAnyNumberOfThreads) {
     const TriangleMesh mesh = test::torus({}, 10, 4, 64);
     const Camera camera = fit_camera(view_plane({}, {1, -1, 1}), mesh.points, 150, 200, 0.05);
-    const ShadedSurface one = shade(mesh, camera, {.threads = 1});
-    for (const int threads : {2, 5}) EXPECT_EQ(shade(mesh, camera, {.threads = threads}).argb, one.argb);
+    const ShadedSurface one = shade(mesh, camera, {}, {.threads = 1});
+    for (const int threads : {2, 5}) EXPECT_EQ(shade(mesh, camera, {}, {.threads = threads}).argb, one.argb);
 }
 
 TEST(Shade, EmptyMeshLeavesThePictureEmpty) {

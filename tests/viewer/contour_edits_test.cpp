@@ -121,12 +121,22 @@ TEST_F(ContourEdits, APullBendsTheLineWithinItsRadiusOnly) {
     const DrawnContour bent = pull(free, kPlane.from_uv(10, 0), kPlane.from_uv(12, 0), 5.0, edges);
     expect_sound(bent, free);
     double farthest = 0;
-    for (std::size_t i = 0; i < free.points.size(); ++i) {
-        const double moved = distance(bent.points[i], free.points[i]);
-        farthest = std::max(farthest, moved);
-        EXPECT_TRUE(distance(free.points[i], free.points[0]) <= 5 || moved < 1e-12);
+    for (const Vec3& p : free.points) {
+        const double moved = distance(bent.points[nearest_point(bent.points, p)], p);
+        EXPECT_TRUE(distance(p, free.points[0]) <= 5 || moved < 1e-12);
     }
-    EXPECT_NEAR(farthest, 2, 1e-9);
+    for (const Vec3& p : bent.points) farthest = std::max(farthest, p.x);
+    EXPECT_NEAR(farthest, free.points[0].x + 2, 1e-9);
+}
+
+TEST_F(ContourEdits, AStraightSideWithoutPointsIsPulledWhereItIsTaken) {
+    const std::vector<Vec3> corners{kPlane.from_uv(0, -10), kPlane.from_uv(0, 10), kPlane.from_uv(-15, 0)};
+    const DrawnContour triangle = as_drawn({kPlane, corners, true, false});
+    const DrawnContour bent = pull(triangle, kPlane.from_uv(0, 1), kPlane.from_uv(3, 1), 5.0, edges);
+    double farthest = 0;
+    for (const Vec3& p : bent.points) farthest = std::max(farthest, (p - kPlane.origin).x);
+    EXPECT_NEAR(farthest, 3, 1e-9);
+    for (const Vec3& corner : corners) EXPECT_EQ(bent.points[nearest_point(bent.points, corner)], corner);
     EXPECT_KONTUR_ERROR(pull(free, {}, {}, 0.0, edges), ErrorKind::invalid_input, "radius");
 }
 

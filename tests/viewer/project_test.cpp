@@ -116,6 +116,28 @@ TEST(Project, UndoAndRedoWalkThroughEveryStateAcrossReopening) {
     }
 }
 
+TEST(Project, BordersAreAStepOfTheHistoryLikeAnyOther) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    const Borders shared{.shared = true}, parted{false, {{1, 2, Relation::inside}}};
+    {
+        Project project(path, kImage);
+        EXPECT_EQ(project.state().borders, shared) << "of a new project";
+        Commit step{"Share no borders", {}, {}};
+        step.borders = BordersChange{project.state().borders, parted};
+        EXPECT_FALSE(step.is_empty());
+        project.commit(step);
+    }
+    Project project(path, kImage);
+    EXPECT_EQ(project.state().borders, parted);
+    EXPECT_EQ(project.undo()->borders->after, shared);
+    EXPECT_EQ(project.state().borders, shared);
+    project.redo();
+    EXPECT_EQ(project.state().borders, parted);
+    project.database().run("DELETE FROM setting WHERE key = 'borders'");
+    EXPECT_EQ(project.undo()->label, "Share no borders");
+}
+
 TEST(Project, WhatItBeginsWithIsKeptAndCannotBeUndone) {
     const TemporaryFolder folder;
     Id first = 0;

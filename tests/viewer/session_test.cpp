@@ -185,6 +185,29 @@ TEST(Session, SaysHowSureTheSurfaceIsAndWhereToDrawNext) {
     request["skip"] = 7;
     EXPECT_EQ(called(here.session, request)["error"]["kind"], "invalid_input");
 
+    // What is said to be empty is kept out of, until that is undone.
+    const auto volume = [&] {
+        here.session.wait_for_surfaces();
+        const json told = json::parse(here.session.greeting())["surfaces"];
+        for (const json& surface : told)
+            if (surface["structure"] == ball) return surface["volume_ml"].get<double>();
+        return 0.0;
+    };
+    const double before = volume();
+    json empty = first[0]["plane"];
+    for (int axis = 0; axis < 3; ++axis)
+        empty["origin"][axis] = test::kPlane.origin[axis] + (axis == 0 ? 7.5 : axis == 1 ? 7.5 : 0);
+    empty["normal"] = {std::sqrt(0.5), std::sqrt(0.5), 0};
+    empty["u"] = {0, 0, 1};
+    empty["v"] = {std::sqrt(0.5), -std::sqrt(0.5), 0};
+    const json changed = called(here.session, {{"call", "structure.set"}, {"id", ball}, {"empty_planes", {empty}}});
+    EXPECT_EQ(changed["result"]["structure"]["empty_planes"].size(), 1u);
+    EXPECT_EQ(contour_set(here.session.state(), ball).empty_planes.size(), 1u);
+    EXPECT_LE(volume(), before);
+    EXPECT_TRUE(called(here.session, {{"call", "undo"}})["result"]["label"].get<std::string>().starts_with("Nothing of "));
+    EXPECT_TRUE(contour_set(here.session.state(), ball).empty_planes.empty());
+    EXPECT_EQ(volume(), before);
+
     const json across = called(here.session, {{"call", "suggest"}, {"structure", flat}})["result"]["planes"];
     ASSERT_EQ(across.size(), 1u);
     const json& normal = across[0]["plane"]["normal"];

@@ -108,7 +108,8 @@ def test_the_page_is_there_before_a_large_image_and_sees_how_far_it_is(tmp_path,
             while (event := page.receive())["event"] == "opening":
                 fractions.append(event["fraction"])
             assert event["event"] == "opened"
-            assert len(fractions) > 3 and fractions == sorted(fractions)
+            assert fractions == sorted(fractions)
+            assert len(fractions) > 3 or greeting["opening"]["fraction"] > 0.5  # the page came late
         assert process.stdout.readline().startswith(f"project {tmp_path / 'big.kontur'};")
         assert Page(server).greeting["event"] == "session"
     finally:

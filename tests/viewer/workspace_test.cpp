@@ -52,8 +52,8 @@ public:
     }
 
 private:
-    std::shared_ptr<Session> made(const Progress& progress) {
-        if (opener) return opener(progress);
+    std::shared_ptr<Session> made(const Work& work) {
+        if (opener) return opener(work);
         return std::make_shared<Session>(OpenedImage{test::flat_image(), "flat", {(root_ / "image.nii").string(), "a"}, {}},
                                          root_ / "a.kontur");
     }
@@ -64,8 +64,8 @@ private:
     std::vector<json> events_;
 
 public:
-    std::function<std::shared_ptr<Session>(const Progress&)> opener;
-    Workspace workspace{{[this](const OpenRequest&, const Progress& progress) { return made(progress); },
+    std::function<std::shared_ptr<Session>(const Work&)> opener;
+    Workspace workspace{{[this](const OpenRequest&, const Work& work) { return made(work); },
                          Places(std::vector<Place>{{"Here", root_}}), root_ / "recent.json"}};
 };
 
@@ -106,7 +106,7 @@ TEST(Workspace, NothingOfAnEarlierSessionReachesALaterOne) {
 
 TEST(Workspace, TellsWhyAnImageCannotBeOpened) {
     Desk desk;
-    desk.opener = [](const Progress&) -> std::shared_ptr<Session> { throw Error(ErrorKind::corrupt_file, "it is damaged"); };
+    desk.opener = [](const Work&) -> std::shared_ptr<Session> { throw Error(ErrorKind::corrupt_file, "it is damaged"); };
     desk.open();
     EXPECT_EQ(desk.told(), (std::vector<std::string>{"opening", "failed"}));
     EXPECT_EQ(desk.greeting()["sentence"], "it is damaged");
@@ -118,10 +118,10 @@ TEST(Workspace, TellsWhyAnImageCannotBeOpened) {
 TEST(Workspace, ReadingCanBeCancelledAndIsTheOnlyOneMeanwhile) {
     Desk desk;
     std::promise<void> begun;
-    desk.opener = [&](const Progress& progress) -> std::shared_ptr<Session> {
+    desk.opener = [&](const Work& work) -> std::shared_ptr<Session> {
         begun.set_value();
         for (;;) {
-            progress.report("read voxels", 0.25);
+            work.report("read voxels", 0.25);
             std::this_thread::sleep_for(1ms);
         }
     };

@@ -69,6 +69,13 @@ std::string shortened(std::string_view text, std::size_t most_bytes) {
     return printable_utf8(text.substr(0, length)) + std::string(kMore);
 }
 
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+}
+
 std::string without_case(std::string_view text) {
     std::string small(text);
     for (std::size_t i = 0; i < small.size(); ++i) {

@@ -21,6 +21,9 @@ std::string printable_utf8(std::string_view text);
 /// The same, with all but its beginning left out when it has more bytes than that.
 std::string shortened(std::string_view text, std::size_t most_bytes);
 
+/// With small letters for the capitals of ASCII: extensions and keywords.
+std::string lower_case(std::string_view text);
+
 /// With small letters for capitals, those of Latin-1 with accents among them: by this, names are compared that people type.
 std::string without_case(std::string_view text);
 

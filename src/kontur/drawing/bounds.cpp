@@ -4,19 +4,20 @@
 #include <fmt/format.h>
 
 #include "kontur/base/parallel.h"
+#include "kontur/drawing/empty_planes.h"
 #include "kontur/drawing/end_bounds.h"
 #include "kontur/drawing/plane_bounds.h"
 
 namespace kontur {
 
-Bounds find_bounds(const DrawnPlanes& planes, int threads) {
+Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
     const std::vector<DrawnRegion> regions = drawn_regions(planes);
     struct Found {
         std::vector<Bound> bounds[3];
         bool is_guess[2] = {};
     };
     std::vector<Found> found(regions.size());
-    parallel_for(static_cast<std::int64_t>(regions.size()), 1, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(regions.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
             found[r].bounds[0] = plane_bounds(planes, regions, r);
             found[r].bounds[1] = end_bounds(planes, regions, r, 1, found[r].is_guess[0]);
@@ -32,6 +33,10 @@ Bounds find_bounds(const DrawnPlanes& planes, int threads) {
                 fmt::format("contour {} has no others beside it that tell how far the object goes on; the thickness of the "
                             "object there is a guess from its width",
                             regions[r].section.contours.front() + 1));
+    }
+    for (const Plane& empty : planes.set.empty_planes) {
+        const std::vector<Bound> some = empty_plane_bounds(planes, regions, empty);
+        result.bounds.insert(result.bounds.end(), some.begin(), some.end());
     }
     return result;
 }

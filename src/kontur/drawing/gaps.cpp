@@ -103,11 +103,11 @@ double gap(const PlaneLines& lines_here, const Vec3& from, const Vec3& direction
 }  // namespace
 
 void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
-               int threads) {
+               const Work& work) {
     const AllLines lines = lines_of(set, tolerance_mm);
     // Points of refined contours lie on their edge only up to rounding.
     const double own_edge = 1e-5 * tolerance_mm;
-    parallel_for(static_cast<std::int64_t>(points.size()), 128, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(points.size()), 128, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
             if (point.contour == kNoContour || point.inplane_normal == Vec3{}) continue;

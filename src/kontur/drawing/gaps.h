@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/boundary_point.h"
 #include "kontur/shape/contour.h"
 
@@ -13,6 +14,6 @@ namespace kontur {
 /// itself do not count. Contours share a plane within `tolerance_mm` (shared_planes). A point costs the logarithm of the
 /// edges in its plane and those that lie as near as the line found.
 void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
-               int threads = 0);
+               const Work& work = {});
 
 }  // namespace kontur

@@ -12,7 +12,9 @@
 #include "kontur/base/error.h"
 #include "kontur/drawing/clicks.h"
 #include "kontur/drawing/drawn_planes.h"
+#include "kontur/drawing/empty_planes.h"
 #include "kontur/drawing/ends.h"
+#include "kontur/drawing/far_bounds.h"
 #include "kontur/drawing/gaps.h"
 #include "kontur/drawing/orient.h"
 #include "kontur/drawing/reduce.h"
@@ -104,15 +106,19 @@ void append_boundary(const ContourSet& set, std::size_t drawn, const DrawnCorner
         if (!set.contours[c].closed) append_open(set.contours[c], index(c), prepared);
 }
 
-void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, PreparedContours& prepared) {
+void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, const Work& work, PreparedContours& prepared) {
     if (options.bounds) {
-        Bounds limits = find_bounds(planes, options.threads);
+        Bounds limits = find_bounds(planes, work);
         prepared.bounds = std::move(limits.bounds);
         if (!prepared.coplanar) prepared.notes.insert(prepared.notes.end(), limits.notes.begin(), limits.notes.end());
         const Ends ends = find_ends(planes);
         prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
         prepared.bounds.insert(prepared.bounds.end(), ends.guards.begin(), ends.guards.end());
         prepared.notes.insert(prepared.notes.end(), ends.notes.begin(), ends.notes.end());
+        const std::vector<Bound> far = far_bounds(planes.set);
+        prepared.bounds.insert(prepared.bounds.end(), far.begin(), far.end());
+        const std::vector<std::string> contradicted = contradicted_empty_planes(planes);
+        prepared.notes.insert(prepared.notes.end(), contradicted.begin(), contradicted.end());
     }
     const std::vector<Bound> clicks = click_bounds(planes.set, options.click_margin_mm);
     prepared.bounds.insert(prepared.bounds.end(), clicks.begin(), clicks.end());
@@ -142,12 +148,11 @@ void check_prepare_options(const PrepareOptions& options) {
     check_not_below_0("the shift of the copy", options.copy_shift_mm, " mm");
     check_above_0("the margin of interior and exterior points", options.click_margin_mm, " mm");
     check_above_0("the spacing at corners", options.corner_spacing_mm, " mm");
-    check_threads(options.threads);
 }
 
 }  // namespace
 
-PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options) {
+PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, const Work& work) {
     check_prepare_options(options);
     PreparedContours prepared;
     const double diameter = drawing.diameter_mm();
@@ -166,8 +171,8 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options) 
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), corners, prepared);
-    if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, options.threads);
-    append_limits(planes, options, prepared);
+    if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, work);
+    append_limits(planes, options, work, prepared);
     return prepared;
 }
 

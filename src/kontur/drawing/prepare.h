@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kontur/base/smallest_ball.h"
+#include "kontur/base/work.h"
 #include "kontur/drawing/boundary_point.h"
 #include "kontur/drawing/bounds.h"
 #include "kontur/drawing/corners.h"
@@ -21,7 +22,6 @@ struct PrepareOptions {
     double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
     bool gaps = true;          ///< keep normal constraints clear of the opposite wall (find_gaps)
     double click_margin_mm = 1.0;        ///< how far f must be from 0 at interior and exterior points
-    int threads = 0;                     ///< 0: the machine's
     Corners corners = Corners::rounded;  ///< what becomes of the corners of closed contours
     double corner_spacing_mm = 0.05;     ///< faithful corners: from a corner to the point beside it
 };
@@ -41,6 +41,6 @@ struct PreparedContours {
 /// free across it and the paper's system singular: either the bounds or the shifted copy must close the surface. Throws
 /// Error(invalid_input) for a contour that encloses nothing, an open one that does not tell on which hand the object lies
 /// (find_sides in fit/sides.h), and options outside of their range.
-PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options = {});
+PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

@@ -90,12 +90,10 @@ double voxels_about(const Grid& grid, std::span<const Vec3> starts) {
 
 class AdaptiveTracker {
 public:
-    AdaptiveTracker(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                    const Progress& progress)
+    AdaptiveTracker(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, const Work& work)
         : grid_(grid),
           starts_(starts),
-          threads_(threads),
-          progress_(progress),
+          work_(work),
           fast_(function),
           coarse_(grid, strides(grid)),
           cubics_(coarse_),
@@ -110,15 +108,15 @@ public:
     SurfaceLattice run() {
         find_band();
         interpolate_band();
-        progress_.report("voxelize", 0.4);
+        work_.report("voxelize", 0.4);
         doubt_near_centres();
         doubt_at_starts();
         for (int pass = 0; pass < kPasses && resolve_doubts(); ++pass) spread_errors();
-        progress_.report("voxelize", 0.8);
+        work_.report("voxelize", 0.8);
         SurfaceLattice surface = track_surface(
             std::move(fine_),
             [this](std::span<const Vec3> points, std::span<double> values) { evaluate_signs(points, values); }, starts_,
-            progress_);
+            work_);
         surface.evaluations = evaluations_;
         return surface;
     }
@@ -135,10 +133,10 @@ private:
         std::vector<Index3> starts;
         for (const Vec3& index : to_index(grid_, starts_)) starts.push_back(coarse_.cell_at(index));
         const auto evaluate = [this](std::span<const Vec3> points, std::span<double> values) {
-            fast_.values(points, values, progress_);
+            fast_.values(points, values, work_);
         };
         for (const Index3& cell :
-             flood_coarse_cells(coarse_, evaluate, starts, kCoarseBulge * coarse_spacing_mm_, evaluations_, progress_)) {
+             flood_coarse_cells(coarse_, evaluate, starts, kCoarseBulge * coarse_spacing_mm_, evaluations_, work_)) {
             numbers_.emplace(key(cell), band_.size());
             band_.push_back({cell, kDoubtElsewhere * coarse_spacing_mm_});
         }
@@ -231,7 +229,7 @@ private:
 
     /// Values with the right sign: where the fast function is in doubt, the direct sum.
     void evaluate_signs(std::span<const Vec3> points, std::span<double> values) {
-        fast_.values(points, values, progress_);
+        fast_.values(points, values, work_);
         evaluations_ += static_cast<std::int64_t>(points.size());
         if (fast_.is_direct()) return;
         std::vector<std::size_t> unsure;
@@ -242,7 +240,7 @@ private:
                 positions.push_back(points[i]);
             }
         std::vector<double> exact(positions.size());
-        fast_.exact().values(positions, exact, threads_);
+        fast_.exact().values(positions, exact, work_);
         for (std::size_t u = 0; u < unsure.size(); ++u) values[unsure[u]] = exact[u];
         evaluations_ += static_cast<std::int64_t>(positions.size());
     }
@@ -254,8 +252,8 @@ private:
     /// Calls visit(number) for all cells of the band, in parallel.
     template <typename Visit>
     void for_each_cell(const Visit& visit) {
-        parallel_for(static_cast<std::int64_t>(band_.size()), 32, threads_, [&](std::int64_t begin, std::int64_t end) {
-            progress_.check();
+        parallel_for(static_cast<std::int64_t>(band_.size()), 32, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+            work_.check();
             for (; begin < end; ++begin) visit(static_cast<std::size_t>(begin));
         });
     }
@@ -296,8 +294,7 @@ private:
 
     const Grid& grid_;
     std::span<const Vec3> starts_;
-    int threads_;
-    const Progress& progress_;
+    const Work& work_;
     FastFunction& fast_;
     CoarseLattice coarse_;
     CubicCells cubics_;
@@ -324,21 +321,20 @@ std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> sta
     return std::llround(std::min(std::max(voxels, voxels_about(grid, starts)), kMost));
 }
 
-SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                                        const Progress& progress) {
+SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts,
+                                        const Work& work) {
     check_grid(grid);
-    if (is_small(grid, starts)) return track_surface(function.exact(), grid, starts, threads, progress);
-    progress.report("voxelize", 0);
-    return AdaptiveTracker(function, grid, starts, threads, progress).run();
+    if (is_small(grid, starts)) return track_surface(function.exact(), grid, starts, work);
+    work.report("voxelize", 0);
+    return AdaptiveTracker(function, grid, starts, work).run();
 }
 
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
-                                        int threads, const Progress& progress) {
+                                        const Work& work) {
     check_grid(grid);
     FastFunction fast(function, {.tolerance_mm = kFastTolerance * smallest_spacing(grid),
-                                 .expected_points = expected_surface_voxels(grid, starts),
-                                 .threads = threads});
-    return track_surface_adaptively(fast, grid, starts, threads, progress);
+                                 .expected_points = expected_surface_voxels(grid, starts)});
+    return track_surface_adaptively(fast, grid, starts, work);
 }
 
 }  // namespace kontur

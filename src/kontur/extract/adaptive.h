@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/extract/track.h"
 #include "kontur/function/fast_function.h"
 
@@ -18,11 +18,11 @@ namespace kontur {
 /// in single voxels within a fraction of a percent of a voxel of the surface. Objects of few voxels are left to
 /// track_surface.
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
-                                        int threads, const Progress& progress = {});
+                                        const Work& work = {});
 
 /// The same with a function of the caller's, which keeps what evaluating it has prepared.
-SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                                        const Progress& progress = {});
+SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts,
+                                        const Work& work = {});
 
 /// About how many of the grid's voxels a surface through the starts passes, as if it were an ellipsoid that fills their box
 /// as far as that lies in the grid; more where the starts show that there are many objects.

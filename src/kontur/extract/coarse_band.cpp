@@ -147,11 +147,11 @@ Index3 coarse_cell_at(const Vec3& index, const Index3& stride) {
 
 std::vector<Index3> flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate,
                                        std::span<const Index3> start_cells, double bulge_mm, std::int64_t& evaluations,
-                                       const Progress& progress) {
+                                       const Work& work) {
     Flood flood(lattice, evaluate, bulge_mm);
     flood.add_starts(start_cells);
     for (bool are_starts = true; !flood.is_done(); are_starts = false) {
-        progress.check();
+        work.check();
         flood.step(are_starts);
     }
     std::vector<Index3> cells = flood.finish();

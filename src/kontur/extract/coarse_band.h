@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/extract/tracker.h"
 
 namespace kontur {
@@ -56,6 +57,6 @@ private:
 /// may bulge into, in the order they were met; `evaluations` counts the values computed.
 std::vector<Index3> flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate,
                                        std::span<const Index3> start_cells, double bulge_mm, std::int64_t& evaluations,
-                                       const Progress& progress);
+                                       const Work& work);
 
 }  // namespace kontur

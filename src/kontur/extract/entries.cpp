@@ -84,8 +84,7 @@ bool encloses_near(const SurfaceLattice& surface, const Vec3& p) {
 
 }  // namespace
 
-Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                const Progress& progress) {
+Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, const Work& work) {
     const Box3 box = index_box(grid.index_to_mm.inverse(), starts);
     if (!reaches_beyond(box, grid) || !overlaps(box, grid)) return {};
     Box3 box_mm;
@@ -94,7 +93,7 @@ Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<co
     const double spacing_mm = std::max(smallest_spacing(grid), kLeastSpacingFraction * box_mm.diagonal());
     const std::optional<Grid> lattice = preview_lattice(starts, spacing_mm);
     if (!lattice) return {};
-    const SurfaceLattice surface = track_surface_adaptively(function, *lattice, starts, threads, progress);
+    const SurfaceLattice surface = track_surface_adaptively(function, *lattice, starts, work);
 
     Entries found;
     found.evaluations = surface.evaluations;

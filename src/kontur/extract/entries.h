@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/grid.h"
 
@@ -21,7 +21,6 @@ struct Entries {
 /// outside of the grid too, on a lattice of cubes as wide as the grid's smallest spacing, but at least 1 / 250 of the
 /// starts' box, so that the cost is bounded however small the voxels are. No start outside of the grid, or none on any side
 /// of which the grid lies: nothing, at no cost.
-Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                const Progress& progress = {});
+Entries entries(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, const Work& work = {});
 
 }  // namespace kontur

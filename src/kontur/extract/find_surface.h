@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/extract/track.h"
 #include "kontur/extract/voxelize.h"
 #include "kontur/function/implicit_function.h"
@@ -11,19 +11,14 @@
 
 namespace kontur {
 
-struct FindSurfaceOptions {
-    Voxelizer voxelizer = Voxelizer::adaptive;
-    int threads = 0;  ///< 0: the machine's
-};
-
 /// The cells of a grid that the surface passes through: all of them (exhaustive), else those that are connected with one of
 /// the starts, or with a place where the surface comes into the grid.
 SurfaceLattice find_surface(const ImplicitFunction& function, const Grid& grid, std::vector<Vec3> starts,
-                            const FindSurfaceOptions& options = {}, const Progress& progress = {});
+                            Voxelizer voxelizer = Voxelizer::adaptive, const Work& work = {});
 
 /// The surface on the lattice that it was found on, or on a finer one where that is coarser than `spacing_mm`: chords
 /// between slices that are far apart leave out a part of the object.
 TriangleMesh surface_mesh(const SurfaceLattice& surface, const ImplicitFunction& function, std::vector<Vec3> starts,
-                          double spacing_mm, const FindSurfaceOptions& options = {}, const Progress& progress = {});
+                          double spacing_mm, Voxelizer voxelizer = Voxelizer::adaptive, const Work& work = {});
 
 }  // namespace kontur

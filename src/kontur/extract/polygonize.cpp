@@ -51,7 +51,7 @@ public:
 
     /// Moves the points from where linear interpolation put them to the function's zeros; all of them step by step, because
     /// the function is cheaper in bulk. Between slices that are far apart the difference is a large part of a voxel.
-    void refine(FastFunction& function, const Progress& progress) {
+    void refine(FastFunction& function, const Work& work) {
         const double small_mm = kSmallValue * smallest_spacing(lattice_.grid());
         std::vector<Vec3> places;
         std::vector<double> values;
@@ -59,7 +59,7 @@ public:
             places.clear();
             for (const CutEdge& edge : edges_) places.push_back(mesh_.points[edge.point]);
             values.resize(places.size());
-            function.values(places, values, progress);
+            function.values(places, values, work);
             std::size_t kept = 0;
             for (std::size_t n = 0; n < edges_.size(); ++n) {
                 if (!(std::abs(values[n]) > small_mm)) continue;
@@ -73,9 +73,9 @@ public:
     }
 
     /// Normals are those of `function`, which knows nothing of the cut at the grid's border: there, the border's.
-    TriangleMesh finish(FastFunction& function, const Progress& progress) {
+    TriangleMesh finish(FastFunction& function, const Work& work) {
         mesh_.normals.resize(mesh_.points.size());
-        function.gradients(mesh_.points, mesh_.normals, progress);
+        function.gradients(mesh_.points, mesh_.normals, work);
         for (Vec3& n : mesh_.normals) n = -normalized(n);
         for (const auto& [point, normal] : border_normals_) mesh_.normals[point] = normal;
         return std::move(mesh_);
@@ -129,21 +129,19 @@ private:
 
 }  // namespace
 
-TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Progress& progress) {
+TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work) {
     MeshBuilder builder(surface);
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
-    progress.report("polygonize", 0.3);
-    builder.refine(function, progress);
-    progress.report("polygonize", 0.6);
-    return builder.finish(function, progress);
+    work.report("polygonize", 0.3);
+    builder.refine(function, work);
+    work.report("polygonize", 0.6);
+    return builder.finish(function, work);
 }
 
-TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, int threads,
-                        const Progress& progress) {
+TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, const Work& work) {
     FastFunction fast(function, {.tolerance_mm = kTolerance * smallest_spacing(surface.lattice.grid()),
-                                 .expected_points = static_cast<std::int64_t>(kEvaluationsPerCell * surface.cells.size()),
-                                 .threads = threads});
-    return polygonize(surface, fast, progress);
+                                 .expected_points = static_cast<std::int64_t>(kEvaluationsPerCell * surface.cells.size())});
+    return polygonize(surface, fast, work);
 }
 
 }  // namespace kontur

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kontur/base/work.h"
 #include "kontur/extract/track.h"
 #include "kontur/function/fast_function.h"
 #include "kontur/shape/mesh.h"
@@ -11,10 +12,9 @@ namespace kontur {
 /// outward, manifold; it closes half a voxel beyond the outermost voxel centres where the object leaves the grid. Points lie
 /// on lattice edges where f vanishes, within a fiftieth of the smallest spacing; normals are the function's downhill
 /// gradient within 0.01, and on the faces where the grid's border cuts the object off those of the border.
-TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, int threads = 0,
-                        const Progress& progress = {});
+TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, const Work& work = {});
 
 /// The same with a function that may have been prepared for the surface by evaluating it there.
-TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Progress& progress = {});
+TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work = {});
 
 }  // namespace kontur

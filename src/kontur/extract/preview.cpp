@@ -57,14 +57,13 @@ std::optional<Grid> preview_lattice(std::span<const Vec3> starts, double spacing
 }
 
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
-                             const Progress& progress) {
+                             const Work& work) {
     const std::optional<Grid> grid = preview_lattice(starts, options.spacing_mm, options.anchor_mm);
     if (!grid) return {};
     FastFunction fast(function, {.tolerance_mm = kTolerance * options.spacing_mm,
-                                 .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(*grid, starts),
-                                 .threads = options.threads});
-    const SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, options.threads, progress);
-    return polygonize(surface, fast, progress);
+                                 .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(*grid, starts)});
+    const SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, work);
+    return polygonize(surface, fast, work);
 }
 
 }  // namespace kontur

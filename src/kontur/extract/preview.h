@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
@@ -13,7 +13,6 @@ namespace kontur {
 
 struct PreviewOptions {
     double spacing_mm = 2;  ///< of the lattice on which the surface is found, > 0; finer ones show more and cost its square
-    int threads = 0;        ///< 0: the machine's
     Vec3 anchor_mm{};       ///< where one of the lattice's points lies: those of a box move with it
 };
 
@@ -23,7 +22,7 @@ struct PreviewOptions {
 /// bytes for any number of threads. Throws Error(invalid_input) when the spacing is not > 0 and Error(too_large) when it is
 /// less than about 1 / 1500 of the starts' extent.
 TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const Vec3> starts,
-                             const PreviewOptions& options = {}, const Progress& progress = {});
+                             const PreviewOptions& options = {}, const Work& work = {});
 
 /// The lattice that preview_surface finds the surface on, its points at multiples of the spacing from the anchor; nullopt
 /// without a finite start. Throws as preview_surface does.

@@ -58,7 +58,7 @@ public:
                     points.push_back(grid_.center_mm(i, j, k_));
                 }
         std::vector<double> values(points.size());
-        function.values(points, values, 1);
+        function.values(points, values, {.threads = 1});
         for (std::size_t n = 0; n < border.size(); ++n) levels_[border[n]] = values[n];
     }
 
@@ -122,7 +122,7 @@ void refine(std::vector<Isoline>& lines, const Slice& slice, const ImplicitFunct
     std::vector<double> values(points.size());
     for (int step = 0; step < kSteps; ++step) {
         for (std::size_t n = 0; n < points.size(); ++n) places[n] = plane.from_uv((*points[n])[0], (*points[n])[1]);
-        function.values(places, values, 1);
+        function.values(places, values, {.threads = 1});
         for (std::size_t n = 0; n < points.size(); ++n) {
             crossings[n].narrow(*points[n], values[n]);
             *points[n] = zero_of(crossings[n]);
@@ -149,14 +149,14 @@ std::vector<Contour> contours_of_slice(const Mask& mask, const ImplicitFunction&
 
 }  // namespace
 
-ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, int threads, const Progress& progress) {
+ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, const Work& work) {
     check_mask(mask);
     constexpr std::int64_t kSlicesAtOnce = 32;  // between two looks at the progress
     std::vector<std::vector<Contour>> slices(static_cast<std::size_t>(mask.grid.size.k));
     for (std::int64_t start = 0; start < mask.grid.size.k; start += kSlicesAtOnce) {
-        progress.report("slice", static_cast<double>(start) / static_cast<double>(mask.grid.size.k));
+        work.report("slice", static_cast<double>(start) / static_cast<double>(mask.grid.size.k));
         const std::int64_t count = std::min(kSlicesAtOnce, mask.grid.size.k - start);
-        parallel_for(count, 1, threads, [&](std::int64_t first, std::int64_t end) {
+        parallel_for(count, 1, work.threads, [&](std::int64_t first, std::int64_t end) {
             for (std::int64_t k = start + first; k < start + end; ++k)
                 slices[static_cast<std::size_t>(k)] = contours_of_slice(mask, function, k);
         });
@@ -164,7 +164,7 @@ ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, in
     ContourSet set;
     for (std::vector<Contour>& contours : slices)
         std::move(contours.begin(), contours.end(), std::back_inserter(set.contours));
-    progress.report("slice", 1);
+    work.report("slice", 1);
     return set;
 }
 

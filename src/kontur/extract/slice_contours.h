@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/volume.h"
@@ -14,7 +14,6 @@ namespace kontur {
 /// outside region. An object cut off by the grid ends half a voxel beyond its outermost
 /// voxel centres there, as its mesh does. `mask` is the function's, as
 /// `segment` gives both. Throws Error(invalid_input) for a mask whose size contradicts its grid.
-ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, int threads = 0,
-                          const Progress& progress = {});
+ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, const Work& work = {});
 
 }  // namespace kontur

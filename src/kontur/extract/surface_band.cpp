@@ -26,8 +26,8 @@ void fill_unknown(const PlaneLattice& lattice, double magnitude, std::vector<dou
 }  // namespace
 
 SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options,
-                         const Progress& progress)
-    : function_(function), options_(options) {
+                         const Work& work)
+    : function_(function), options_(options), threads_(work.threads) {
     const std::optional<Grid> grid = preview_lattice(starts, options.spacing_mm);
     if (!grid) return;
     size_ = grid->size;
@@ -37,10 +37,10 @@ SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3>
     for (const Vec3& p : starts)
         if (is_finite(p)) start_cells.push_back(coarse.cell_at(mm_to_index_.apply(p)));
     const auto evaluate = [&](std::span<const Vec3> points, std::span<double> values) {
-        function_.values(points, values, options_.threads);
+        function_.values(points, values, work);
     };
     const std::vector<Index3> cells = flood_coarse_cells(
-        coarse, evaluate, start_cells, kCoarseBulge * kCoarseStride * options.spacing_mm, evaluations_, progress);
+        coarse, evaluate, start_cells, kCoarseBulge * kCoarseStride * options.spacing_mm, evaluations_, work);
     if (cells.empty()) return;
 
     first_cell_ = cells.front();
@@ -100,7 +100,7 @@ std::vector<std::vector<Vec3>> SurfaceBand::cut(const Plane& plane) const {
         }
     }
     std::vector<double> known(points.size());
-    function_.values(points, known, options_.threads);
+    function_.values(points, known, {.threads = threads_});
     for (std::size_t i = 0; i < nodes.size(); ++i) values[nodes[i]] = known[i];
     fill_unknown(*lattice, options_.spacing_mm, values);
 

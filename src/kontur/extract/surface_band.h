@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/extract/preview.h"
 #include "kontur/function/implicit_function.h"
 
@@ -20,7 +20,7 @@ public:
     /// Follows the surface that `preview_surface` would give for the same arguments, on every fourth point of its lattice.
     /// Throws as that does.
     SurfaceBand(const ImplicitFunction& function, std::span<const Vec3> starts, const PreviewOptions& options = {},
-                const Progress& progress = {});
+                const Work& work = {});
 
     /// Closed lines in mm where the plane cuts the surface: the zero level of the function on points of the plane that are
     /// a spacing apart, as far as they lie in the band. What is left of differences to the mesh's outline is both's linear
@@ -37,6 +37,7 @@ private:
 
     ImplicitFunction function_;
     PreviewOptions options_;
+    int threads_ = 0;
     Affine3 mm_to_index_;
     Index3 size_{};  ///< of the lattice
     // A box of coarse cells, and which of them the surface passes.

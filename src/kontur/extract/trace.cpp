@@ -132,9 +132,9 @@ std::vector<std::array<double, 2>> simplified(const std::vector<std::array<doubl
     return kept;
 }
 
-std::vector<double> sample_levels(const MaskSampler& sampler, const PlaneLattice& lattice, int threads) {
+std::vector<double> sample_levels(const MaskSampler& sampler, const PlaneLattice& lattice, const Work& work) {
     std::vector<double> levels(static_cast<std::size_t>(lattice.node_count()));
-    parallel_for(lattice.rows, 16, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(lattice.rows, 16, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t j = begin; j < end; ++j)
             for (std::int64_t i = 0; i < lattice.columns; ++i) {
                 const auto [u, v] = lattice.uv(i, j);
@@ -168,7 +168,7 @@ double sampling_step_mm(const Grid& grid, const TraceOptions& options) {
 
 }  // namespace
 
-ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOptions& options, const Progress& progress) {
+ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOptions& options, const Work& work) {
     check_arguments(mask, planes, options);
     ContourSet set;
     const std::optional<BoxCorners> region = object_region(mask);
@@ -177,16 +177,16 @@ ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOpt
     const MaskSampler sampler(mask);
     const double step_mm = sampling_step_mm(mask.grid, options);
     for (std::size_t p = 0; p < planes.size(); ++p) {
-        progress.report("trace", static_cast<double>(p) / static_cast<double>(planes.size()));
+        work.report("trace", static_cast<double>(p) / static_cast<double>(planes.size()));
         const Plane plane = orthonormalized(planes[p]);
         const std::optional<PlaneLattice> lattice = lattice_over(plane, *region, step_mm);
         if (!lattice) continue;
-        const std::vector<double> levels = sample_levels(sampler, *lattice, options.threads);
+        const std::vector<double> levels = sample_levels(sampler, *lattice, work);
         const auto exact = [&](double u, double v) { return sampler(plane.from_uv(u, v)) - 0.5; };
         for (const Isoline& line : isolines(*lattice, levels, exact))
             if (auto contour = to_contour(line, plane, options)) set.contours.push_back(std::move(*contour));
     }
-    progress.report("trace", 1);
+    work.report("trace", 1);
     return set;
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "kontur/base/geometry.h"
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/volume.h"
 
@@ -17,7 +17,6 @@ struct TraceOptions {
     double tolerance_mm = 1e-6;
     /// Smaller contours are dropped.
     double min_area_mm2 = 0;
-    int threads = 0;  ///< 0: the machine's
 };
 
 /// Cuts a mask by planes of any orientation into closed contours, plane by plane in the given order: the 0.5 level of the
@@ -25,7 +24,6 @@ struct TraceOptions {
 /// beyond its outermost voxel centres. Points lie on their plane within rounding. Contours run counter-clockwise about the
 /// plane's normal, holes clockwise. A plane that misses the object gives no contour. Throws Error(invalid_input), naming the
 /// plane (counted from 1), when its axes are not orthonormal, and for options or a mask that make no sense.
-ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOptions& options = {},
-                 const Progress& progress = {});
+ContourSet trace(const Mask& mask, std::span<const Plane> planes, const TraceOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

@@ -148,13 +148,13 @@ private:
 constexpr std::size_t kKernelValuesPerBatch = 80'000'000;
 
 void evaluate_in_batches(const ImplicitFunction& function, std::span<const Vec3> points, std::span<double> values,
-                         int threads, const Progress& progress) {
+                         const Work& work) {
     const std::size_t centers = std::max<std::size_t>(function.centers().size(), 1);
     const std::size_t batch = std::max<std::size_t>(kKernelValuesPerBatch / centers, 256);
     for (std::size_t begin = 0; begin < points.size(); begin += batch) {
-        progress.check();
+        work.check();
         const std::size_t count = std::min(batch, points.size() - begin);
-        function.values(points.subspan(begin, count), values.subspan(begin, count), threads);
+        function.values(points.subspan(begin, count), values.subspan(begin, count), work);
     }
 }
 
@@ -183,8 +183,7 @@ Index3 farthest(const Grid& grid) {
 
 }  // namespace
 
-SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std::span<const Vec3> starts,
-                             const Progress& progress) {
+SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std::span<const Vec3> starts, const Work& work) {
     const Grid grid = known.grid();
     Tracker tracker(std::move(known), evaluate);
     // The start's own cell can miss the surface by smoothing or rounding, so its neighbours are looked at as well; on a
@@ -196,33 +195,31 @@ SurfaceLattice track_surface(Lattice known, const EvaluatePoints& evaluate, std:
         front.insert(front.end(), beside.begin(), beside.end());
     }
     while (!front.empty()) {
-        progress.check();
+        work.check();
         front = tracker.keep_mixed(tracker.advance(front));
     }
     return tracker.finish();
 }
 
-SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                             const Progress& progress) {
-    progress.report("voxelize", 0);
+SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
+                             const Work& work) {
+    work.report("voxelize", 0);
     return track_surface(
         Lattice(grid),
-        [&](std::span<const Vec3> points, std::span<double> values) {
-            evaluate_in_batches(function, points, values, threads, progress);
-        },
-        starts, progress);
+        [&](std::span<const Vec3> points, std::span<double> values) { evaluate_in_batches(function, points, values, work); },
+        starts, work);
 }
 
-SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& grid, int threads, const Progress& progress) {
+SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& grid, const Work& work) {
     SurfaceLattice surface{Lattice(grid), {}, 0};
     std::vector<Vec3> points(static_cast<std::size_t>(grid.size.i * grid.size.j));
     std::vector<double> values(points.size());
     for (std::int64_t k = 0; k < grid.size.k; ++k) {
-        progress.report("voxelize", static_cast<double>(k) / static_cast<double>(grid.size.k));
+        work.report("voxelize", static_cast<double>(k) / static_cast<double>(grid.size.k));
         for (std::int64_t j = 0; j < grid.size.j; ++j)
             for (std::int64_t i = 0; i < grid.size.i; ++i)
                 points[static_cast<std::size_t>(i + grid.size.i * j)] = grid.center_mm(i, j, k);
-        evaluate_in_batches(function, points, values, threads, progress);
+        evaluate_in_batches(function, points, values, work);
         for (std::int64_t j = 0; j < grid.size.j; ++j)
             for (std::int64_t i = 0; i < grid.size.i; ++i)
                 surface.lattice.set_value({i, j, k}, values[static_cast<std::size_t>(i + grid.size.i * j)]);

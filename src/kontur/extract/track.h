@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/extract/lattice.h"
 #include "kontur/function/implicit_function.h"
 
@@ -22,11 +22,10 @@ struct SurfaceLattice {
 /// section 4.2): a cell with corners of both signs leads on through each of its faces with corners of both signs. Every
 /// front of cells is evaluated at once, so the work is parallel from the first step; the outcome does not depend on the
 /// order. Surface that leaves the grid is followed along the grid's boundary. Starts outside of the grid are ignored.
-SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts, int threads,
-                             const Progress& progress = {});
+SurfaceLattice track_surface(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
+                             const Work& work = {});
 
 /// Evaluates every voxel centre: the oracle, at a cost of voxels x centres.
-SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& grid, int threads,
-                                 const Progress& progress = {});
+SurfaceLattice sample_everywhere(const ImplicitFunction& function, const Grid& grid, const Work& work = {});
 
 }  // namespace kontur

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kontur/base/work.h"
 #include "kontur/extract/track.h"
 #include "kontur/shape/volume.h"
 
@@ -17,6 +18,6 @@ std::string_view name(Voxelizer voxelizer) noexcept;
 /// search met counts as absent. Every row starts outside and changes sides where the surface cuts it, so f is not evaluated
 /// again (paper section 4.2). That is consistent: a lattice square has an even number of cut edges, and if one of them
 /// belongs to the surface found then all do, because the search passes through every face with corners of both signs.
-Mask fill(const SurfaceLattice& surface, int threads = 0);
+Mask fill(const SurfaceLattice& surface, const Work& work = {});
 
 }  // namespace kontur

@@ -7,9 +7,9 @@ ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds) : bounds_(bounds), 
     for (const Bound& bound : bounds) positions_.push_back(bound.position);
 }
 
-bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm, int threads) {
+bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm, const Work& work) {
     std::vector<double> values(bounds_.size());
-    function.values(positions_, values, threads);
+    function.values(positions_, values, work);
     bool changed = false;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
         const double slack = held_[i] == Held::no ? tolerance_mm : 0;

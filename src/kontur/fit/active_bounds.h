@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/bounds.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/function/implicit_function.h"
@@ -16,7 +17,7 @@ public:
     explicit ActiveBounds(const std::vector<Bound>& bounds);
 
     /// Holds f where it leaves its interval, and lets it go where it keeps it by itself; true if that changed anything.
-    bool update(const ImplicitFunction& function, double tolerance_mm, int threads);
+    bool update(const ImplicitFunction& function, double tolerance_mm, const Work& work);
 
     void append_to(std::vector<PointConstraint>& points) const;
 

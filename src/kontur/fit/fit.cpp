@@ -34,10 +34,10 @@ std::vector<T> pick(const std::vector<T>& from, const std::vector<std::size_t>& 
 
 /// The slopes that the function's gradient shows at the points.
 std::vector<double> read_slopes(const ImplicitFunction& function, const std::vector<BoundaryPoint>& points,
-                                const FitOptions& options) {
+                                const FitOptions& options, const Work& work) {
     std::vector<Vec3> positions(points.size()), gradients(points.size());
     std::transform(points.begin(), points.end(), positions.begin(), [](const BoundaryPoint& p) { return p.position; });
-    function.gradients(positions, gradients, options.solve.threads);
+    function.gradients(positions, gradients, work);
     std::vector<double> slopes(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) slopes[i] = slope(points[i], gradients[i], options.least_slope);
     return slopes;
@@ -53,8 +53,8 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
 /// The solves of one fit, with what they share and what they leave behind.
 class Solves {
 public:
-    Solves(const PreparedContours& contours, const FitOptions& options, const Progress& progress)
-        : all_(contours.points), ball_(contours.ball), options_(options), progress_(progress), bounds_(contours.bounds) {}
+    Solves(const PreparedContours& contours, const FitOptions& options, const Work& work)
+        : all_(contours.points), ball_(contours.ball), options_(options), work_(work), bounds_(contours.bounds) {}
 
     /// Solves for points with these slopes; true if other bounds should have been held.
     bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes, const PlaceOptions& placing,
@@ -64,8 +64,8 @@ public:
         result_.bounded = single_points.size();
         result_.held = single_points;
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
-        solve_placed(placed, solving, ball_, progress_of_next_solve(), previous_, result_);
-        return bounds_.update(result_.function, 2 * solving.tolerance_mm, options_.solve.threads);
+        solve_placed(placed, solving, ball_, work_of_next_solve(), previous_, result_);
+        return bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
     }
 
     /// Finds the tilts of the surface from a part of the points.
@@ -79,11 +79,11 @@ public:
         for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
             solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
             solve_for(points, slopes, options_.place, solving);
-            std::vector<double> next = read_slopes(result_.function, points, options_);
+            std::vector<double> next = read_slopes(result_.function, points, options_, work_);
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
         }
-        result_.slopes = read_slopes(result_.function, all_, options_);
+        result_.slopes = read_slopes(result_.function, all_, options_, work_);
     }
 
     FittedFunction run() {
@@ -110,21 +110,21 @@ private:
     bool finds_slopes() const { return options_.normals == Normals::surface && options_.rounds > 0; }
 
     /// Of the whole progress, half belongs to the tilts: there are more solves, but smaller ones.
-    Progress progress_of_next_solve() const {
-        if (!progress_.callback) return progress_;
+    Work work_of_next_solve() const {
+        if (!work_.callback) return work_;
         const int early = finds_slopes() ? options_.rounds : 0;
         const bool is_early = result_.solves < early;
         const double share = is_early ? 0.5 / early : early > 0 ? 0.5 : 1.0;
         const double before = is_early ? share * result_.solves : 1.0 - share;
-        return {
-            [this, before, share](std::string_view stage, double done) { progress_.callback(stage, before + share * done); },
-            progress_.stop};
+        return {work_.threads,
+                [this, before, share](std::string_view stage, double done) { work_.callback(stage, before + share * done); },
+                work_.stop};
     }
 
     const std::vector<BoundaryPoint>& all_;
     const Ball3& ball_;
     const FitOptions& options_;
-    const Progress& progress_;
+    const Work& work_;
     ActiveBounds bounds_;
     PreviousSolve previous_;
     FittedFunction result_;
@@ -150,9 +150,9 @@ void check_fit_options(const FitOptions& options, std::size_t points) {
     check_solve_options(options.solve);  // before the early solves, which change them
 }
 
-FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress) {
+FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Work& work) {
     check_fit_options(options, contours.points.size());
-    return Solves(contours, options, progress).run();
+    return Solves(contours, options, work).run();
 }
 
 }  // namespace kontur

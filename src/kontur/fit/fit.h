@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/prepare.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/solve/solve.h"
@@ -62,6 +63,6 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 /// Where f leaves the interval of a bound after a round, the bound becomes a datum with noise of the next one, as long as f
 /// leans on it. Interior and exterior points are bounds of the same kind. Throws Error as
 /// check_fit_options, place_constraints and solve do.
-FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Progress& progress = {});
+FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Work& work = {});
 
 }  // namespace kontur

@@ -6,12 +6,12 @@
 
 namespace kontur {
 
-Residual residual(const ImplicitFunction& function, const ContourSet& set, int threads) {
+Residual residual(const ImplicitFunction& function, const ContourSet& set, const Work& work) {
     std::vector<Vec3> points;
     for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
     std::vector<double> values(points.size());
     std::vector<Vec3> gradients(points.size());
-    function.values_and_gradients(points, values, gradients, threads);
+    function.values_and_gradients(points, values, gradients, work);
 
     Residual result;
     double squares = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/contour.h"
 
@@ -15,6 +16,6 @@ struct Residual {
 
 /// First-order distance |f| / |grad f| at every drawn point, whether or not it took part in the fit (Taubin 1991). |grad f|,
 /// about 1 near the surface, is taken as at least 0.1, so that a flat spot of f does not count as infinitely far.
-Residual residual(const ImplicitFunction& function, const ContourSet& set, int threads = 0);
+Residual residual(const ImplicitFunction& function, const ContourSet& set, const Work& work = {});
 
 }  // namespace kontur

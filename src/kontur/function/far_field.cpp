@@ -61,30 +61,29 @@ void for_each_stencil_node(const Index3& cell, const BlockAt& block_at, const Vi
 
 }  // namespace
 
-void DirectSum::values(const PointArrays& points, std::span<double> out, const Progress& progress) {
+void DirectSum::values(const PointArrays& points, std::span<double> out, const Work& work) {
     const std::size_t centers = function_.centers().size();
     const std::size_t batch = std::max<std::size_t>(1024, kKernelValuesPerBatch / std::max<std::size_t>(centers, 1));
     for (std::size_t begin = 0; begin < points.size(); begin += batch) {
-        progress.check();
+        work.check();
         const std::size_t end = std::min(points.size(), begin + batch);
-        function_.sums_at(part(points, begin, end), out.subspan(begin, end - begin), threads_);
+        function_.sums_at(part(points, begin, end), out.subspan(begin, end - begin), work);
     }
     kernel_values_ += static_cast<std::int64_t>(points.size() * centers);
 }
 
-FarField::FarField(const ImplicitFunction& function, double spacing, std::unique_ptr<PointEvaluator> nodes, int threads)
+FarField::FarField(const ImplicitFunction& function, double spacing, std::unique_ptr<PointEvaluator> nodes)
     : near_kernel_(function.kernel(), kRadius * spacing),
       spacing_(spacing),
-      threads_(threads),
       sources_(function.centers(), function.weights(), spacing),
       nodes_(std::move(nodes)) {}
 
 template <typename Add>
-void FarField::for_each_group(const CellGroups& groups, double edge, const Progress& progress, const Add& add) {
+void FarField::for_each_group(const CellGroups& groups, double edge, const Work& work, const Add& add) {
     std::atomic<std::int64_t> kernel_values{0};
     const auto cells = static_cast<std::int64_t>(groups.cells.size());
-    parallel_for(cells, kGroupsPerChunk, threads_, [&](std::int64_t begin, std::int64_t end) {
-        progress.check();
+    parallel_for(cells, kGroupsPerChunk, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        work.check();
         NearSources sources;
         for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
             const Vec3 low = edge * as_vector(groups.cells[c]);
@@ -98,10 +97,10 @@ void FarField::for_each_group(const CellGroups& groups, double edge, const Progr
     kernel_values_ += kernel_values;
 }
 
-void FarField::values(const PointArrays& points, std::span<double> out, const Progress& progress) {
+void FarField::values(const PointArrays& points, std::span<double> out, const Work& work) {
     const CellGroups groups = group_by_cell(points, spacing_);
-    prepare(groups.cells, progress);
-    for_each_group(groups, spacing_, progress,
+    prepare(groups.cells, work);
+    for_each_group(groups, spacing_, work,
                    [&](const Index3& cell, std::span<const std::size_t> members, const NearSources& near) {
                        const StencilValues nodes = stencil(cell);
                        for (const std::size_t m : members)
@@ -109,11 +108,11 @@ void FarField::values(const PointArrays& points, std::span<double> out, const Pr
                    });
 }
 
-void FarField::gradients(const PointArrays& points, std::span<Vec3> out, const Progress& progress) {
+void FarField::gradients(const PointArrays& points, std::span<Vec3> out, const Work& work) {
     const CellGroups groups = group_by_cell(points, spacing_);
-    prepare(groups.cells, progress);
+    prepare(groups.cells, work);
     for_each_group(
-        groups, spacing_, progress, [&](const Index3& cell, std::span<const std::size_t> members, const NearSources& near) {
+        groups, spacing_, work, [&](const Index3& cell, std::span<const std::size_t> members, const NearSources& near) {
             const StencilValues nodes = stencil(cell);
             for (const std::size_t m : members)
                 out[m] =
@@ -123,21 +122,21 @@ void FarField::gradients(const PointArrays& points, std::span<Vec3> out, const P
 
 Vec3 FarField::within(const Index3& cell, const Vec3& point) const { return point / spacing_ - as_vector(cell); }
 
-void FarField::prepare(const std::vector<Index3>& cells, const Progress& progress) {
+void FarField::prepare(const std::vector<Index3>& cells, const Work& work) {
     const std::vector<Index3> nodes = missing_nodes(cells);
-    const std::vector<double> values = smooth_values(nodes, progress);
+    const std::vector<double> values = smooth_values(nodes, work);
     for (std::size_t n = 0; n < nodes.size(); ++n) block(block_of(nodes[n]))[within_block(nodes[n])] = values[n];
 }
 
-std::vector<double> FarField::smooth_values(const std::vector<Index3>& nodes, const Progress& progress) {
+std::vector<double> FarField::smooth_values(const std::vector<Index3>& nodes, const Work& work) {
     std::vector<Vec3> positions;
     positions.reserve(nodes.size());
     for (const Index3& node : nodes) positions.push_back(spacing_ * as_vector(node));
     const PointArrays points(positions);
     std::vector<double> values(nodes.size());
-    nodes_->values(points, values, progress);
+    nodes_->values(points, values, work);
     const double edge = kNodeGroupSpacings * spacing_;
-    for_each_group(group_by_cell(points, edge), edge, progress,
+    for_each_group(group_by_cell(points, edge), edge, work,
                    [&](const Index3&, std::span<const std::size_t> members, const NearSources& near) {
                        for (const std::size_t m : members) values[m] -= near_kernel_.value(near, points[m]);
                    });

@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/cell_groups.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/function/stencil.h"
@@ -20,7 +20,7 @@ namespace kontur {
 class PointEvaluator {
 public:
     virtual ~PointEvaluator() = default;
-    virtual void values(const PointArrays& points, std::span<double> out, const Progress& progress) = 0;
+    virtual void values(const PointArrays& points, std::span<double> out, const Work& work) = 0;
     /// Kernel values computed so far, in all levels.
     virtual std::int64_t kernel_values() const = 0;
 };
@@ -28,13 +28,12 @@ public:
 /// Sums over all centres.
 class DirectSum final : public PointEvaluator {
 public:
-    DirectSum(const ImplicitFunction& function, int threads) : function_(function), threads_(threads) {}
-    void values(const PointArrays& points, std::span<double> out, const Progress& progress) override;
+    explicit DirectSum(const ImplicitFunction& function) : function_(function) {}
+    void values(const PointArrays& points, std::span<double> out, const Work& work) override;
     std::int64_t kernel_values() const override { return kernel_values_; }
 
 private:
     ImplicitFunction function_;
-    int threads_;
     std::int64_t kernel_values_ = 0;
 };
 
@@ -46,33 +45,32 @@ public:
     /// The radius in lattice spacings. Interpolation of what the split leaves errs by about 1e-3 of f's unevenness at 5, by
     /// a third of it with each more.
     static constexpr double kRadius = 5;
-    FarField(const ImplicitFunction& function, double spacing, std::unique_ptr<PointEvaluator> nodes, int threads);
+    FarField(const ImplicitFunction& function, double spacing, std::unique_ptr<PointEvaluator> nodes);
 
     /// Coordinates of points must be smaller.
     double reach() const { return spacing_ * (1 << 18); }
 
-    void values(const PointArrays& points, std::span<double> out, const Progress& progress) override;
-    void gradients(const PointArrays& points, std::span<Vec3> out, const Progress& progress);
+    void values(const PointArrays& points, std::span<double> out, const Work& work) override;
+    void gradients(const PointArrays& points, std::span<Vec3> out, const Work& work);
     std::int64_t kernel_values() const override { return kernel_values_ + nodes_->kernel_values(); }
 
 private:
     using NodeBlock = std::array<double, 512>;  ///< 8 x 8 x 8 nodes; NaN where not computed yet
 
     /// Computes all nodes that interpolation in the cells needs.
-    void prepare(const std::vector<Index3>& cells, const Progress& progress);
+    void prepare(const std::vector<Index3>& cells, const Work& work);
     std::vector<Index3> missing_nodes(const std::vector<Index3>& cells);
-    std::vector<double> smooth_values(const std::vector<Index3>& nodes, const Progress& progress);
+    std::vector<double> smooth_values(const std::vector<Index3>& nodes, const Work& work);
     NodeBlock& block(const Index3& number);
     StencilValues stencil(const Index3& cell) const;
     Vec3 within(const Index3& cell, const Vec3& point) const;
 
     /// Calls add(cell, members, centres near the cell) for each group, in parallel. Members are indices of points.
     template <typename Add>
-    void for_each_group(const CellGroups& groups, double edge, const Progress& progress, const Add& add);
+    void for_each_group(const CellGroups& groups, double edge, const Work& work, const Add& add);
 
     NearKernel near_kernel_;
     double spacing_;
-    int threads_;
     SourceCells sources_;
     std::unique_ptr<PointEvaluator> nodes_;
     std::unordered_map<std::uint64_t, std::unique_ptr<NodeBlock>> blocks_;

@@ -17,16 +17,15 @@ void check(const FastOptions& options) {
     check_above_0("the tolerance of fast values", options.tolerance_mm, " mm");
     check_above_0("the tolerance of fast gradients", options.gradient_tolerance);
     check_at_least("the number of expected points", options.expected_points, 0);
-    check_threads(options.threads);
 }
 
 /// Null where direct sums are cheapest.
-std::unique_ptr<FarField> build(const ImplicitFunction& function, const EvaluationPlan& plan, int threads) {
-    std::unique_ptr<PointEvaluator> nodes = std::make_unique<DirectSum>(function, threads);
+std::unique_ptr<FarField> build(const ImplicitFunction& function, const EvaluationPlan& plan) {
+    std::unique_ptr<PointEvaluator> nodes = std::make_unique<DirectSum>(function);
     std::unique_ptr<FarField> field;
     for (auto spacing = plan.spacings.rbegin(); spacing != plan.spacings.rend(); ++spacing) {
         if (field) nodes = std::move(field);
-        field = std::make_unique<FarField>(function, *spacing, std::move(nodes), threads);
+        field = std::make_unique<FarField>(function, *spacing, std::move(nodes));
     }
     return field;
 }
@@ -44,7 +43,7 @@ struct FastFunction::State {
     State(const ImplicitFunction& function, const FastOptions& options) : exact(function), options(options) {
         check(options);
         plan = plan_evaluation(exact, static_cast<double>(options.expected_points));
-        field = build(exact, plan, options.threads);
+        field = build(exact, plan);
     }
 
     ImplicitFunction exact;
@@ -84,7 +83,7 @@ struct FastFunction::State {
         options.expected_points = std::max(options.expected_points - static_cast<std::int64_t>(answered - count),
                                            static_cast<std::int64_t>(count));
         plan = plan_evaluation(exact, static_cast<double>(options.expected_points), plan.spacings.back() / 2);
-        field = build(exact, plan, options.threads);
+        field = build(exact, plan);
         error_mm = 0;
         answered = 0;
     }
@@ -102,44 +101,44 @@ std::int64_t FastFunction::kernel_values() const {
     return state_->earlier_kernel_values + (state_->field ? state_->field->kernel_values() : 0);
 }
 
-void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out, const Progress& progress) {
+void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out, const Work& work) {
     check_same_count("values", out.size(), "points", points_mm.size());
     State& s = *state_;
     const PointArrays points(s.exact.frame().to_unit(points_mm));
     while (s.field && s.reaches(points)) {
-        s.field->values(points, out, progress);
+        s.field->values(points, out, work);
         s.exact.add_fall(points, out);
         const std::vector<std::size_t> checked = s.choose_checked(points.size());
         std::vector<double> exact(checked.size());
-        s.exact.values(pick(points_mm, checked), exact, s.options.threads);
+        s.exact.values(pick(points_mm, checked), exact, work);
         for (std::size_t c = 0; c < checked.size(); ++c)
             s.error_mm = std::max(s.error_mm, std::abs(out[checked[c]] - exact[c]));
         if (s.error_mm <= s.options.tolerance_mm) return;
         s.refine_field(points.size());
     }
-    DirectSum(s.exact, s.options.threads).values(points, out, progress);
+    DirectSum(s.exact).values(points, out, work);
     s.exact.add_fall(points, out);
     s.count_direct(points.size());
 }
 
-void FastFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Progress& progress) {
+void FastFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Work& work) {
     check_same_count("gradients", out.size(), "points", points_mm.size());
     State& s = *state_;
     const PointArrays points(s.exact.frame().to_unit(points_mm));
     while (s.field && s.reaches(points)) {
-        s.field->gradients(points, out, progress);
+        s.field->gradients(points, out, work);
         for (std::size_t i = 0; i < out.size(); ++i)
             out[i] = (out[i] + s.exact.fall_gradient_at(points[i])) / s.exact.frame().scale;
         const std::vector<std::size_t> checked = s.choose_checked(points.size());
         std::vector<Vec3> exact(checked.size());
-        s.exact.gradients(pick(points_mm, checked), exact, s.options.threads);
+        s.exact.gradients(pick(points_mm, checked), exact, work);
         double error = 0;
         for (std::size_t c = 0; c < checked.size(); ++c) error = std::max(error, distance(out[checked[c]], exact[c]));
         if (error <= s.options.gradient_tolerance) return;
         s.refine_field(points.size());
     }
-    progress.check();
-    s.exact.gradients(points_mm, out, s.options.threads);
+    work.check();
+    s.exact.gradients(points_mm, out, work);
     s.count_direct(points.size());
 }
 

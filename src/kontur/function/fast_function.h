@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 
 namespace kontur {
@@ -14,7 +14,6 @@ struct FastOptions {
     double tolerance_mm = 0.01;        ///< largest error of a value accepted at the points that are checked
     double gradient_tolerance = 0.01;  ///< largest error of a gradient (mm per mm) accepted there
     std::int64_t expected_points = 0;  ///< how many will be evaluated; decides what preparation pays
-    int threads = 0;                   ///< 0: the machine's
 };
 
 /// An implicit function's values and gradients at many points near its centres, faster than by the sums over all centres:
@@ -36,9 +35,9 @@ public:
 
     /// out[i] = f(points[i]) within about error_mm(). Both throw Error(invalid_input) unless there is one place in `out` for
     /// each point.
-    void values(std::span<const Vec3> points_mm, std::span<double> out, const Progress& progress = {});
+    void values(std::span<const Vec3> points_mm, std::span<double> out, const Work& work = {});
     /// out[i] = gradient at points[i] per mm.
-    void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Progress& progress = {});
+    void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Work& work = {});
 
     /// The largest error of a value found so far; 0 while all values are direct sums.
     double error_mm() const;

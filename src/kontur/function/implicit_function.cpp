@@ -98,13 +98,13 @@ const std::array<double, 4>& ImplicitFunction::polynomial() const { return data_
 
 double ImplicitFunction::value(const Vec3& point_mm) const {
     double result = 0;
-    values({&point_mm, 1}, {&result, 1}, 1);
+    values({&point_mm, 1}, {&result, 1}, {.threads = 1});
     return result;
 }
 
 Vec3 ImplicitFunction::gradient(const Vec3& point_mm) const {
     Vec3 result;
-    gradients({&point_mm, 1}, {&result, 1}, 1);
+    gradients({&point_mm, 1}, {&result, 1}, {.threads = 1});
     return result;
 }
 
@@ -138,33 +138,33 @@ Vec3 ImplicitFunction::fall_gradient_at(const Vec3& point) const {
     return beyond > 0 ? -3 * kFall * data_->frame.scale * beyond * beyond * normalized(point) : Vec3{};
 }
 
-void ImplicitFunction::sums_at(const PointArrays& points, std::span<double> out, int threads) const {
-    sum_kernel(data_->kernel, data_->centers, data_->weights, points, out, threads);
+void ImplicitFunction::sums_at(const PointArrays& points, std::span<double> out, const Work& work) const {
+    sum_kernel(data_->kernel, data_->centers, data_->weights, points, out, work);
     finish_values(points, out);
 }
 
-void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, int threads) const {
+void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, const Work& work) const {
     check_same_count("values", out.size(), "points", points_mm.size());
     const PointArrays points(data_->frame.to_unit(points_mm));
-    sums_at(points, out, threads);
+    sums_at(points, out, work);
     add_fall(points, out);
 }
 
-void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads) const {
+void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Work& work) const {
     check_same_count("gradients", out.size(), "points", points_mm.size());
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
-    sum_kernel_gradient(d.kernel, d.centers, d.weights, points, out, threads);
+    sum_kernel_gradient(d.kernel, d.centers, d.weights, points, out, work);
     finish_gradients(points, out);
 }
 
 void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values,
-                                            std::span<Vec3> gradients, int threads) const {
+                                            std::span<Vec3> gradients, const Work& work) const {
     check_same_count("values", values.size(), "points", points_mm.size());
     check_same_count("gradients", gradients.size(), "points", points_mm.size());
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
-    sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, threads);
+    sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, work);
     finish_values(points, values);
     add_fall(points, values);
     finish_gradients(points, gradients);

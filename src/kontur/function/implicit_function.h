@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kontur/base/geometry.h"
+#include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
 
 namespace kontur {
@@ -50,16 +51,16 @@ public:
 
     /// out[i] = value(points[i]), the same bytes as `value`, in bulk on `threads` threads (0: the machine's). This and the
     /// following throw Error(invalid_input) unless there is one place in `out` for each point.
-    void values(std::span<const Vec3> points_mm, std::span<double> out, int threads = 0) const;
+    void values(std::span<const Vec3> points_mm, std::span<double> out, const Work& work = {}) const;
     /// out[i] = gradient(points[i]), in bulk.
-    void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, int threads = 0) const;
+    void gradients(std::span<const Vec3> points_mm, std::span<Vec3> out, const Work& work = {}) const;
 
     /// Both at once, the same bytes; cheaper than one after the other.
     void values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values, std::span<Vec3> gradients,
-                              int threads = 0) const;
+                              const Work& work = {}) const;
 
     /// values() of points in the unit frame, without the fall far away, which interpolation had better not see.
-    void sums_at(const PointArrays& points, std::span<double> out, int threads) const;
+    void sums_at(const PointArrays& points, std::span<double> out, const Work& work) const;
     /// Adds the fall, in mm, to sums at points in the unit frame.
     void add_fall(const PointArrays& points, std::span<double> sums) const;
     /// Its gradient at a point in the unit frame.

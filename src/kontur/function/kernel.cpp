@@ -141,9 +141,9 @@ void load(const PointArrays& targets, std::size_t begin, std::size_t count, Lane
 
 /// Calls body(begin, count) for runs of at most kLanes targets.
 template <class Body>
-void for_each_lane_group(std::size_t target_count, int threads, const Body& body) {
+void for_each_lane_group(std::size_t target_count, const Work& work, const Body& body) {
     parallel_for(
-        static_cast<std::int64_t>(target_count), kTargetsPerChunk, threads, [&](std::int64_t begin, std::int64_t end) {
+        static_cast<std::int64_t>(target_count), kTargetsPerChunk, work.threads, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t t = begin; t < end; t += kLanes)
                 body(static_cast<std::size_t>(t), static_cast<std::size_t>(std::min<std::int64_t>(kLanes, end - t)));
         });
@@ -180,11 +180,11 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
 }
 
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
-                std::span<double> out, int threads) {
+                std::span<double> out, const Work& work) {
     const auto sum = kernel == Kernel::screened      ? sum_screened
                      : kernel == Kernel::triharmonic ? sum_triharmonic
                                                      : sum_biharmonic;
-    for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
+    for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
         Lanes lanes;
         alignas(64) std::array<double, kLanes> result;
         load(targets, begin, count, lanes);
@@ -194,11 +194,11 @@ void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const doubl
 }
 
 void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                         const PointArrays& targets, std::span<Vec3> out, int threads) {
+                         const PointArrays& targets, std::span<Vec3> out, const Work& work) {
     const auto sum = kernel == Kernel::screened      ? sum_screened_gradient
                      : kernel == Kernel::triharmonic ? sum_triharmonic_gradient
                                                      : sum_biharmonic_gradient;
-    for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
+    for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
         Lanes lanes, result;
         load(targets, begin, count, lanes);
         sum(sources(centers, weights), lanes, result);
@@ -207,14 +207,15 @@ void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<co
 }
 
 void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients, int threads) {
+                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients,
+                             const Work& work) {
     if (kernel == Kernel::biharmonic) {
-        sum_kernel(kernel, centers, weights, targets, values, threads);
-        sum_kernel_gradient(kernel, centers, weights, targets, gradients, threads);
+        sum_kernel(kernel, centers, weights, targets, values, work);
+        sum_kernel_gradient(kernel, centers, weights, targets, gradients, work);
         return;
     }
     const auto sum = kernel == Kernel::screened ? sum_screened_both : sum_triharmonic_both;
-    for_each_lane_group(targets.size(), threads, [&](std::size_t begin, std::size_t count) {
+    for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
         Lanes lanes, slope;
         alignas(64) std::array<double, kLanes> result;
         load(targets, begin, count, lanes);

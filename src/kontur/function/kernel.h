@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kontur/base/geometry.h"
+#include "kontur/base/work.h"
 #include "kontur/function/screened_kernel.h"
 
 namespace kontur {
@@ -65,14 +66,15 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
 /// contraction, so a value depends neither on the batch it is computed in, nor on the instruction set, nor on `threads`.
 /// With the screened kernel no target may be farther than kScreenedReach from a centre.
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
-                std::span<double> out, int threads);
+                std::span<double> out, const Work& work);
 
 /// out[t] = gradient at targets[t] of the sum above. At a centre the term of that centre is 0 (for phi = r by convention).
 void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                         const PointArrays& targets, std::span<Vec3> out, int threads);
+                         const PointArrays& targets, std::span<Vec3> out, const Work& work);
 
 /// Both at once, the same bytes; cheaper than one after the other.
 void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
-                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients, int threads);
+                             const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients,
+                             const Work& work);
 
 }  // namespace kontur

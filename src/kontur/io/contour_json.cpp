@@ -139,6 +139,20 @@ std::vector<Vec3> read_constraints(const json& document, const char* key) {
     return in_context(key, [&] { return read_points(array_member(document, key), read_frame(document)); });
 }
 
+std::vector<Plane> read_empty_planes(const json& document) {
+    std::vector<Plane> planes;
+    if (!document.contains("empty_planes")) return planes;
+    const PatientFrame frame = read_frame(document);
+    in_context("empty_planes", [&] {
+        for_each_item(array_member(document, "empty_planes"), "plane", [&](const json& item) {
+            if (item.contains("contours") && !array_member(item, "contours").empty())
+                corrupt("has contours; nothing was drawn in an empty plane");
+            planes.push_back(read_plane(item, frame));
+        });
+    });
+    return planes;
+}
+
 ContourSet read_set(const json& document) {
     ContourSet set;
     for_each_plane(document, [&](const json& item, const Plane& plane, PatientFrame frame) {
@@ -150,6 +164,7 @@ ContourSet read_set(const json& document) {
     set.interior = read_constraints(document, "interior");
     set.exterior = read_constraints(document, "exterior");
     set.surface = read_surface(document);
+    set.empty_planes = read_empty_planes(document);
     return set;
 }
 
@@ -163,6 +178,15 @@ std::string to_text(const SurfacePoint& p) {
     if (!p.outward) return to_text(p.position);
     return fmt::format("{{\"point\": {}, \"outward\": {}}}", to_text(p.position), to_text(*p.outward));
 }
+
+std::string members_of(const Plane& plane) {
+    return fmt::format("\"origin\": {}, \"normal\": {}, \"u\": {}, \"v\": {}", to_text(plane.origin), to_text(plane.normal),
+                       to_text(plane.u), to_text(plane.v));
+}
+
+std::string plane_head(const Plane& plane) { return fmt::format("  {{{}, \"contours\": [\n", members_of(plane)); }
+
+std::string to_text(const Plane& plane) { return fmt::format("{{{}}}", members_of(plane)); }
 
 template <class Point>
 std::string to_text(const std::vector<Point>& points) {
@@ -181,11 +205,6 @@ std::string to_text(const Contour& contour) {
     if (!std::isfinite(contour.weight)) throw Error(ErrorKind::invalid_input, "a contour's weight is NaN or infinite");
     if (contour.weight != 1) text += fmt::format("\"weight\": {}, ", contour.weight);
     return text + fmt::format("\"points\": {}}}", to_text(contour.points));
-}
-
-std::string plane_head(const Plane& plane) {
-    return fmt::format("  {{\"origin\": {}, \"normal\": {}, \"u\": {}, \"v\": {}, \"contours\": [\n", to_text(plane.origin),
-                       to_text(plane.normal), to_text(plane.u), to_text(plane.v));
 }
 
 std::string planes_text(const std::vector<Contour>& contours) {
@@ -210,6 +229,7 @@ std::string to_document(const ContourSet& set, const Provenance& provenance) {
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
     if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
+    if (!set.empty_planes.empty()) text += ",\n\"empty_planes\": " + to_text(set.empty_planes);
     if (!provenance.empty()) text += ",\n\"provenance\": " + to_json(provenance);
     return text + "\n}\n";
 }

@@ -105,6 +105,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
         append(all.contours.interior, one.contours.interior);
         append(all.contours.exterior, one.contours.exterior);
         append(all.contours.surface, one.contours.surface);
+        append(all.contours.empty_planes, one.contours.empty_planes);
         for (const std::string& note : one.notes) all.notes.push_back(path.string() + ": " + note);
     }
     return all;

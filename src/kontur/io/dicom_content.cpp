@@ -93,10 +93,10 @@ std::string left_out_note(const std::string& reason, const std::vector<std::stri
 }
 
 DicomContent read_dicom_content(const fs::path& root, const DicomFolder& folder, const std::optional<fs::path>& preferred,
-                                const Progress& progress) {
+                                const Work& work) {
     Collector collector(root, preferred);
     for (std::size_t n = 0; n < folder.files.size(); ++n) {
-        progress.report("read headers", static_cast<double>(n) / static_cast<double>(folder.files.size()));
+        work.report("read headers", static_cast<double>(n) / static_cast<double>(folder.files.size()));
         collector.add(folder.files[n]);
     }
     DicomContent content = std::move(collector).result();

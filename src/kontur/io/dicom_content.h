@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/dicom_folder.h"
 #include "kontur/io/dicom_stack.h"
 
@@ -31,7 +31,7 @@ struct DicomContent {
 /// all but the first are left out, or all but `preferred`, with a note; where their bytes differ, the later one counts as
 /// damaged. Throws Error(io).
 DicomContent read_dicom_content(const std::filesystem::path& root, const DicomFolder& folder,
-                                const std::optional<std::filesystem::path>& preferred, const Progress& progress);
+                                const std::optional<std::filesystem::path>& preferred, const Work& work);
 
 /// "left out 3 files (RTSTRUCT): a.dcm, ..."
 std::string left_out_note(const std::string& reason, const std::vector<std::string>& names);

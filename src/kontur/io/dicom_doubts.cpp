@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom_doubts.h"
+#include "kontur/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -22,10 +23,7 @@ std::string shape_of(const fs::path& file) {
     const bool has_letter = std::any_of(extension.begin(), extension.end(), [](unsigned char c) { return std::isalpha(c); });
     std::string shape = file.parent_path().string() + "/";
     // "1.2.840.12a" has no extension.
-    if (has_letter && !std::all_of(extension.begin(), extension.end(), is_hexadecimal)) {
-        for (const unsigned char c : extension) shape += static_cast<char>(std::tolower(c));
-        return shape;
-    }
+    if (has_letter && !std::all_of(extension.begin(), extension.end(), is_hexadecimal)) return shape + lower_case(extension);
     for (const unsigned char c : file.filename().string())
         if (!is_hexadecimal(c)) shape += static_cast<char>(c);
         else if (shape.back() != '#') shape += '#';

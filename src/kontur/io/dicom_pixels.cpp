@@ -251,17 +251,17 @@ void check_pixel_formats(const DicomStack& stack) {
     }
 }
 
-Image::Samples read_pixels(const DicomStack& stack, const Progress& progress) {
+Image::Samples read_pixels(const DicomStack& stack, const Work& work) {
     const std::size_t slices = stack.slices.size();
     const DicomHeader& first = stack.slices.front();
     const bool integral = std::all_of(stack.slices.begin(), stack.slices.end(), has_integer_rescale);
     GrowingSamples samples(!integral, slices * static_cast<std::size_t>(first.rows * first.columns));
     SliceReader reader;
     for (std::size_t k = 0; k < slices; ++k) {
-        progress.report("read slices", static_cast<double>(k) / static_cast<double>(slices));
+        work.report("read slices", static_cast<double>(k) / static_cast<double>(slices));
         samples.append(reader.read(stack.slices[k]));
     }
-    progress.report("read slices", 1);
+    work.report("read slices", 1);
     return std::move(samples).take();
 }
 

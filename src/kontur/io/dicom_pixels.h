@@ -3,7 +3,7 @@
 
 // Private to io/: the pixels of a stack of slices.
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/dicom_stack.h"
 #include "kontur/shape/volume.h"
 
@@ -15,6 +15,6 @@ void check_pixel_formats(const DicomStack& stack);
 
 /// The samples of all slices in modality units, slice after slice, in the narrowest type that holds them; float when some
 /// slope or intercept is not an integer. Throws Error(corrupt_file), naming the file, when pixels are missing.
-Image::Samples read_pixels(const DicomStack& stack, const Progress& progress);
+Image::Samples read_pixels(const DicomStack& stack, const Work& work);
 
 }  // namespace kontur

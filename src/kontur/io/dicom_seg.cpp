@@ -315,11 +315,11 @@ void check_segment(const DicomSegmentation& found, std::int64_t number) {
 }
 
 template <class T>
-std::vector<T> label_map(const SegFile& file, std::optional<std::int64_t> only, const Progress& progress) {
+std::vector<T> label_map(const SegFile& file, std::optional<std::int64_t> only, const Work& work) {
     const Grid& grid = file.description().grid;
     std::vector<T> labels(static_cast<std::size_t>(grid.voxel_count()));
     for (std::size_t f = 0; f < file.frames().size(); ++f) {
-        progress.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
+        work.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
         const SegFrame& frame = file.frames()[f];
         T* const slice = labels.data() + grid.offset(0, 0, frame.k);
         file.for_each_inside(f, [&](std::size_t n, std::int64_t segment) {
@@ -334,7 +334,7 @@ std::vector<T> label_map(const SegFile& file, std::optional<std::int64_t> only, 
     return labels;
 }
 
-std::vector<Mask> masks_of(const SegFile& file, std::int64_t max_voxels, const Progress& progress) {
+std::vector<Mask> masks_of(const SegFile& file, std::int64_t max_voxels, const Work& work) {
     const Grid& grid = file.description().grid;
     const auto count = static_cast<std::int64_t>(file.description().segments.size());
     if (count > 0 && grid.voxel_count() > max_voxels / count)
@@ -343,7 +343,7 @@ std::vector<Mask> masks_of(const SegFile& file, std::int64_t max_voxels, const P
     std::vector<Mask> masks(static_cast<std::size_t>(count),
                             {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))});
     for (std::size_t f = 0; f < file.frames().size(); ++f) {
-        progress.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
+        work.report("read frames", static_cast<double>(f) / static_cast<double>(file.frames().size()));
         const auto offset = static_cast<std::size_t>(grid.offset(0, 0, file.frames()[f].k));
         file.for_each_inside(
             f, [&](std::size_t n, std::int64_t segment) { masks[file.index_of(segment)].values[offset + n] = 1; });
@@ -381,7 +381,7 @@ DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std
 }
 
 DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment, std::int64_t max_voxels,
-                        const Progress& progress) {
+                        const Work& work) {
     check_limit(max_voxels);
     return named_after(path, [&] {
         const SegFile file(path, max_voxels);
@@ -390,16 +390,15 @@ DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::in
         const bool small =
             std::all_of(found.segments.begin(), found.segments.end(), [](const DicomSegment& s) { return s.number <= 255; });
         Image image{found.grid, {}};
-        if (small) image.samples = label_map<std::uint8_t>(file, segment, progress);
-        else image.samples = label_map<std::uint16_t>(file, segment, progress);
+        if (small) image.samples = label_map<std::uint8_t>(file, segment, work);
+        else image.samples = label_map<std::uint16_t>(file, segment, work);
         return DicomSeg{std::move(image), found.notes};
     });
 }
 
-std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels,
-                                       const Progress& progress) {
+std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels, const Work& work) {
     check_limit(max_voxels);
-    return named_after(path, [&] { return masks_of(SegFile(path, max_voxels), max_voxels, progress); });
+    return named_after(path, [&] { return masks_of(SegFile(path, max_voxels), max_voxels, work); });
 }
 
 }  // namespace kontur

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
@@ -53,12 +53,12 @@ struct DicomSeg {
 /// The segments' numbers on the segmentation's grid; with `segment` that one alone. Throws Error(invalid_input), naming
 /// two, when segments overlap, and for a segment that is not there, listing those that are.
 DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment = {},
-                        std::int64_t max_voxels = 2'200'000'000, const Progress& progress = {});
+                        std::int64_t max_voxels = 2'200'000'000, const Work& work = {});
 
 /// The voxels of each segment, in the order of `read_dicom_segmentation` and on its grid, whether they overlap or not.
 /// Throws Error(too_large) when all masks together have more than `max_voxels`.
 std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000,
-                                       const Progress& progress = {});
+                                       const Work& work = {});
 
 /// How segments were made, for those who audit them (DICOM PS3.3 table 10-19).
 struct DicomAlgorithm {
@@ -83,12 +83,12 @@ struct WriteDicomSegOptions {
 /// Returns what the user should know, one sentence each: names that were changed. Source: DICOM PS3.3 A.51 and C.8.20.
 std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
                                          const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                         const WriteDicomSegOptions& options = {}, const Progress& progress = {});
+                                         const WriteDicomSegOptions& options = {}, const Work& work = {});
 
 /// The same for segments that may overlap: one mask for each, in the order given, whatever their numbers are. Throws
 /// Error(invalid_input) also when there are not as many masks as segments.
 std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
                                                const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                               const WriteDicomSegOptions& options = {}, const Progress& progress = {});
+                                               const WriteDicomSegOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

@@ -311,8 +311,7 @@ std::vector<std::string> names_of(const std::vector<DicomSegment>& segments) {
 
 std::vector<std::string> write_segments(const std::filesystem::path& path, const std::vector<DicomSegment>& segments,
                                         const std::vector<DicomHeader>& slices, const DicomSeries& images,
-                                        const WriteDicomSegOptions& options, const Progress& progress,
-                                        const VoxelsOf& voxels_of) {
+                                        const WriteDicomSegOptions& options, const Work& work, const VoxelsOf& voxels_of) {
     std::vector<std::string> notes;
     const std::vector<std::string> names = dcmtk::stored_names(names_of(segments), "segment", notes);
     const Grid grid = grid_of(slices);
@@ -332,7 +331,7 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
         writer.put_segment(segments[s], names[s], s + 1, options.algorithm);
         const std::vector<bool> inside = voxels_of(s);
         for (std::int64_t k = 0; k < grid.size.k; ++k) {
-            progress.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
+            work.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));
             writer.put_frame(s + 1, static_cast<std::size_t>(k));
             for (std::size_t n = grid.offset(0, 0, k); n < grid.offset(0, 0, k + 1); ++n) {
                 bits.append(inside[n]);
@@ -351,7 +350,7 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
 
 std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
                                          const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                         const WriteDicomSegOptions& options, const Progress& progress) {
+                                         const WriteDicomSegOptions& options, const Work& work) {
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
@@ -359,7 +358,7 @@ std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, cons
     check_segments(labels, segments);
     const auto values =
         Lookup(labels.grid, grid).values<std::uint16_t>([&](std::size_t offset) { return sample(labels, offset); });
-    return write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
+    return write_segments(path, segments, slices, images, options, work, [&](std::size_t s) {
         std::vector<bool> inside(values.size());
         std::transform(values.begin(), values.end(), inside.begin(),
                        [number = segments[s].number](std::uint16_t value) { return value == number; });
@@ -369,13 +368,13 @@ std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, cons
 
 std::vector<std::string> write_dicom_seg_masks(const std::filesystem::path& path, const std::vector<Mask>& masks,
                                                const std::vector<DicomSegment>& segments, const DicomSeries& images,
-                                               const WriteDicomSegOptions& options, const Progress& progress) {
+                                               const WriteDicomSegOptions& options, const Work& work) {
     dcmtk::set_up();
     const std::vector<DicomHeader> slices = read_slice_headers(images);
     const Grid grid = grid_of(slices);
     check_masks(masks, segments);
     for (const Mask& mask : masks) check_mask(mask);
-    return write_segments(path, segments, slices, images, options, progress, [&](std::size_t s) {
+    return write_segments(path, segments, slices, images, options, work, [&](std::size_t s) {
         const Mask& mask = masks[s];
         return Lookup(mask.grid, grid).values<bool>([&](std::size_t offset) { return mask.values[offset] != 0; });
     });

@@ -173,9 +173,9 @@ struct Located {
 };
 
 /// The folder or, of a file, the one that it lies in.
-DicomContent read_content(const fs::path& path, const std::optional<fs::path>& file, const Progress& progress) {
+DicomContent read_content(const fs::path& path, const std::optional<fs::path>& file, const Work& work) {
     const fs::path folder = !file ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
-    return read_dicom_content(folder, file ? dicom_files_in(folder) : dicom_folder(folder), file, progress);
+    return read_dicom_content(folder, file ? dicom_files_in(folder) : dicom_folder(folder), file, work);
 }
 
 void append(std::vector<std::string>& all, std::vector<std::string> more) {
@@ -203,13 +203,13 @@ Located locate_in(DicomContent content, const DicomSeriesOptions& options, const
     return result;
 }
 
-Located locate(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
+Located locate(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
     check_at_least("the limit of voxels", options.max_voxels, 1);
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
     if (!is_folder && !fs::exists(path, ignored)) throw Error(ErrorKind::io, path.string() + ": no such file or folder");
     const std::optional<fs::path> file = is_folder ? std::nullopt : std::optional(path);
-    DicomContent content = read_content(path, file, progress);
+    DicomContent content = read_content(path, file, work);
     if (file) refuse_file(content, *file);
     else if (!options.series_uid) set_doses_aside(content);
     if (content.stacks.empty()) refuse_empty(path, content);
@@ -233,8 +233,8 @@ bool looks_like_dicom(const fs::path& path) {
     return holds_dicom(dicom_files_in(path)) || holds_dicom(dicom_folder(path));
 }
 
-std::vector<DicomSeries> list_dicom_series(const fs::path& folder, const Progress& progress) {
-    const DicomContent content = read_content(folder, std::nullopt, progress);
+std::vector<DicomSeries> list_dicom_series(const fs::path& folder, const Work& work) {
+    const DicomContent content = read_content(folder, std::nullopt, work);
     if (content.stacks.empty() && !content.damaged.empty()) throw content.damaged.front().error;
     std::vector<DicomSeries> result;
     for (const DicomStack& stack : content.stacks) result.push_back(describe(stack));
@@ -258,21 +258,21 @@ Image read_dicom_slice(const fs::path& file, std::int64_t frame) {
     return {grid, read_pixels(stack, {})};
 }
 
-DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
-    Located located = locate(path, options, progress);
+DicomVolume read_dicom_series(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
+    Located located = locate(path, options, work);
     check_pixel_formats(located.stack);
     if (located.stack.slices.front().photometric_interpretation == "MONOCHROME1")
         located.notes.push_back("MONOCHROME1: shown with low values bright elsewhere; the values are kept as they are");
     DicomVolume volume;
-    volume.image = {located.grid, read_pixels(located.stack, progress)};
+    volume.image = {located.grid, read_pixels(located.stack, work)};
     volume.series = describe(located.stack);
     volume.notes = std::move(located.notes);
     volume.warnings = std::move(located.warnings);
     return volume;
 }
 
-DicomGrid read_dicom_grid(const fs::path& path, const DicomSeriesOptions& options, const Progress& progress) {
-    Located located = locate(path, options, progress);
+DicomGrid read_dicom_grid(const fs::path& path, const DicomSeriesOptions& options, const Work& work) {
+    Located located = locate(path, options, work);
     return {located.grid, describe(located.stack), std::move(located.notes), std::move(located.warnings)};
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -56,7 +56,7 @@ bool looks_like_dicom(const std::filesystem::path& path);
 
 /// The volumes in a folder, or, where it holds no images itself, in the folders below it, ordered by series UID; dose grids
 /// are among them. Reads headers only. Damaged images are left out; their error is thrown where there are no others.
-std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder, const Progress& progress = {});
+std::vector<DicomSeries> list_dicom_series(const std::filesystem::path& folder, const Work& work = {});
 
 /// One slice alone, as an image one voxel deep: for previews. Where it names no thickness it is 1 mm thick. `frame` counts
 /// from 1. Throws as `read_dicom_series`, and
@@ -77,10 +77,9 @@ Image read_dicom_slice(const std::filesystem::path& file, std::int64_t frame = 1
 /// JPEG, JPEG-LS, JPEG 2000, RLE and deflate; Error(corrupt_file) for damaged files of the series, naming the file;
 /// Error(too_large); Error(io) when there is nothing to read or a file cannot be read.
 DicomVolume read_dicom_series(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
-                              const Progress& progress = {});
+                              const Work& work = {});
 
 /// The same volume's grid, from the headers only.
-DicomGrid read_dicom_grid(const std::filesystem::path& path, const DicomSeriesOptions& options = {},
-                          const Progress& progress = {});
+DicomGrid read_dicom_grid(const std::filesystem::path& path, const DicomSeriesOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

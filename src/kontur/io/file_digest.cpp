@@ -20,7 +20,7 @@ namespace {
     throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + reason);
 }
 
-std::string digest_of_file(const fs::path& path, const Progress& progress) {
+std::string digest_of_file(const fs::path& path, const Work& work) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file) fail(path, std::strerror(errno));
     Sha256 hash;
@@ -29,7 +29,7 @@ std::string digest_of_file(const fs::path& path, const Progress& progress) {
         const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get());
         hash.update(std::span(buffer).first(count));
         if (count < buffer.size()) break;
-        progress.check();
+        work.check();
     }
     if (std::ferror(file.get())) fail(path, std::strerror(errno));
     return hash.hex();
@@ -45,21 +45,21 @@ std::string digest_of(const std::vector<std::string>& digests) {
 
 }  // namespace
 
-std::string file_sha256(const fs::path& path, const Progress& progress) {
+std::string file_sha256(const fs::path& path, const Work& work) {
     std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
     if (fs::is_other(status)) fail(path, "it is a device or a pipe, not a file");  // devices may never end
-    if (!fs::is_directory(status)) return digest_of_file(path, progress);
+    if (!fs::is_directory(status)) return digest_of_file(path, work);
     std::vector<std::string> digests;
-    for (const fs::path& file : dicom_folder(path).files) digests.push_back(digest_of_file(file, progress));
+    for (const fs::path& file : dicom_folder(path).files) digests.push_back(digest_of_file(file, work));
     std::sort(digests.begin(), digests.end());
     return digest_of(digests);
 }
 
-std::string files_sha256(const std::vector<fs::path>& paths, const Progress& progress) {
+std::string files_sha256(const std::vector<fs::path>& paths, const Work& work) {
     std::vector<std::string> digests;
     digests.reserve(paths.size());
-    for (const fs::path& path : paths) digests.push_back(file_sha256(path, progress));
+    for (const fs::path& path : paths) digests.push_back(file_sha256(path, work));
     return digests.size() == 1 ? digests.front() : digest_of(digests);
 }
 

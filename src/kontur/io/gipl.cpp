@@ -100,8 +100,8 @@ OpenImage open_gipl(const fs::path& path, const ReadImageOptions& options) {
 
 }  // namespace
 
-Image read_gipl(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
-    return read_voxels(open_gipl(path, options), options, progress);
+Image read_gipl(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    return read_voxels(open_gipl(path, options), options, work);
 }
 
 Grid read_gipl_grid(const fs::path& path, const ReadImageOptions& options) { return open_gipl(path, options).grid; }

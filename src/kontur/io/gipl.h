@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "kontur/base/work.h"
 #include "kontur/io/read_image_options.h"
 #include "kontur/shape/volume.h"
 
@@ -14,7 +15,7 @@ namespace kontur {
 /// and ITK-SNAP do, along L, P and S with its spacing and its origin the first voxel's place. Throws Error(corrupt_file),
 /// Error(unsupported) for complex or rescaled samples, Error(too_large).
 /// Source: the fields of the header as ITK's reader and writer use them (itkGiplImageIO).
-Image read_gipl(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Image read_gipl(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone, from the header.
 Grid read_gipl_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});

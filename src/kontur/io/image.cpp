@@ -11,6 +11,7 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/gipl.h"
 #include "kontur/io/image_view.h"
@@ -98,17 +99,17 @@ std::map<std::int64_t, std::int64_t> labels_of(const Image& image, const fs::pat
 }
 
 Image read_segments(const fs::path& path, std::optional<std::int64_t> segment, const ReadImageOptions& options,
-                    const Progress& progress) {
-    DicomSeg found = read_dicom_seg(path, segment, options.max_voxels, progress);
+                    const Work& work) {
+    DicomSeg found = read_dicom_seg(path, segment, options.max_voxels, work);
     report(found.notes, options);
     return std::move(found.labels);
 }
 
 /// Overlapping segments of one file can be read one by one only.
 Image read_labels(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
-                  const Progress& progress) {
-    if (is_dicom_seg(path)) return read_segments(path, label, options, progress);
-    return read_image(path, options, progress);
+                  const Work& work) {
+    if (is_dicom_seg(path)) return read_segments(path, label, options, work);
+    return read_image(path, options, work);
 }
 
 template <typename Value>
@@ -181,34 +182,34 @@ void check_label_value(std::int64_t value) {
                                                   std::to_string(kMaxLabel) + " can");
 }
 
-Image read_image(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+Image read_image(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     check_limit(options);
-    progress.check();
+    work.check();
     switch (readable_format(path)) {
         case Format::nifti:
-            return read_nifti(path, options, progress);
+            return read_nifti(path, options, work);
         case Format::nrrd:
         case Format::seg_nrrd:
-            return read_nrrd(path, options, progress);
+            return read_nrrd(path, options, work);
         case Format::metaimage:
-            return read_metaimage(path, options, progress);
+            return read_metaimage(path, options, work);
         case Format::mgh:
-            return read_mgh(path, options, progress);
+            return read_mgh(path, options, work);
         case Format::gipl:
-            return read_gipl(path, options, progress);
+            return read_gipl(path, options, work);
         case Format::dicom_seg:
-            return read_segments(path, {}, options, progress);
+            return read_segments(path, {}, options, work);
         default:
             break;
     }
-    DicomVolume volume = read_dicom_series(path, options.dicom, progress);
+    DicomVolume volume = read_dicom_series(path, options.dicom, work);
     report(volume.notes, options, volume.warnings);
     return std::move(volume.image);
 }
 
-Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
+Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Work& work) {
     check_limit(options);
-    progress.check();
+    work.check();
     switch (readable_format(path)) {
         case Format::nifti:
             return read_nifti_grid(path, options);
@@ -226,15 +227,14 @@ Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Prog
         default:
             break;
     }
-    const DicomGrid volume = read_dicom_grid(path, options.dicom, progress);
+    const DicomGrid volume = read_dicom_grid(path, options.dicom, work);
     report(volume.notes, options, volume.warnings);
     return volume.grid;
 }
 
-Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
-               const Progress& progress) {
+Mask read_mask(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options, const Work& work) {
     check_limit(options);
-    const Image image = read_labels(path, label, options, progress);
+    const Image image = read_labels(path, label, options, work);
     return select_mask(image, label, path.string());
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/io/read_image_options.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
@@ -20,15 +20,15 @@ namespace kontur {
 /// file's name says which, else its content. Geometry arrives in mm, LPS, with its shear. Errors: io, corrupt_file
 /// (truncated, lying or contradictory), unsupported (a variant, or an unknown format: the message lists the known ones),
 /// too_large, invalid_input (options that fit no frame or series, a limit below 1). Every message names the file.
-Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Image read_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone; reads no voxels.
-Grid read_grid(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Grid read_grid(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// Reads a mask: the voxels with the value `label`, or without one all voxels other than 0. Throws Error(invalid_input),
 /// listing the labels in the file, when it holds several and none was chosen, or when the chosen one is not there.
 Mask read_mask(const std::filesystem::path& path, std::optional<std::int64_t> label = {},
-               const ReadImageOptions& options = {}, const Progress& progress = {});
+               const ReadImageOptions& options = {}, const Work& work = {});
 
 struct WriteMaskOptions {
     std::int64_t label_value = 1;            ///< value inside, 1 to 65535; 8-bit samples up to 255, else 16-bit ones

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "kontur/base/printable.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/metaimage.h"
 #include "kontur/io/nrrd.h"

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/mesh_formats.h"
 
@@ -26,8 +27,7 @@ constexpr std::array kFormats{Format{".stl", write_stl, parse_stl}, Format{".ply
                               Format{".vtp", write_vtp, parse_vtp_mesh}};
 
 const Format& format_of(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = lower_case(path.extension().string());
     const auto* format =
         std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& f) { return f.extension == extension; });
     if (format == kFormats.end())
@@ -98,7 +98,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, con
     if (values.values.size() != mesh.points.size())
         throw Error(ErrorKind::invalid_input, fmt::format("{} has {} values for the {} points of the mesh", values.name,
                                                           values.values.size(), mesh.points.size()));
-    write_file_atomically(path, [&](AtomicFile& file) { write_ply(file, mesh, values, provenance); });
+    write_file_atomically(path, [&](AtomicFile& file) { write_ply(file, mesh, {.values = &values}, provenance); });
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {

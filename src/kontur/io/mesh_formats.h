@@ -6,6 +6,7 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/patient_frame.h"
+#include "kontur/io/region_mesh.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/provenance.h"
 
@@ -13,9 +14,15 @@
 // file's name to errors. Parsers take the whole file.
 namespace kontur {
 
+/// What a .ply holds beside points, normals and triangles; null: nothing.
+struct PlyExtras {
+    const PointValues* values = nullptr;
+    const MeshRegions* regions = nullptr;
+};
+
 void write_stl(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
-void write_ply(AtomicFile& file, const TriangleMesh& mesh, const PointValues& values, const Provenance& provenance);
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const PlyExtras& extras, const Provenance& provenance);
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_vtk(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);
 void write_vtp(AtomicFile& file, const TriangleMesh& mesh, const Provenance& provenance);

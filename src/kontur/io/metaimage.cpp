@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/deflate.h"
 #include "kontur/io/text_header.h"
@@ -222,8 +223,8 @@ std::string header_text(const ImageView& image, std::size_t compressed_bytes) {
 
 }  // namespace
 
-Image read_metaimage(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
-    return read_voxels(open_metaimage(path, options), options, progress);
+Image read_metaimage(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    return read_voxels(open_metaimage(path, options), options, work);
 }
 
 Grid read_metaimage_grid(const fs::path& path, const ReadImageOptions& options) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "kontur/base/work.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/read_image_options.h"
 
@@ -16,7 +17,7 @@ namespace kontur {
 /// AnatomicalOrientation is ignored; a missing matrix is the identity and a missing Offset 0, as the format defines. A file
 /// without a spacing is refused unless `allow_missing_geometry`. Shear is kept. Errors: corrupt_file, unsupported,
 /// too_large, io. Source: MetaIO documentation (Kitware, "MetaIO/Documentation").
-Image read_metaimage(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Image read_metaimage(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone, from the header.
 Grid read_metaimage_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});

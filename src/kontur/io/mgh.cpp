@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/affine_frame.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/byte_order.h"
@@ -200,8 +201,8 @@ std::string read_command(InputFile& file) {
 
 }  // namespace
 
-Image read_mgh(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
-    return read_voxels(open_mgh(path, options), options, progress);
+Image read_mgh(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    return read_voxels(open_mgh(path, options), options, work);
 }
 
 Grid read_mgh_grid(const fs::path& path, const ReadImageOptions& options) { return open_mgh(path, options).grid; }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "kontur/base/work.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/read_image_options.h"
 
@@ -13,7 +14,7 @@ namespace kontur {
 /// that says it does not (goodRASFlag 0) is refused unless `allow_missing_geometry`, which takes FreeSurfer's own default:
 /// coronal, 1 mm, centred. Shear is kept. Throws Error(corrupt_file), Error(unsupported) for other samples,
 /// Error(too_large). Source: "MGH and MGZ formats" (FreeSurfer wiki, FsTutorial/MghFormat).
-Image read_mgh(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Image read_mgh(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone, from the header.
 Grid read_mgh_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});

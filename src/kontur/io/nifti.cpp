@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/affine_frame.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/deflate.h"
@@ -284,8 +285,8 @@ std::string comment_extension(const Provenance& provenance) {
 
 }  // namespace
 
-Image read_nifti(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
-    return read_voxels(open_nifti(path, options), options, progress);
+Image read_nifti(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    return read_voxels(open_nifti(path, options), options, work);
 }
 
 Grid read_nifti_grid(const fs::path& path, const ReadImageOptions& options) { return open_nifti(path, options).grid; }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "kontur/base/work.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/read_image_options.h"
 
@@ -17,7 +18,7 @@ namespace kontur {
 /// kept. Throws Error(corrupt_file) for contradictions, Error(unsupported) for variants (complex and colour samples, more
 /// than four axes) and Analyze 7.5, whose header tells neither left from right nor where the image lies; Error(too_large).
 /// Source: NIfTI-1 and NIfTI-2 headers (nifti1.h, nifti2.h of the NIfTI Data Format Working Group).
-Image read_nifti(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Image read_nifti(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone, from the header.
 Grid read_nifti_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});

@@ -161,8 +161,8 @@ std::string segment_keys(std::size_t number, const NrrdSegment& segment, const s
 
 }  // namespace
 
-Image read_nrrd(const fs::path& path, const ReadImageOptions& options, const Progress& progress) {
-    return read_voxels(open_nrrd(path, options), options, progress);
+Image read_nrrd(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    return read_voxels(open_nrrd(path, options), options, work);
 }
 
 Grid read_nrrd_grid(const fs::path& path, const ReadImageOptions& options) { return open_nrrd(path, options).grid; }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/read_image_options.h"
 
@@ -19,7 +20,7 @@ namespace kontur {
 /// them. The space may be LPS, RAS or any other of left/right, anterior/posterior, superior/inferior; lengths in mm, cm, m,
 /// um. A file without a named space, directions and an origin is refused unless `allow_missing_geometry`. Shear is kept.
 /// Errors: corrupt_file, unsupported, too_large, io. Source: the NRRD file format specification (teem, nrrd/format.html).
-Image read_nrrd(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Progress& progress = {});
+Image read_nrrd(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
 /// The geometry alone, from the header.
 Grid read_nrrd_grid(const std::filesystem::path& path, const ReadImageOptions& options = {});

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/base/printable.h"
 #include "kontur/io/affine_frame.h"
 
 namespace kontur {

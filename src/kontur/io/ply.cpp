@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/mesh_formats.h"
 
 static_assert(std::endian::native == std::endian::little, "bytes are swapped for big-endian files only");
@@ -268,27 +269,34 @@ void write_ply(AtomicFile& file, const TriangleMesh& mesh, const Provenance& pro
     write_ply(file, mesh, {}, provenance);
 }
 
-void write_ply(AtomicFile& file, const TriangleMesh& mesh, const PointValues& values, const Provenance& provenance) {
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const PlyExtras& extras, const Provenance& provenance) {
+    const auto& [values, regions] = extras;
     std::string comments;
     for (const auto& [name, value] : provenance) comments += fmt::format("comment kontur {}: {}\n", name, value);
+    if (regions)
+        for (std::size_t n = 0; n < regions->names.size(); ++n)
+            comments += fmt::format("comment kontur region {}: {}\n", n, printable_utf8(regions->names[n]));
     file.write(
         fmt::format("ply\nformat binary_little_endian 1.0\ncomment kontur {}\ncomment SPACE=LPS\ncomment UNIT=mm\n{}"
                     "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}{}"
-                    "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+                    "element face {}\nproperty list uchar uint vertex_indices\n{}end_header\n",
                     KONTUR_VERSION, comments, mesh.points.size(),
                     mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n",
-                    values.name.empty() ? "" : fmt::format("property float {}\n", values.name), mesh.triangles.size()));
+                    values ? fmt::format("property float {}\n", values->name) : "", mesh.triangles.size(),
+                    regions ? "property uint behind\nproperty uint front\n" : ""));
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         std::string row;
         for (int axis = 0; axis < 3; ++axis) append(row, mesh.points[i][axis]);
         if (!mesh.normals.empty())
             for (int axis = 0; axis < 3; ++axis) append(row, static_cast<float>(mesh.normals[i][axis]));
-        if (!values.name.empty()) append(row, static_cast<float>(values.values[i]));
+        if (values) append(row, static_cast<float>(values->values[i]));
         file.write(row);
     }
-    for (const auto& triangle : mesh.triangles) {
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
         std::string row(1, '\3');
-        for (const std::uint32_t corner : triangle) append(row, corner);
+        for (const std::uint32_t corner : mesh.triangles[n]) append(row, corner);
+        if (regions)
+            for (const std::uint32_t region : regions->sides[n]) append(row, region);
         file.write(row);
     }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/mesh_formats.h"
 #include "kontur/io/text_header.h"

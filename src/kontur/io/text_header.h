@@ -43,7 +43,6 @@ private:
 std::string_view trimmed(std::string_view text);
 /// Split at blanks.
 std::vector<std::string_view> words(std::string_view text);
-std::string lower_case(std::string_view text);
 /// The whole text as a number, whatever the locale. nan and inf are numbers here: who needs a finite one must check.
 std::optional<double> parse_number(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);

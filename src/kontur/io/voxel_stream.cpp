@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
+#include "kontur/io/frame_needed.h"
 
 namespace kontur {
 namespace {
@@ -58,21 +59,21 @@ void swap_bytes(std::vector<Value>& values) {
     }
 }
 
-void report(const Progress& progress, std::size_t done, std::size_t voxels) {
-    progress.report("read voxels", static_cast<double>(done) / static_cast<double>(voxels));
+void report(const Work& work, std::size_t done, std::size_t voxels) {
+    work.report("read voxels", static_cast<double>(done) / static_cast<double>(voxels));
 }
 
 /// The `component`-th of every `components` interleaved values.
 template <typename Value>
 std::vector<Value> read_interleaved(InputFile& data, std::size_t components, std::size_t component, std::size_t voxels,
-                                    const Progress& progress) {
+                                    const Work& work) {
     const std::size_t chunk = std::max<std::size_t>(1, kChunkBytes / (components * sizeof(Value)));
     std::vector<Value> buffer(std::min(chunk, voxels) * components);
     std::vector<Value> values;
     values.reserve(voxels);
     while (values.size() < voxels) {
         const std::size_t count = std::min(chunk, voxels - values.size());
-        report(progress, values.size(), voxels);
+        report(work, values.size(), voxels);
         data.read(buffer.data(), count * components * sizeof(Value));
         for (std::size_t n = 0; n < count; ++n) values.push_back(buffer[n * components + component]);
     }
@@ -82,13 +83,13 @@ std::vector<Value> read_interleaved(InputFile& data, std::size_t components, std
 /// The vector grows as the values arrive: memory is reserved but not touched, so compressed data that claim gigabytes and
 /// hold little take no more than they hold.
 template <typename Value>
-std::vector<Value> read_plain(InputFile& data, std::size_t voxels, const Progress& progress) {
+std::vector<Value> read_plain(InputFile& data, std::size_t voxels, const Work& work) {
     constexpr std::size_t kChunk = (std::size_t{1} << 22) / sizeof(Value);
     std::vector<Value> values;
     values.reserve(voxels);
     while (values.size() < voxels) {
         const std::size_t begin = values.size(), count = std::min(kChunk, voxels - begin);
-        report(progress, begin, voxels);
+        report(work, begin, voxels);
         values.resize(begin + count);
         data.read(values.data() + begin, count * sizeof(Value));
     }
@@ -97,15 +98,15 @@ std::vector<Value> read_plain(InputFile& data, std::size_t voxels, const Progres
 
 template <typename Value>
 std::vector<Value> read_binary(InputFile& data, const VoxelEncoding& encoding, std::size_t voxels, std::size_t component,
-                               const Progress& progress) {
+                               const Work& work) {
     std::vector<Value> values;
     const auto components = static_cast<std::size_t>(encoding.components);
     const std::uint64_t volume_bytes = voxels * sizeof(Value);
     if (encoding.interleaved && components > 1) {
-        values = read_interleaved<Value>(data, components, component, voxels, progress);
+        values = read_interleaved<Value>(data, components, component, voxels, work);
     } else {
         data.skip(component * volume_bytes);
-        values = read_plain<Value>(data, voxels, progress);
+        values = read_plain<Value>(data, voxels, work);
         data.skip((components - 1 - component) * volume_bytes);
     }
     if (encoding.big_endian != (std::endian::native == std::endian::big)) swap_bytes(values);
@@ -243,9 +244,9 @@ std::int64_t chosen_component(const OpenImage& image, const std::optional<std::i
     const std::int64_t count = image.encoding.components;
     const std::string name = image.data.path().string();
     if (!frame && count > 1)
-        throw Error(ErrorKind::unsupported, name + " has " + std::to_string(count) +
-                                                " frames; choose one with the option frame (0 to " +
-                                                std::to_string(count - 1) + ")");
+        throw FrameNeeded(name + " has " + std::to_string(count) + " frames; choose one with the option frame (0 to " +
+                              std::to_string(count - 1) + ")",
+                          count);
     if (frame && (*frame < 0 || *frame >= count))
         throw Error(ErrorKind::invalid_input, "frame " + std::to_string(*frame) + " of " + name +
                                                   " was asked for, but it has frames 0 to " + std::to_string(count - 1));
@@ -285,7 +286,7 @@ void check_header_grid(const Grid& grid, const std::filesystem::path& path) {
     }
 }
 
-Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Progress& progress) {
+Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Work& work) {
     const auto component = static_cast<std::size_t>(chosen_component(image, options.frame));
     const std::int64_t count = image.grid.voxel_count();
     if (count > options.max_voxels)
@@ -297,7 +298,7 @@ Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Prog
         using Value = decltype(zero);
         const VoxelEncoding& encoding = image.encoding;
         auto values = encoding.text ? read_text<Value>(image.data, encoding, voxels, component)
-                                    : read_binary<Value>(image.data, encoding, voxels, component, progress);
+                                    : read_binary<Value>(image.data, encoding, voxels, component, work);
         image.data.finish();
         try {
             return Image{image.grid, to_samples(std::move(values), encoding.slope, encoding.intercept)};

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "kontur/base/work.h"
 #include "kontur/io/input_file.h"
 #include "kontur/io/read_image_options.h"
 #include "kontur/shape/volume.h"
@@ -42,7 +43,7 @@ void note_bytes_left(const OpenImage& image, const ReadImageOptions& options);
 
 /// The component that the options choose, in the narrowest sample type that is exact. Checks the declared size against the
 /// file and against `max_voxels` before it allocates.
-Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Progress& progress = {});
+Image read_voxels(OpenImage&& image, const ReadImageOptions& options, const Work& work = {});
 
 /// Throws Error(corrupt_file) naming the file for a size below 1, more voxels than 64 bits index, dependent or NaN axes.
 void check_header_grid(const Grid& grid, const std::filesystem::path& path);

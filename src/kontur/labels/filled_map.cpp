@@ -27,11 +27,11 @@ Index3 FilledMap::index(std::size_t n) const {
     return {m % size.i, m / size.i % size.j, m / (size.i * size.j)};
 }
 
-std::vector<double> depths_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, int threads) {
+std::vector<double> depths_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, const Work& work) {
     constexpr double kLeastSlope = 1e-3;  // where f has a ridge
     std::vector<double> values(places_mm.size());
     std::vector<Vec3> gradients(places_mm.size());
-    function.values_and_gradients(places_mm, values, gradients, threads);
+    function.values_and_gradients(places_mm, values, gradients, work);
     for (std::size_t n = 0; n < values.size(); ++n) values[n] /= std::max(norm(gradients[n]), kLeastSlope);
     return values;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/volume.h"
 
@@ -29,6 +30,6 @@ private:
 };
 
 /// How deep places lie in an object whose surface is where f is 0, in mm: f / |grad f|.
-std::vector<double> depths_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, int threads);
+std::vector<double> depths_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, const Work& work);
 
 }  // namespace kontur

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 
 namespace kontur {
@@ -27,6 +28,6 @@ using MayOwn = std::function<bool(std::size_t place, std::size_t structure)>;
 /// within reach.
 std::vector<std::optional<std::size_t>> owners_of_gaps(const TouchingStructures& structures,
                                                        const std::vector<Vec3>& places_mm, const MayOwn& may_own,
-                                                       int threads);
+                                                       const Work& work);
 
 }  // namespace kontur

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "kontur/extract/isolines.h"
 
@@ -89,6 +91,18 @@ std::vector<Contour> section_contours(const Grid& grid, const PaintedSlice& slic
     }
     drop_duplicate_points(set);
     return std::move(set.contours);
+}
+
+ContourSet slice_outlines(const Mask& mask, const SectionContourOptions& options) {
+    ContourSet set;
+    const auto area = static_cast<std::ptrdiff_t>(mask.grid.size.i * mask.grid.size.j);
+    for (std::int64_t k = 0; k < mask.grid.size.k; ++k) {
+        const auto first = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.grid.offset(0, 0, k));
+        const PaintedSlice slice{.axis = 2, .index = k, .whole = true, .section = {first, first + area}};
+        std::vector<Contour> contours = section_contours(mask.grid, slice, options);
+        std::move(contours.begin(), contours.end(), std::back_inserter(set.contours));
+    }
+    return set;
 }
 
 }  // namespace kontur

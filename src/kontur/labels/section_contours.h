@@ -21,4 +21,8 @@ struct SectionContourOptions {
 std::vector<Contour> section_contours(const Grid& grid, const PaintedSlice& slice,
                                       const SectionContourOptions& options = {});
 
+/// The outlines of a mask on all its slices across k, the grid's k-th in the k-th's plane: where no function says where they
+/// run.
+ContourSet slice_outlines(const Mask& mask, const SectionContourOptions& options = {});
+
 }  // namespace kontur

@@ -19,14 +19,14 @@ constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 /// Depths of objects at the voxels on either side of their borders.
 class BorderDepths {
 public:
-    BorderDepths(const RegionMap& map, std::span<const ImplicitFunction> functions, const Grid& grid, int threads)
+    BorderDepths(const RegionMap& map, std::span<const ImplicitFunction> functions, const Grid& grid, const Work& work)
         : size_(map.box().size()), low_(map.box().low), depths_(functions.size()) {
         std::vector<std::vector<Index3>> voxels(functions.size());
         collect(map, voxels);
         for (std::size_t object = 0; object < functions.size(); ++object) {
             std::vector<Vec3> places;
             for (const Index3& at : voxels[object]) places.push_back(grid.center_mm(at.i, at.j, at.k));
-            const std::vector<double> depths = depths_mm(functions[object], places, threads);
+            const std::vector<double> depths = depths_mm(functions[object], places, work);
             for (std::size_t n = 0; n < depths.size(); ++n) depths_[object][key(voxels[object][n])] = depths[n];
         }
     }
@@ -79,12 +79,12 @@ Crossing crossing(double here, double next) {
 
 class Net {
 public:
-    Net(const RegionMap& map, std::span<const ImplicitFunction> functions, const Grid& grid, int threads)
+    Net(const RegionMap& map, std::span<const ImplicitFunction> functions, const Grid& grid, const Work& work)
         : map_(map),
           functions_(functions),
-          depths_(map, functions, grid, threads),
+          depths_(map, functions, grid, work),
           grid_(grid),
-          threads_(threads),
+          work_(work),
           cells_(map.box().size()),
           of_object_(functions.size()) {
         for (int axis = 0; axis < 3; ++axis) --cells_[axis];
@@ -160,7 +160,7 @@ private:
             for (const std::size_t n : of_object_[object]) places.push_back(surface_.mesh.points[n]);
             std::vector<double> values(places.size());
             gradients.resize(places.size());
-            functions_[object].values_and_gradients(places, values, gradients, threads_);
+            functions_[object].values_and_gradients(places, values, gradients, work_);
             for (std::size_t n = 0; n < places.size(); ++n) {
                 const double slope = norm(gradients[n]);
                 if (!(std::abs(values[n]) < farthest_mm * slope)) continue;
@@ -221,7 +221,7 @@ private:
     std::span<const ImplicitFunction> functions_;
     BorderDepths depths_;
     const Grid& grid_;
-    int threads_;
+    const Work& work_;
     Index3 cells_;
     std::vector<std::vector<std::size_t>> of_object_;  ///< points where one object alone ends
     bool is_mirrored_ = false;
@@ -232,10 +232,10 @@ private:
 }  // namespace
 
 SharedSurface shared_surface(std::span<const BoxedMask> objects, std::span<const ImplicitFunction> functions,
-                             const Grid& grid, int threads) {
+                             const Grid& grid, const Work& work) {
     if (objects.empty()) return {{}, {{}}, {}};
     const RegionMap map(objects);
-    return Net(map, functions, grid, threads).make();
+    return Net(map, functions, grid, work).make();
 }
 
 TriangleMesh surface_of(const SharedSurface& surface, std::size_t object) {

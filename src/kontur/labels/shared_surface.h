@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/labels/boxed_mask.h"
 #include "kontur/shape/mesh.h"
@@ -28,7 +29,7 @@ struct SharedSurface {
 /// at which its voxels meet by an edge only have four. `functions` are those of the objects, in their order. The same for
 /// any number of threads.
 SharedSurface shared_surface(std::span<const BoxedMask> objects, std::span<const ImplicitFunction> functions,
-                             const Grid& grid, int threads = 0);
+                             const Grid& grid, const Work& work = {});
 
 /// The surface of one object, with the points that it uses, turned outward.
 TriangleMesh surface_of(const SharedSurface& surface, std::size_t object);

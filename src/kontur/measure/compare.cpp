@@ -53,11 +53,10 @@ std::vector<Vec3> surface_points(const Values& mask) {
 }
 
 /// From each point to the nearest point of the tree, ascending.
-std::vector<double> sorted_distances(const std::vector<Vec3>& from, const PointTree& to, int threads,
-                                     const Progress& progress) {
+std::vector<double> sorted_distances(const std::vector<Vec3>& from, const PointTree& to, const Work& work) {
     std::vector<double> distances(from.size());
-    parallel_for(static_cast<std::int64_t>(from.size()), 4096, threads, [&](std::int64_t begin, std::int64_t end) {
-        progress.check();
+    parallel_for(static_cast<std::int64_t>(from.size()), 4096, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        work.check();
         for (std::int64_t i = begin; i < end; ++i) distances[i] = to.distance_to(from[i]);
     });
     std::sort(distances.begin(), distances.end());
@@ -71,10 +70,9 @@ double percentile(const std::vector<double>& sorted, double fraction) {
     return std::lerp(sorted[below], sorted[above], rank - static_cast<double>(below));
 }
 
-SurfaceDistance surface_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, int threads,
-                                 const Progress& progress) {
-    const std::vector<double> forward = sorted_distances(a, PointTree(b), threads, progress);
-    const std::vector<double> backward = sorted_distances(b, PointTree(a), threads, progress);
+SurfaceDistance surface_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Work& work) {
+    const std::vector<double> forward = sorted_distances(a, PointTree(b), work);
+    const std::vector<double> backward = sorted_distances(b, PointTree(a), work);
     const double sum =
         std::accumulate(forward.begin(), forward.end(), 0.0) + std::accumulate(backward.begin(), backward.end(), 0.0);
     return {std::max(forward.back(), backward.back()), std::max(percentile(forward, 0.95), percentile(backward, 0.95)),
@@ -102,7 +100,7 @@ double ratio(std::int64_t part, std::int64_t whole) {
 
 }  // namespace
 
-Comparison compare(const Mask& a, const Mask& b, const CompareOptions& options, const Progress& progress) {
+Comparison compare(const Mask& a, const Mask& b, const Work& work) {
     check_mask(a, "the first mask");
     check_mask(b, "the second mask");
     check_same_grid(a.grid, b.grid);
@@ -114,8 +112,7 @@ Comparison compare(const Mask& a, const Mask& b, const CompareOptions& options, 
     result.dice = ratio(2 * count.both, count.a + count.b);
     result.jaccard = ratio(count.both, count.a + count.b - count.both);
     if (count.a > 0 && count.b > 0)
-        result.surface = surface_distance(surface_points({a.grid, a.values}), surface_points({a.grid, b.values}),
-                                          options.threads, progress);
+        result.surface = surface_distance(surface_points({a.grid, a.values}), surface_points({a.grid, b.values}), work);
     return result;
 }
 

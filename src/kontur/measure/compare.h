@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -27,12 +27,8 @@ struct Comparison {
     std::optional<SurfaceDistance> surface;  ///< absent when a mask is empty
 };
 
-struct CompareOptions {
-    int threads = 0;  ///< 0: as many as the machine has
-};
-
 /// Values other than 0 are inside; distances are measured on `a`'s grid. Exact on anisotropic, oblique and sheared grids.
 /// Throws Error(invalid_input), saying how they differ, when the grids differ in size or by more than 0.001 mm at a corner.
-Comparison compare(const Mask& a, const Mask& b, const CompareOptions& options = {}, const Progress& progress = {});
+Comparison compare(const Mask& a, const Mask& b, const Work& work = {});
 
 }  // namespace kontur

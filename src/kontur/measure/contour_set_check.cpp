@@ -323,6 +323,7 @@ std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCh
     keep_finite(set.exterior, sound.set.exterior);
     std::copy_if(set.surface.begin(), set.surface.end(), std::back_inserter(sound.set.surface),
                  [](const SurfacePoint& p) { return is_finite(p.position); });
+    sound.set.empty_planes = set.empty_planes;
     if (!sound.set.contours.empty()) SetCheck(sound, options, findings).run();
     std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
         return std::pair(-static_cast<int>(a.severity), a.contour.value_or(0)) <

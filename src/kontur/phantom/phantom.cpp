@@ -80,26 +80,26 @@ Grid oblique_abdomen_grid() { return oblique(grid_around({{-198, -138, -140}, {1
 
 }  // namespace
 
-Image make_phantom_image(const Grid& grid, const PhantomOptions& options, const Progress& progress) {
+Image make_phantom_image(const Grid& grid, const PhantomOptions& options, const Work& work) {
     check_grid(grid);
     if (!(options.noise_hu >= 0 && std::isfinite(options.noise_hu)))
         throw Error(ErrorKind::invalid_input, fmt::format("noise_hu is {:g}; it must be >= 0", options.noise_hu));
     const Painter painter(grid, options);
     std::vector<std::int16_t> samples(static_cast<std::size_t>(grid.voxel_count()));
     for (std::int64_t k = 0; k < grid.size.k; ++k) {
-        progress.report("phantom", static_cast<double>(k) / static_cast<double>(grid.size.k));
-        parallel_for(grid.size.j, 8, options.threads, [&](std::int64_t begin, std::int64_t end) {
+        work.report("phantom", static_cast<double>(k) / static_cast<double>(grid.size.k));
+        parallel_for(grid.size.j, 8, work.threads, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t j = begin; j < end; ++j) painter.paint_row(j, k, samples.data() + grid.offset(0, j, k));
         });
     }
-    progress.report("phantom", 1);
+    work.report("phantom", 1);
     return {grid, std::move(samples)};
 }
 
-Mask make_truth_mask(const Body& body, const Grid& grid, int threads) {
+Mask make_truth_mask(const Body& body, const Grid& grid, const Work& work) {
     check_grid(grid);
     Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
-    parallel_for(grid.size.j * grid.size.k, 64, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(grid.size.j * grid.size.k, 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             const std::int64_t j = row % grid.size.j, k = row / grid.size.j;
             if (!overlap(body.bounds(), row_box(grid, j, k))) continue;

@@ -16,6 +16,9 @@ constexpr double kUnseen = 0.15;         // probability kept for intensities tha
 // Neighbouring voxels are not independent: the likelihood of a line of them counts as this power of itself.
 constexpr double kIndependent = 0.4;
 
+// Beyond the offsets that describe the border the image may look like anything: so much holds of what is seen at the last.
+constexpr float kBeyond = 0.5F;
+
 constexpr int kOffsets = Appearance::kOffsets, kBins = Appearance::kBins;
 using Histograms = Appearance::Histograms;
 
@@ -85,12 +88,25 @@ void normalize(Histograms& h) {
     }
 }
 
+/// By offset, the first and the last for all that lies beyond.
+using LogProbabilities = std::array<std::array<float, kBins>, kOffsets + 2>;
+
+LogProbabilities log_probabilities(const Histograms& h) {
+    LogProbabilities log;
+    for (std::size_t row = 0; row < log.size(); ++row) {
+        const std::size_t t = std::clamp<std::size_t>(row, 1, kOffsets) - 1;
+        const float share = t + 1 == row ? 1 : kBeyond;
+        for (std::size_t b = 0; b < kBins; ++b) log[row][b] = std::log(share * h[t * kBins + b] + (1 - share) / kBins);
+    }
+    return log;
+}
+
 }  // namespace
 
 std::vector<double> intensities_across(const Intensities& image, std::span<const MovingPoint> points, double step_mm,
-                                       int threads) {
+                                       const Work& work) {
     std::vector<double> values(points.size() * kOffsets);
-    parallel_for(static_cast<std::int64_t>(points.size()), 64, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(points.size()), 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
             for (int t = 0; t < kOffsets; ++t)
                 values[i * kOffsets + static_cast<std::size_t>(t)] =
@@ -100,15 +116,15 @@ std::vector<double> intensities_across(const Intensities& image, std::span<const
 }
 
 Appearance::Appearance(const Intensities& image, const IntensityScale& scale, std::span<const MovingPoint> examples,
-                       double step_mm, int threads)
+                       double step_mm, const Work& work)
     : image_(image),
       scale_(scale),
       step_mm_(step_mm),
       examples_(examples.begin(), examples.end()),
       histograms_(examples.size()),
       mean_{} {
-    const std::vector<double> values = intensities_across(image, examples, step_mm, threads);
-    parallel_for(static_cast<std::int64_t>(examples.size()), 64, threads, [&](std::int64_t begin, std::int64_t end) {
+    const std::vector<double> values = intensities_across(image, examples, step_mm, work);
+    parallel_for(static_cast<std::int64_t>(examples.size()), 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
             histograms_[i] = histograms_of(std::span(values).subspan(i * kOffsets, kOffsets), scale);
     });
@@ -145,22 +161,20 @@ Appearance::Histograms Appearance::local(const MovingPoint& point) const {
 }
 
 std::vector<double> Appearance::log_likelihood(const MovingPoint& point, int most) const {
-    Histograms log = local(point);
-    for (float& p : log) p = std::log(p);
+    const LogProbabilities log = log_probabilities(local(point));
     const int reach = kHalf + most;
     std::vector<double> likelihood(static_cast<std::size_t>(2 * most + 1));
     for (int at = -reach; at <= reach; ++at) {
         const double value = image_.at(point.position + at * step_mm_ * point.normal);
         if (!std::isfinite(value)) continue;
         const Binned bin(scale_(value));
-        // Far inside and far outside it looks as at the ends of what was learnt.
-        std::array<double, kOffsets> by_offset;
-        for (int t = 0; t < kOffsets; ++t)
-            by_offset[static_cast<std::size_t>(t)] =
-                (1 - bin.weight) * entry(log, t, bin.first) + bin.weight * entry(log, t, bin.second);
+        std::array<double, kOffsets + 2> by_offset;
+        for (std::size_t t = 0; t < by_offset.size(); ++t)
+            by_offset[t] = std::lerp(log[t][static_cast<std::size_t>(bin.first)],
+                                     log[t][static_cast<std::size_t>(bin.second)], bin.weight);
         for (int u = -most; u <= most; ++u)
             likelihood[static_cast<std::size_t>(u + most)] +=
-                by_offset[static_cast<std::size_t>(std::clamp(at - u + kHalf, 0, kOffsets - 1))];
+                by_offset[static_cast<std::size_t>(std::clamp(at - u + kHalf + 1, 0, kOffsets + 1))];
     }
     for (double& l : likelihood) l *= kIndependent;
     return likelihood;

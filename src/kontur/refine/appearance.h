@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/refine/intensities.h"
 #include "kontur/refine/moving_point.h"
 
@@ -17,7 +18,7 @@ class Appearance {
 public:
     /// Learns from points on contours. `scale` maps intensities; `step_mm` is from offset to offset.
     Appearance(const Intensities& image, const IntensityScale& scale, std::span<const MovingPoint> examples, double step_mm,
-               int threads);
+               const Work& work);
 
     /// For offsets -most .. most, in steps, of the surface from the point along its normal: the logarithm of the probability
     /// of the intensities around the point, up to a constant. Every offset is judged by the same intensities; what lies
@@ -42,6 +43,6 @@ private:
 
 /// Intensities read at points of the surface, along their normals at every offset of `Appearance`.
 std::vector<double> intensities_across(const Intensities& image, std::span<const MovingPoint> points, double step_mm,
-                                       int threads);
+                                       const Work& work);
 
 }  // namespace kontur

@@ -59,9 +59,9 @@ DrawnLines::DrawnLines(const ContourSet& contours) {
 
 double DrawnLines::distance_to(const Vec3& p) const noexcept { return tree_->distance_to(p); }
 
-std::vector<double> DrawnLines::distances_to(const std::vector<Vec3>& points, int threads) const {
+std::vector<double> DrawnLines::distances_to(const std::vector<Vec3>& points, const Work& work) const {
     std::vector<double> distances(points.size());
-    parallel_for(static_cast<std::int64_t>(points.size()), kPointsPerChunk, threads,
+    parallel_for(static_cast<std::int64_t>(points.size()), kPointsPerChunk, work.threads,
                  [&](std::int64_t begin, std::int64_t end) {
                      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
                          distances[n] = tree_->distance_to(points[n]);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/shape/contour.h"
 
 namespace kontur {
@@ -21,7 +22,7 @@ public:
     /// mm to the nearest line or single surface point; infinity when nothing was drawn.
     double distance_to(const Vec3& p) const noexcept;
     /// Of every point, in bulk; the same bytes for any number of threads.
-    std::vector<double> distances_to(const std::vector<Vec3>& points, int threads = 0) const;
+    std::vector<double> distances_to(const std::vector<Vec3>& points, const Work& work = {}) const;
 
     /// The planes that closed and open contours lie in, in the order drawn. What lies within 2 degrees and 0.5 % of the
     /// diameter of an earlier plane is the same plane drawn again.

@@ -23,7 +23,7 @@ ExpectedDice expected_dice(const SurfaceEvidence& evidence, std::span<const doub
     for (std::size_t n = 0; n < samples.points.size(); ++n) {
         const double h = std::max(distances_mm[n] / evidence.diameter_mm, kLeastDistance);
         const double slope = std::clamp(samples.slopes[n], kLeastSlope, kMostSlope);
-        sum += samples.areas_mm2[n] * std::pow(h, kDice.distance) * std::pow(slope, kDice.slope);
+        sum += samples.areas_mm2[n] * std::pow(h, kDice.distance) * std::pow(slope, kDice.slope) * evidence.shares[n];
     }
     const double missed = sum * evidence.diameter_mm / evidence.volume_mm3;
     const double by_hand =

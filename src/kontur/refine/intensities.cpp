@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "kontur/refine/quantile.h"
 
@@ -12,7 +13,43 @@ namespace {
 
 constexpr std::size_t kQuantiles = 65;
 
+constexpr std::size_t kMostLabels = 4096;
+constexpr std::int64_t kLookedAt = 1 << 17;  // voxels
+constexpr double kAlike = 0.5;               // of neighbours: voxels of intensities have noise
+
+/// Pairs of neighbours of which the first has this value, and how many of them are alike.
+struct Pairs {
+    std::int64_t all = 0, alike = 0;
+};
+
 }  // namespace
+
+bool is_label_map(const Image& image) {
+    const Index3& size = image.grid.size;
+    const std::int64_t rows = size.j * size.k, step = std::max<std::int64_t>(1, rows * size.i / kLookedAt);
+    std::map<double, Pairs> pairs;
+    bool is_whole = true;
+    for (std::int64_t row = 0; row < rows; row += step) {
+        const auto first = static_cast<std::size_t>(row * size.i);
+        for (std::int64_t i = 0; i + 1 < size.i; ++i) {
+            const double value = sample(image, first + static_cast<std::size_t>(i));
+            if (!std::isfinite(value)) return false;
+            is_whole = is_whole && value == std::round(value);
+            Pairs& known = pairs[value];
+            ++known.all;
+            known.alike += value == sample(image, first + static_cast<std::size_t>(i) + 1);
+            if (pairs.size() > (is_whole ? kMostLabels : 2)) return false;
+        }
+    }
+    if (pairs.size() <= 2) return pairs.size() == 2;
+    Pairs total, background;
+    for (const auto& [value, known] : pairs) {
+        total.all += known.all;
+        total.alike += known.alike;
+        if (known.all > background.all) background = known;
+    }
+    return static_cast<double>(total.alike - background.alike) > kAlike * static_cast<double>(total.all - background.all);
+}
 
 Intensities::Intensities(const Image& image) : image_(&image), mm_to_index_(image.grid.index_to_mm.inverse()) {
     const Vec3 spacing = image.grid.spacing_mm();

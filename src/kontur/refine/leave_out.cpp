@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "kontur/base/error.h"
@@ -18,15 +19,16 @@ namespace {
 constexpr std::size_t kMostPlanes = 10, kLeastPoints = 10;
 constexpr std::size_t kFewestPlanes = 4;  // two are too few to tell how a surface runs, when one of three is left out
 constexpr std::size_t kSamples = 300;
-constexpr double kHeldOutPoints = 500;    // of all planes together
-constexpr double kDeviation = 1.4826;     // standard deviation over the median of absolute values of a normal distribution
+constexpr double kHeldOutPoints = 500;  // of all planes together
+constexpr double kDeviation = 1.4826;   // standard deviation over the median of absolute values of a normal distribution
 constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
-constexpr double kMostSlope = 0.25;       // prior standard deviation over the distance
-constexpr double kHelps = 0.95;           // of the mean error without the image
-constexpr double kDoubt = 1.3;            // errors with the image count as that much larger
-constexpr std::size_t kNear = 40;         // held-out points that speak for a place
-constexpr double kLeastImage = 0.25;      // voxels: no image is better known than this
-constexpr double kSurfaceSpacing = 0.04;  // of the drawing's diameter
+constexpr double kMostSlope = 0.25;          // prior standard deviation over the distance
+constexpr double kHelps = 0.95;              // of the mean error without the image
+constexpr double kSure = 1;                  // standard errors of the mean gain over the planes
+constexpr double kDoubt = 1.3;               // errors with the image count as that much larger
+constexpr std::size_t kNear = 40;            // held-out points that speak for a place
+constexpr double kLeastImage = 0.25;         // voxels: no image is better known than this
+constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter
 
 /// What is left of an error that the hand's own, independent of it, is part of: at least half of it.
 double without_hand(double error, double hand) {
@@ -68,16 +70,17 @@ struct Fold {
 };
 
 std::optional<Fold> leave_out(const ContourSet& drawn, const std::vector<std::size_t>& group, const Image& image,
-                              const FitContours& fit, double step_mm) {
+                              const FitContours& fit, double step_mm, const Work& alone) {
     try {
         const Drawing rest(with_contours(drawn, group, false), FillRule::declared);
         Fold fold{fit(rest.contours), DrawnOnImage(rest, image), {}, {}, {}, {}};
-        fold.samples = spread_over_surface(fold.function, rest.contours, kSamples, kSurfaceSpacing * rest.diameter_mm(), 1);
+        fold.samples =
+            spread(points_of_surface(fold.function, rest.contours, kSurfaceSpacing * rest.diameter_mm(), alone), kSamples);
         if (fold.samples.size() < kLeastPoints) return std::nullopt;
         fold.held_out = along_contours(with_contours(drawn, group, true), step_mm);
         std::vector<Vec3> nearest = fold.held_out;
-        slide_to_surface(fold.function, nearest, 0.25 * rest.diameter_mm(), 1);
-        fold.on_surface = with_normals(fold.function, nearest, 1);
+        slide_to_surface(fold.function, nearest, 0.25 * rest.diameter_mm(), alone);
+        fold.on_surface = with_normals(fold.function, nearest, alone);
         for (std::size_t i = 0; i < nearest.size(); ++i) {
             fold.on_surface[i].distance_mm = nearest_distance(nearest[i], fold.others.points);
             fold.errors_mm.push_back(dot(fold.held_out[i] - nearest[i], fold.on_surface[i].normal));
@@ -115,15 +118,15 @@ struct FoldErrors {
     std::int64_t intensities = 0;
 };
 
-FoldErrors errors_with_image(Fold& fold, const Beliefs& beliefs, double voxel_mm) {
-    const Movement movement = find_movement(fold.others, fold.function, fold.samples, beliefs, 1);
+FoldErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beliefs, double voxel_mm, const Work& alone) {
+    const Movement movement = find_movement(fold.others, fold.function, fold.samples, beliefs, alone);
     FoldErrors errors{{}, movement.intensities};
     for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
         MovingPoint& at = fold.on_surface[i];
         if (at.distance_mm <= voxel_mm) continue;
         at.prior_mm = beliefs.prior_mm(at.distance_mm);
         const double moved = offset_at(at, movement.points, movement.prior, movement.offsets);
-        errors.points.push_back({fold.held_out[i], at.distance_mm, fold.errors_mm[i], fold.errors_mm[i] - moved});
+        errors.points.push_back({fold.held_out[i], at.distance_mm, fold.errors_mm[i], fold.errors_mm[i] - moved, plane});
     }
     return errors;
 }
@@ -163,7 +166,24 @@ HeldOutErrors::HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& belie
 
 bool HeldOutErrors::image_helps() const {
     const double hand = kMeanOfDeviation * hand_mm_;
-    return without_hand(with_mm_, hand) <= kHelps * without_hand(without_mm_, hand);
+    return without_hand(with_mm_, hand) <= kHelps * without_hand(without_mm_, hand) && helps_planes();
+}
+
+bool HeldOutErrors::helps_planes() const {
+    struct Sum {
+        double points = 0, gain_mm = 0;
+        double mean() const { return gain_mm / points; }
+    };
+    std::map<std::size_t, Sum> planes;
+    for (const HeldOut& h : held_out_) {
+        planes[h.plane].points += 1;
+        planes[h.plane].gain_mm += h.without_mm - h.with_mm;
+    }
+    const auto count = static_cast<double>(planes.size());
+    double mean = 0, squares = 0;
+    for (const auto& [plane, sum] : planes) mean += sum.mean() / count;
+    for (const auto& [plane, sum] : planes) squares += std::pow(sum.mean() - mean, 2);
+    return count < 2 || mean >= kSure * std::sqrt(squares / (count - 1) / count);
 }
 
 Beliefs HeldOutErrors::beliefs() const {
@@ -185,13 +205,14 @@ double HeldOutErrors::image_sd(const MovingPoint& point) const {
     const double s1 = kDoubt * without_hand(kDeviation * 0.5 * (median(std::move(with)) + median_with_), hand_mm_);
     if (!(s0 > 0)) return std::max(s1, kLeastImage * voxel_mm_);
     const double known = std::max(1 / (s1 * s1) - 1 / (s0 * s0), 1e-3 / (s0 * s0));
-    // Held-out contours are about twice as far from others as what lies between all of them.
-    const double nearer = std::clamp(point.distance_mm / median_distance_, 0.1, 1.0);
+    // Held-out contours are about twice as far from others as what lies between all of them. Of what lies farther than they
+    // did, less is known.
+    const double nearer = std::max(point.distance_mm / median_distance_, 0.1);
     return std::max(nearer / std::sqrt(known), kLeastImage * voxel_mm_);
 }
 
 std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
-                                              int threads, const Progress& progress) {
+                                              const Work& work) {
     const ContourSet& drawn = drawing.contours;
     const std::vector<std::vector<std::size_t>> planes = contours_by_plane(drawn);
     if (planes.size() < kFewestPlanes) return std::nullopt;
@@ -199,10 +220,11 @@ std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Imag
     const double voxel = Intensities(image).voxel_mm();
     const double step = std::max(voxel, length_mm(drawn) / kHeldOutPoints);
     std::vector<std::optional<Fold>> folds(groups.size());
-    parallel_for(static_cast<std::int64_t>(groups.size()), 1, threads, [&](std::int64_t begin, std::int64_t end) {
+    const Work alone{.threads = 1, .stop = work.stop};  // folds are computed beside each other
+    parallel_for(static_cast<std::int64_t>(groups.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            progress.check();
-            folds[i] = leave_out(drawn, groups[i], image, fit, step);
+            work.check();
+            folds[i] = leave_out(drawn, groups[i], image, fit, step, alone);
         }
     });
     const std::optional<PlainErrors> plain = plain_errors(folds, voxel);
@@ -211,10 +233,10 @@ std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Imag
         return std::min({plain.factor * std::pow(d, 1.5), kMostSlope * d, plain.limit_mm});
     }};
     std::vector<FoldErrors> errors(folds.size());
-    parallel_for(static_cast<std::int64_t>(folds.size()), 1, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            progress.check();
-            if (folds[i]) errors[i] = errors_with_image(*folds[i], beliefs, voxel);
+            work.check();
+            if (folds[i]) errors[i] = errors_with_image(*folds[i], i, beliefs, voxel, alone);
         }
     });
     std::vector<HeldOut> all;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/refine/movement.h"
@@ -20,6 +20,7 @@ struct HeldOut {
     double distance_mm;  ///< to the nearest contour of the other planes
     double without_mm;   ///< error of what the contours alone make, along the normal, positive outwards
     double with_mm;      ///< and of what the image makes of it
+    std::size_t plane = 0;
 };
 
 /// Measured on the drawn contours themselves: how far off the surface between them is, without the image and with it.
@@ -34,11 +35,13 @@ public:
     double with_mm() const { return with_mm_; }
     std::size_t planes() const { return planes_; }
     std::int64_t intensities() const { return intensities_; }  ///< read from the image
+    /// The error is lower with the image, by more than chance makes it in so few planes.
     bool image_helps() const;
     Beliefs beliefs() const;
 
 private:
     double image_sd(const MovingPoint& point) const;
+    bool helps_planes() const;
 
     std::vector<HeldOut> held_out_;
     Beliefs beliefs_;
@@ -53,6 +56,6 @@ private:
 /// looks how far it passes from the contours left out. Nothing where fewer than 4 planes were drawn or too little of them is
 /// left. What contours disagree by where they cross is their own error and not counted.
 std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
-                                              int threads, const Progress& progress);
+                                              const Work& work);
 
 }  // namespace kontur

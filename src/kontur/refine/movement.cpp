@@ -17,16 +17,15 @@ constexpr double kOnContour = 0.75;                        // voxels: nearer poi
 constexpr std::size_t kLeastPoints = 10;
 constexpr double kLeastPrior = 0.08;  // voxels
 constexpr double kCorrelation = 0.8;  // of the median distance to the contours, at least two voxels
-constexpr double kSeen = 2.5;         // prior standard deviations that are searched
 constexpr int kLeastSteps = 3, kMostSteps = 24;
 constexpr double kWallSoftness = 0.25;  // steps
 
 /// The points that may move, with all that is known of them without the image.
 std::vector<MovingPoint> moving_points(const DrawnOnImage& drawn, const ImplicitFunction& function,
-                                       std::span<const Vec3> points, const Beliefs& beliefs, int threads) {
-    std::vector<MovingPoint> moving = with_normals(function, points, threads);
+                                       std::span<const Vec3> points, const Beliefs& beliefs, const Work& work) {
+    std::vector<MovingPoint> moving = with_normals(function, points, work);
     const double voxel = drawn.image.voxel_mm();
-    parallel_for(static_cast<std::int64_t>(moving.size()), 32, threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(moving.size()), 32, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             moving[i].distance_mm = nearest_distance(moving[i].position, drawn.points);
             moving[i].prior_mm = std::max(beliefs.prior_mm(moving[i].distance_mm), kLeastPrior * voxel);
@@ -41,7 +40,7 @@ std::vector<MovingPoint> moving_points(const DrawnOnImage& drawn, const Implicit
 int search_width(std::vector<MovingPoint>& points, double step_mm) {
     std::vector<double> priors;
     for (const MovingPoint& p : points) priors.push_back(p.prior_mm);
-    const double wanted = std::ceil(kSeen * quantile(std::move(priors), 0.95) / step_mm);
+    const double wanted = std::ceil(kSearched * quantile(std::move(priors), 0.95) / step_mm);
     const int most = static_cast<int>(std::clamp<double>(wanted, kLeastSteps, kMostSteps));
     for (MovingPoint& p : points) p.prior_mm = std::min(p.prior_mm, 0.5 * most * step_mm);
     return most;
@@ -68,23 +67,24 @@ DrawnOnImage::DrawnOnImage(const Drawing& drawing, const Image& volume)
       walls(drawing) {}
 
 Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& function, std::span<const Vec3> points,
-                       const Beliefs& beliefs, int threads) {
-    Movement movement{moving_points(drawn, function, points, beliefs, threads), {}, {}, 0};
+                       const Beliefs& beliefs, const Work& work) {
+    Movement movement{moving_points(drawn, function, points, beliefs, work), {}, {}, 0};
     if (movement.points.size() < kLeastPoints) return {};
     const double step = drawn.image.step_mm();
     OffsetEvidence evidence{
         .step_mm = step, .most = search_width(movement.points, step), .log_likelihood = {}, .image_sd_mm = {}};
 
-    const std::vector<MovingPoint> examples = with_normals(function, drawn.examples, threads);
-    const IntensityScale scale(intensities_across(drawn.image, examples, step, threads));
-    const Appearance appearance(drawn.image, scale, examples, step, threads);
+    const std::vector<MovingPoint> examples = with_normals(function, drawn.examples, work);
+    const IntensityScale scale(intensities_across(drawn.image, examples, step, work));
+    const Appearance appearance(drawn.image, scale, examples, step, work);
     evidence.log_likelihood.resize(movement.points.size());
-    parallel_for(static_cast<std::int64_t>(movement.points.size()), 8, threads, [&](std::int64_t begin, std::int64_t end) {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            evidence.log_likelihood[i] = appearance.log_likelihood(movement.points[i], evidence.most);
-            add_walls(movement.points[i], 0.5 * drawn.image.voxel_mm(), evidence, evidence.log_likelihood[i]);
-        }
-    });
+    parallel_for(static_cast<std::int64_t>(movement.points.size()), 8, work.threads,
+                 [&](std::int64_t begin, std::int64_t end) {
+                     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+                         evidence.log_likelihood[i] = appearance.log_likelihood(movement.points[i], evidence.most);
+                         add_walls(movement.points[i], 0.5 * drawn.image.voxel_mm(), evidence, evidence.log_likelihood[i]);
+                     }
+                 });
     if (beliefs.image_mm)
         for (const MovingPoint& p : movement.points) evidence.image_sd_mm.push_back(beliefs.image_mm(p));
 

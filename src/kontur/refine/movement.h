@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/refine/intensities.h"
@@ -38,9 +39,11 @@ struct Movement {
     std::int64_t intensities = 0;  ///< read from the image
 };
 
+inline constexpr double kSearched = 2.5;  ///< prior standard deviations to each side: no offset beyond is considered
+
 /// Asks the image how far the surface of f at some points of it (mm) is off. Points less than three quarters of a voxel from
 /// a contour are left out; none where fewer than 10 remain.
 Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& function, std::span<const Vec3> points,
-                       const Beliefs& beliefs, int threads);
+                       const Beliefs& beliefs, const Work& work);
 
 }  // namespace kontur

@@ -8,30 +8,32 @@
 
 #include "kontur/fit/constraints.h"
 #include "kontur/fit/solve_placed.h"
+#include "kontur/measure/point_tree.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/movement.h"
+#include "kontur/refine/searched_band.h"
 #include "kontur/refine/spread_points.h"
 
 namespace kontur {
 namespace {
 
 constexpr double kSurfaceSpacing = 0.025;  // of the drawing's diameter: where the surface is asked for
-constexpr double kLater = 0.7;             // of the prior's standard deviation, in later rounds
 constexpr double kCautiousSlope = 0.12;    // without the gate: prior standard deviation over the distance ...
 constexpr double kCautiousImage = 0.7;     // ... and the image's error in voxels
 constexpr double kFollow = 0.05;           // noise of a moved point over its posterior standard deviation
 constexpr double kLeastDeviation = 0.2;    // voxels
 constexpr double kBeside = 2.24;           // how much noisier f is before and behind a moved point
 constexpr double kAnchorNoise = 0.1;       // voxels
+constexpr int kAttempts = 4;               // to keep the surface where the image was asked
 
 /// f at the moved points, and before and behind them, is what it was where they came from.
 std::vector<PointConstraint> observations(const Movement& movement, const ImplicitFunction& before, double voxel_mm,
-                                          int threads) {
+                                          const Work& work) {
     std::vector<Vec3> from;
     for (const MovingPoint& p : movement.points)
         for (const double side : {0.0, 1.0, -1.0}) from.push_back(p.position + side * voxel_mm * p.normal);
     std::vector<double> values(from.size());
-    before.values(from, values, threads);
+    before.values(from, values, work);
     std::vector<PointConstraint> observed;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const std::size_t point = i / 3;
@@ -45,7 +47,7 @@ std::vector<PointConstraint> observations(const Movement& movement, const Implic
 
 /// Where moving points would meet a drawn plane: f stays there what the contours make of it.
 std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImage& drawn, const ImplicitFunction& fitted,
-                                     int threads) {
+                                     const Work& work) {
     const double voxel = drawn.image.voxel_mm();
     std::vector<Vec3> places;
     for (const MovingPoint& p : movement.points)
@@ -57,7 +59,7 @@ std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImag
                 places.push_back(place);
         }
     std::vector<double> values(places.size());
-    fitted.values(places, values, threads);
+    fitted.values(places, values, work);
     std::vector<PointConstraint> held;
     for (std::size_t i = 0; i < places.size(); ++i)
         held.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
@@ -65,13 +67,13 @@ std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImag
 }
 
 /// The largest difference of two functions at the drawn points.
-double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, int threads) {
+double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, const Work& work) {
     std::vector<Vec3> points;
     for (const Contour& contour : contours.contours)
         points.insert(points.end(), contour.points.begin(), contour.points.end());
     std::vector<double> before(points.size()), after(points.size());
-    a.values(points, before, threads);
-    b.values(points, after, threads);
+    a.values(points, before, work);
+    b.values(points, after, work);
     double largest = 0;
     for (std::size_t i = 0; i < points.size(); ++i) largest = std::max(largest, std::abs(after[i] - before[i]));
     return largest;
@@ -83,13 +85,13 @@ public:
     Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options)
         : prepared_(prepared), fitted_(fitted), options_(options) {}
 
-    FittedFunction with(std::vector<PointConstraint> more, const Progress& progress) {
+    FittedFunction with(std::vector<PointConstraint> more, const Work& work) {
         std::vector<PointConstraint> single = fitted_.held;
         single.insert(single.end(), more.begin(), more.end());
         PlacedConstraints placed = place_constraints(prepared_.points, fitted_.slopes, single, options_.place);
         hold_contours(placed.constraints);
         FittedFunction result = fitted_;
-        solve_placed(placed, options_.solve, prepared_.ball, progress, previous_, result);
+        solve_placed(placed, options_.solve, prepared_.ball, work, previous_, result);
         return result;
     }
 
@@ -114,33 +116,70 @@ private:
     PreviousSolve previous_;
 };
 
+std::vector<AskedPoint> asked_points(const Movement& movement) {
+    std::vector<AskedPoint> asked;
+    for (std::size_t i = 0; i < movement.points.size(); ++i) {
+        const MovingPoint& p = movement.points[i];
+        const double share = std::clamp(movement.offsets.sd_mm[i] / p.prior_mm, 0.0, 1.0);
+        asked.push_back({p.position + movement.offsets.mean_mm[i] * p.normal, share});
+    }
+    return asked;
+}
+
+/// As far from the surface as offsets are searched, and as points of it are apart.
+SearchedBand searched_band(const std::vector<Vec3>& surface, const DrawnOnImage& drawn, const Beliefs& beliefs,
+                           double spacing_mm) {
+    const PointTree contours(drawn.points);
+    std::vector<double> reach;
+    for (const Vec3& p : surface) reach.push_back(kSearched * beliefs.prior_mm(contours.distance_to(p)) + spacing_mm);
+    return {surface, std::move(reach)};
+}
+
+/// Takes moves back near the places from which the surface ran away, the less the farther off.
+void hold_back(Movement& movement, std::span<const Vec3> places) {
+    for (std::size_t i = 0; i < movement.points.size(); ++i) {
+        const double r = nearest_distance(movement.points[i].position, places) / movement.prior.length_mm;
+        movement.offsets.mean_mm[i] *= 1 - std::exp(-0.5 * r * r);
+    }
+}
+
+/// The image is asked once, as it was where contours were left out: asked again from the moved surface it would be believed
+/// twice.
 RefinedFunction move_surface(const DrawnOnImage& drawn, const Drawing& drawing, const PreparedContours& prepared,
                              const FittedFunction& fitted, const Beliefs& beliefs, const RefineOptions& options,
-                             const Progress& progress) {
-    const int threads = options.fit.solve.threads;
-    const double voxel = drawn.image.voxel_mm();
+                             const Work& work) {
+    const double voxel = drawn.image.voxel_mm(), spacing = kSurfaceSpacing * drawing.diameter_mm();
     RefinedFunction result{fitted, {}};
-    Refit refit(prepared, fitted, options.fit);
-    std::vector<Vec3> points = spread_over_surface(fitted.function, drawing.contours, options.samples,
-                                                   kSurfaceSpacing * drawing.diameter_mm(), threads);
-    Beliefs now = beliefs;
-    for (int round = 0; round < options.rounds; ++round) {
-        progress.check();
-        const ImplicitFunction before = result.fitted.function;
-        slide_to_surface(before, points, 2 * voxel, threads);
-        const Movement movement = find_movement(drawn, before, points, now, threads);
-        if (movement.points.empty()) break;
-        result.report.intensities += movement.intensities;
-        for (const double u : movement.offsets.mean_mm)
-            result.report.largest_move_mm = std::max(result.report.largest_move_mm, std::abs(u));
-        std::vector<PointConstraint> told = observations(movement, before, voxel, threads);
-        const std::vector<PointConstraint> held = anchors(movement, drawn, fitted.function, threads);
-        told.insert(told.end(), held.begin(), held.end());
-        result.fitted = refit.with(std::move(told), progress);
-        now.prior_mm = [&beliefs, scale = std::pow(kLater, round + 1)](double d) { return scale * beliefs.prior_mm(d); };
-    }
+    const std::vector<Vec3> surface = points_of_surface(fitted.function, drawing.contours, spacing, work);
+    std::vector<Vec3> points = spread(surface, options.samples);
+    slide_to_surface(fitted.function, points, 2 * voxel, work);
+    work.check();
+    Movement movement = find_movement(drawn, fitted.function, points, beliefs, work);
+    result.report.intensities = movement.intensities;
     result.report.verdict = ImageVerdict::used;
-    result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, threads);
+    if (movement.points.empty()) return result;
+
+    const SearchedBand band = searched_band(surface, drawn, beliefs, spacing);
+    const std::vector<PointConstraint> held = anchors(movement, drawn, fitted.function, work);
+    Refit refit(prepared, fitted, options.fit);
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        work.check();
+        std::vector<PointConstraint> told = observations(movement, fitted.function, voxel, work);
+        told.insert(told.end(), held.begin(), held.end());
+        FittedFunction moved = refit.with(std::move(told), work);
+        const std::vector<Vec3> left =
+            band.left_from(points_of_surface(moved.function, drawing.contours, spacing, work), work);
+        if (left.empty()) {
+            result.fitted = std::move(moved);
+            result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, work);
+            result.report.asked = asked_points(movement);
+            for (const double u : movement.offsets.mean_mm)
+                result.report.largest_move_mm = std::max(result.report.largest_move_mm, std::abs(u));
+            return result;
+        }
+        hold_back(movement, left);
+    }
+    result.report.verdict = ImageVerdict::astray;
     return result;
 }
 
@@ -152,10 +191,14 @@ std::string_view name(ImageVerdict verdict) noexcept {
     switch (verdict) {
         case ImageVerdict::none:
             return "none";
+        case ImageVerdict::labels:
+            return "labels";
         case ImageVerdict::unknown:
             return "unknown";
         case ImageVerdict::no_help:
             return "no_help";
+        case ImageVerdict::astray:
+            return "astray";
         case ImageVerdict::used:
             return "used";
     }
@@ -166,13 +209,18 @@ std::string sentence(const RefineReport& report) {
     switch (report.verdict) {
         case ImageVerdict::none:
             return "the image was not used";
+        case ImageVerdict::labels:
+            return "the image is a mask or a label map; not used between the contours";
         case ImageVerdict::unknown:
             return "too little is drawn to tell whether the image helps between the contours; not used";
         case ImageVerdict::no_help:
-            return fmt::format(
-                "the image does not help between the contours ({:.2g} mm off at left-out contours without it, "
-                "{:.2g} with it); not used",
-                report.error_without_mm, report.error_with_mm);
+            return fmt::format("the image {} ({:.2g} mm off at left-out contours without it, {:.2g} with it); not used",
+                               report.error_with_mm < report.error_without_mm
+                                   ? "helps too little, or in too few planes, to be sure of it"
+                                   : "does not help between the contours",
+                               report.error_without_mm, report.error_with_mm);
+        case ImageVerdict::astray:
+            return "the image leads the surface farther from the contours than it was asked for; not used";
         case ImageVerdict::used:
             break;
     }
@@ -182,21 +230,20 @@ std::string sentence(const RefineReport& report) {
 }
 
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image& image, const FitContours& fit_contours, const RefineOptions& options,
-                       const Progress& progress) {
+                       const Image& image, const FitContours& fit_contours, const RefineOptions& options, const Work& work) {
     check_image(image);
+    if (is_label_map(image)) return {fitted, {.verdict = ImageVerdict::labels}};
     const DrawnOnImage drawn(drawing, image);
     const double voxel = drawn.image.voxel_mm();
     if (!options.gate) {
         const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
-        return move_surface(drawn, drawing, prepared, fitted, cautious, options, progress);
+        return move_surface(drawn, drawing, prepared, fitted, cautious, options, work);
     }
-    const std::optional<HeldOutErrors> errors =
-        leave_planes_out(drawing, image, fit_contours, options.fit.solve.threads, progress);
+    const std::optional<HeldOutErrors> errors = leave_planes_out(drawing, image, fit_contours, work);
     RefinedFunction result{fitted, {}};
     if (errors && errors->image_helps())
-        result = move_surface(drawn, drawing, prepared, fitted, errors->beliefs(), options, progress);
+        result = move_surface(drawn, drawing, prepared, fitted, errors->beliefs(), options, work);
     else result.report.verdict = errors ? ImageVerdict::no_help : ImageVerdict::unknown;
     if (errors) {
         result.report.intensities += errors->intensities();

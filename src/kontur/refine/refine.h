@@ -6,11 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
 #include "kontur/drawing/prepare.h"
 #include "kontur/fit/fit.h"
 #include "kontur/function/implicit_function.h"
+#include "kontur/refine/image_shares.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -28,15 +29,16 @@ std::string_view name(UseImage use) noexcept;
 struct RefineOptions {
     FitOptions fit;             ///< as the contours were fitted
     bool gate = true;           ///< false: the image is used without having shown that it helps
-    int rounds = 2;             ///< how often the image is asked, each time from the surface before
     std::size_t samples = 450;  ///< points of the surface at which it is asked
 };
 
 /// What became of the image.
 enum class ImageVerdict {
     none,     ///< there was none, or it was not to be used
+    labels,   ///< it is a mask or a label map: what it shows is no image's border; not used
     unknown,  ///< too few planes were drawn to tell whether it helps; not used
     no_help,  ///< it does not help at contours left out; not used
+    astray,   ///< it helps there, but the surface that follows it leaves where it was asked; not used
     used,
 };
 std::string_view name(ImageVerdict verdict) noexcept;
@@ -44,11 +46,12 @@ std::string_view name(ImageVerdict verdict) noexcept;
 struct RefineReport {
     ImageVerdict verdict = ImageVerdict::none;
     std::size_t planes_left_out = 0;
-    double error_without_mm = 0;   ///< mean distance of contours left out from the surface through the others
-    double error_with_mm = 0;      ///< the same with the image
-    double largest_move_mm = 0;    ///< of the surface, at the points asked
-    std::int64_t intensities = 0;  ///< read from the image
-    double on_contours_mm = 0;     ///< the largest change of f at any drawn point
+    double error_without_mm = 0;      ///< mean distance of contours left out from the surface through the others
+    double error_with_mm = 0;         ///< the same with the image
+    double largest_move_mm = 0;       ///< of the surface, at the points asked
+    std::int64_t intensities = 0;     ///< read from the image
+    double on_contours_mm = 0;        ///< the largest change of f at any drawn point
+    std::vector<AskedPoint> asked{};  ///< where it was asked, and how much surer it made the surface there
 };
 
 /// One sentence for people.
@@ -67,6 +70,6 @@ struct RefinedFunction {
 /// threads, on one type of processor. Throws Error as `solve` does, Error(invalid_input) as `check_image` does.
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
                        const Image& image, const FitContours& fit_contours, const RefineOptions& options,
-                       const Progress& progress = {});
+                       const Work& work = {});
 
 }  // namespace kontur

@@ -37,22 +37,24 @@ std::size_t sides(const Contour& contour) {
 
 }  // namespace
 
-std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const ContourSet& contours, std::size_t count,
-                                      double spacing_mm, int threads) {
+std::vector<Vec3> points_of_surface(const ImplicitFunction& function, const ContourSet& contours, double spacing_mm,
+                                    const Work& work) {
     std::vector<Vec3> starts;
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
     if (starts.empty()) return {};
     const Vec3 anchor = bounding_box(starts).min;  // so that the points move with the contours
-    const TriangleMesh mesh =
-        preview_surface(function, starts, {.spacing_mm = spacing_mm, .threads = threads, .anchor_mm = anchor});
-    if (mesh.points.size() <= count) return mesh.points;
-    const Box3 box = bounding_box(mesh.points);
+    return preview_surface(function, starts, {.spacing_mm = spacing_mm, .anchor_mm = anchor}, work.untold()).points;
+}
+
+std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count) {
+    if (points.size() <= count) return points;
+    const Box3 box = bounding_box(points);
     double fine = 0, coarse = box.diagonal();
     std::vector<Vec3> kept;
     for (int halving = 0; halving < 12; ++halving) {
         const double edge = (fine + coarse) / 2;
-        std::vector<Vec3> found = one_per_cell(mesh.points, box.min, edge);
+        std::vector<Vec3> found = one_per_cell(points, box.min, edge);
         if (found.size() > count) {
             fine = edge;
         } else {
@@ -63,13 +65,13 @@ std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const Co
     return kept;
 }
 
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, int threads) {
+void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, const Work& work) {
     constexpr int kSteps = 3;
     constexpr double kLeastSlope2 = 0.09;
     std::vector<double> values(points.size());
     std::vector<Vec3> gradients(points.size());
     for (int step = 0; step < kSteps; ++step) {
-        function.values_and_gradients(points, values, gradients, threads);
+        function.values_and_gradients(points, values, gradients, work);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Vec3 move = -values[i] / std::max(dot(gradients[i], gradients[i]), kLeastSlope2) * gradients[i];
             const double far = norm(move);
@@ -78,9 +80,9 @@ void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& point
     }
 }
 
-std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, int threads) {
+std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, const Work& work) {
     std::vector<Vec3> gradients(points.size());
-    function.gradients(points, gradients, threads);
+    function.gradients(points, gradients, work);
     std::vector<MovingPoint> result(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) result[i] = {points[i], -normalized(gradients[i])};
     return result;

@@ -4,21 +4,25 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/refine/moving_point.h"
 
 namespace kontur {
 
-/// About `count` points on the surface of f through the contours, evenly spread, found on a lattice of `spacing_mm`.
-std::vector<Vec3> spread_over_surface(const ImplicitFunction& function, const ContourSet& contours, std::size_t count,
-                                      double spacing_mm, int threads);
+/// The surface of f through the contours as the points at which it crosses a lattice of `spacing_mm`.
+std::vector<Vec3> points_of_surface(const ImplicitFunction& function, const ContourSet& contours, double spacing_mm,
+                                    const Work& work);
+
+/// About `count` of the points, evenly spread; all where there are fewer.
+std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count);
 
 /// Moves each point towards where f vanishes, no farther than `reach_mm` in each of three steps.
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, int threads);
+void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, const Work& work);
 
 /// The points with f's outward normals there; distances and offsets are left as they are.
-std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, int threads);
+std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, const Work& work);
 
 /// Points along the contours, evenly, `step_mm` apart or somewhat less, at least 8 on each.
 std::vector<Vec3> along_contours(const ContourSet& contours, double step_mm);

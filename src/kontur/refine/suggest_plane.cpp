@@ -29,12 +29,18 @@ struct Cut {
 
 class Chooser {
 public:
-    Chooser(const SurfaceEvidence& evidence, const SuggestPlaneOptions& options)
-        : evidence_(evidence), options_(options), drawn_(evidence.lines.planes()), distances_(evidence.distances_mm) {
-        for (const Plane& plane : options.avoid) drawn_.push_back(plane);
+    Chooser(const SurfaceEvidence& evidence, const std::vector<Plane>& empty, const SuggestPlaneOptions& options,
+            const Work& work)
+        : evidence_(evidence),
+          options_(options),
+          work_(work),
+          drawn_(evidence.lines.planes()),
+          distances_(evidence.distances_mm) {
+        for (const std::vector<Plane>* some : {&empty, &options.avoid})
+            drawn_.insert(drawn_.end(), some->begin(), some->end());
         for (std::size_t n = 0; n < distances_.size(); ++n) {
             const double slope = std::clamp(evidence.samples.slopes[n], kLeastSlope, kMostSlope);
-            weights_.push_back(evidence.samples.areas_mm2[n] / slope);
+            weights_.push_back(evidence.samples.areas_mm2[n] * evidence.shares[n] / slope);
         }
     }
 
@@ -44,7 +50,7 @@ public:
         cost.candidates += static_cast<std::int64_t>(cuts.size());
         std::vector<double> gains(cuts.size());
         std::vector<std::int64_t> counts(cuts.size());
-        parallel_for(static_cast<std::int64_t>(cuts.size()), 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(static_cast<std::int64_t>(cuts.size()), 1, work_.threads, [&](std::int64_t begin, std::int64_t end) {
             for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
                 gains[n] = gain(distances_with(cuts[n], counts[n]));
         });
@@ -138,6 +144,7 @@ private:
 
     const SurfaceEvidence& evidence_;
     const SuggestPlaneOptions& options_;
+    const Work& work_;
     std::vector<Plane> drawn_;
     std::vector<double> distances_, weights_;
 };
@@ -169,14 +176,14 @@ Cut across(const Chooser& chooser, const SurfaceEvidence& evidence, const Contou
 }  // namespace
 
 PlaneSuggestions suggest_planes(const SurfaceEvidence& evidence, const ContourSet& contours, std::size_t count,
-                                const SuggestPlaneOptions& options) {
+                                const SuggestPlaneOptions& options, const Work& work) {
     if (evidence.plane_count() == 0)
         throw Error(ErrorKind::invalid_input, "there is no contour; at least 1 is needed to say where to draw next");
     if (count == 0) throw Error(ErrorKind::invalid_input, "0 planes are asked for; at least 1 is needed");
     if (options.planes == PlaneChoice::image_slices && !options.grid)
         throw Error(ErrorKind::invalid_input, "slices of an image are asked for, but there is no image");
     PlaneSuggestions suggestions;
-    Chooser chooser(evidence, options);
+    Chooser chooser(evidence, contours.empty_planes, options, work);
     if (all_parallel(evidence.lines.planes()))
         if (const Cut cut = across(chooser, evidence, contours, options); !chooser.is_copy(cut))
             suggestions.planes.push_back(chooser.take(cut));

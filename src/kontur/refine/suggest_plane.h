@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/refine/candidate_planes.h"
 #include "kontur/refine/expected_dice.h"
 #include "kontur/refine/surface_evidence.h"
@@ -17,7 +18,6 @@ struct SuggestPlaneOptions {
     PlaneChoice planes = PlaneChoice::any;
     std::optional<Grid> grid{};  ///< of the image drawn on; its slices are candidates, and needed for `image_slices`
     std::vector<Plane> avoid{};  ///< not these, nor their near copies: the user has skipped them
-    int threads = 0;             ///< 0: the machine's
 };
 
 struct SuggestedPlane {
@@ -36,10 +36,11 @@ struct PlaneSuggestions {
 
 /// Where to draw next. While all planes drawn are parallel: at right angles to them, through the middle of the longest
 /// contour and along its long axis. After that the plane that lowers the surface's mean distance from what is drawn, each
-/// place counted by 1 / |grad f|, most. Never a plane that misses the fitted surface or that runs within 3 % of the
-/// surface's diameter along a drawn one. Turns, moves and scales with the drawing; the same bytes for any number of threads.
-/// Throws Error(invalid_input) without contours, for `image_slices` without a grid, and for `count` 0.
+/// place counted by 1 / |grad f| and by what the image leaves of its error, most. Never a plane that misses the fitted
+/// surface or that runs within 3 % of the surface's diameter along a drawn or an empty one. Turns, moves and scales with the
+/// drawing; the same bytes for any number of threads. Throws Error(invalid_input) without contours, for `image_slices`
+/// without a grid, and for `count` 0.
 PlaneSuggestions suggest_planes(const SurfaceEvidence& evidence, const ContourSet& contours, std::size_t count = 1,
-                                const SuggestPlaneOptions& options = {});
+                                const SuggestPlaneOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

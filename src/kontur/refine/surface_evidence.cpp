@@ -6,10 +6,12 @@
 namespace kontur {
 
 SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contours, const EvidenceFacts& facts,
-                                int threads) {
+                                const Work& work) {
     SurfaceEvidence evidence{.samples = std::move(samples), .distances_mm = {}, .lines = DrawnLines(contours)};
-    evidence.distances_mm = evidence.lines.distances_to(evidence.samples.points, threads);
+    evidence.distances_mm = evidence.lines.distances_to(evidence.samples.points, work);
     evidence.diameter_mm = smallest_ball(evidence.samples.points).diameter();
+    evidence.image = ImageShares(facts.asked);
+    for (const Vec3& p : evidence.samples.points) evidence.shares.push_back(evidence.image.at(p));
     evidence.volume_mm3 = facts.volume_mm3;
     evidence.voxel_mm = facts.voxel_mm;
     evidence.residual_mm = facts.residual_mm;

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/refine/drawn_lines.h"
+#include "kontur/refine/image_shares.h"
 #include "kontur/refine/surface_samples.h"
 #include "kontur/shape/crossings.h"
 
@@ -15,6 +17,8 @@ namespace kontur {
 struct SurfaceEvidence {
     SurfaceSamples samples;
     std::vector<double> distances_mm;  ///< of each sample from the nearest drawn line
+    std::vector<double> shares{};      ///< of each sample's error that the image leaves; 1 without one
+    ImageShares image{};               ///< the same at any place
     DrawnLines lines;
     double diameter_mm = 0;      ///< of the smallest ball around the samples: the unit of length, which turns with them
     double volume_mm3 = 0;       ///< that the surface encloses
@@ -31,10 +35,11 @@ struct EvidenceFacts {
     double voxel_mm = 0;
     double residual_mm = 0;
     double disagreement_mm = 0;
+    std::vector<AskedPoint> asked{};  ///< of the image, where it was used
 };
 
 SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contours, const EvidenceFacts& facts,
-                                int threads = 0);
+                                const Work& work = {});
 
 /// The rms of contours where they cross; 0 where fewer than four do, of which a mean says little.
 double trusted_disagreement_mm(const Disagreement& crossings);

@@ -91,7 +91,7 @@ Vec3 newton_step(double value, const Vec3& gradient, double most_mm) {
 double SurfaceSamples::area_mm2() const { return std::accumulate(areas_mm2.begin(), areas_mm2.end(), 0.0); }
 
 SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunction& function, std::size_t most,
-                              int threads) {
+                              const Work& work) {
     const EdgeCrossings crossings(surface);
     double total = 0;
     std::size_t count = 0;
@@ -109,7 +109,7 @@ SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunct
 
     std::vector<double> values(samples.points.size());
     std::vector<Vec3> gradients(samples.points.size());
-    function.values_and_gradients(samples.points, values, gradients, threads);
+    function.values_and_gradients(samples.points, values, gradients, work);
     const double measure = total / static_cast<double>(samples.points.size());
     for (std::size_t n = 0; n < samples.points.size(); ++n) {
         samples.points[n] += newton_step(values[n], gradients[n], crossings.step_mm());
@@ -119,7 +119,8 @@ SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunct
     return samples;
 }
 
-SurfaceSamples sample_surface(const TriangleMesh& mesh, const ImplicitFunction& function, std::size_t most, int threads) {
+SurfaceSamples sample_surface(const TriangleMesh& mesh, const ImplicitFunction& function, std::size_t most,
+                              const Work& work) {
     // Fractions of the plastic number's powers fill a square evenly (Roberts 2018).
     constexpr double kAlongU = 0.7548776662466927, kAlongV = 0.5698402909980532;
     const auto area_vector = [&](const std::array<std::uint32_t, 3>& t) {
@@ -142,7 +143,7 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, const ImplicitFunction& 
         }
     }
     std::vector<Vec3> gradients(samples.points.size());
-    function.gradients(samples.points, gradients, threads);
+    function.gradients(samples.points, gradients, work);
     samples.areas_mm2.assign(samples.points.size(), total / static_cast<double>(samples.points.size()));
     for (const Vec3& gradient : gradients) samples.slopes.push_back(norm(gradient));
     return samples;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/extract/track.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/shape/mesh.h"
@@ -27,10 +28,10 @@ inline constexpr std::size_t kSurfaceSamples = 1200;
 /// that no mesh is needed. Where the grid's border cuts the object off there is none. `most` evaluations of f and its
 /// gradient. The samples move with the grid and do not depend on `threads`.
 SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunction& function,
-                              std::size_t most = kSurfaceSamples, int threads = 0);
+                              std::size_t most = kSurfaceSamples, const Work& work = {});
 
 /// Points on the triangles at equal steps of area, in their order.
 SurfaceSamples sample_surface(const TriangleMesh& mesh, const ImplicitFunction& function, std::size_t most = kSurfaceSamples,
-                              int threads = 0);
+                              const Work& work = {});
 
 }  // namespace kontur

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/parallel.h"
 #include "kontur/refine/quantile.h"
 #include "kontur/refine/uncertainty_model.h"
 
@@ -31,10 +32,10 @@ public:
     }
 
     double mean_slope() const { return mean_slope_; }
-    double half_width_mm(double distance_mm, double slope) const {
+    double half_width_mm(double distance_mm, double slope, double share) const {
         const double missed =
             factor_mm_ * std::pow(relative(distance_mm), kBand.distance) * std::pow(clamped(slope), kBand.slope);
-        return std::hypot(missed, drawing_mm_);
+        return std::hypot(share * missed, drawing_mm_);
     }
 
 private:
@@ -60,15 +61,18 @@ std::vector<double> half_widths_mm(const SurfaceEvidence& evidence) {
     const Band band(evidence);
     std::vector<double> widths;
     for (std::size_t n = 0; n < evidence.distances_mm.size(); ++n)
-        widths.push_back(band.half_width_mm(evidence.distances_mm[n], evidence.samples.slopes[n]));
+        widths.push_back(band.half_width_mm(evidence.distances_mm[n], evidence.samples.slopes[n], evidence.shares[n]));
     return widths;
 }
 
-std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::vector<Vec3>& points, int threads) {
+std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::vector<Vec3>& points, const Work& work) {
     if (!is_known(evidence)) return {};
     const Band band(evidence);
-    std::vector<double> widths = evidence.lines.distances_to(points, threads);
-    for (double& width : widths) width = band.half_width_mm(width, band.mean_slope());
+    std::vector<double> widths = evidence.lines.distances_to(points, work);
+    parallel_for(static_cast<std::int64_t>(points.size()), 256, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+            widths[n] = band.half_width_mm(widths[n], band.mean_slope(), evidence.image.at(points[n]));
+    });
     return widths;
 }
 

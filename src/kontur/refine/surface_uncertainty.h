@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/refine/expected_dice.h"
 #include "kontur/refine/surface_evidence.h"
 
@@ -26,13 +27,13 @@ struct SurfaceUncertainty {
 SurfaceUncertainty surface_uncertainty(const SurfaceEvidence& evidence);
 
 /// Half the width in mm of the band, centred on the fitted surface, in which the true surface is expected with 90 %: at the
-/// samples. From the distance h to the nearest drawn line, |grad f|, h's mean, and how far the shape is from a ball; the
-/// drawing's own error (half a voxel, the residual, what contours disagree by where they cross) adds in squares.
-/// Empty below `kLeastPlanes`.
+/// samples. From the distance h to the nearest drawn line, |grad f|, h's mean, and how far the shape is from a ball;
+/// narrowed to what the image leaves of it, where it was used (image_shares.h); the drawing's own error (half a voxel, the
+/// residual, what contours disagree by where they cross) adds in squares. Empty below `kLeastPlanes`.
 std::vector<double> half_widths_mm(const SurfaceEvidence& evidence);
 
 /// The same at any points on or near the surface, such as a mesh's, with the mean of |grad f|: a k-d tree query each.
-std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::vector<Vec3>& points, int threads = 0);
+std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::vector<Vec3>& points, const Work& work = {});
 
 /// "expected Dice 0.97 (0.95 to 0.98), volume 98 ml (92 to 105); about 3 more planes to 0.98", or that it is not known.
 std::string sentence(const SurfaceUncertainty& uncertainty);

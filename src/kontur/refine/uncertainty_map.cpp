@@ -22,7 +22,7 @@ bool is_at_border(const Mask& mask, const Index3& voxel) {
 
 }  // namespace
 
-Image uncertainty_map(const Mask& mask, const SurfaceEvidence& evidence, int threads) {
+Image uncertainty_map(const Mask& mask, const SurfaceEvidence& evidence, const Work& work) {
     check_mask(mask);
     std::vector<float> map(mask.values.size());
     std::vector<std::size_t> border;
@@ -35,7 +35,7 @@ Image uncertainty_map(const Mask& mask, const SurfaceEvidence& evidence, int thr
                     border.push_back(mask.grid.offset(i, j, k));
                     points.push_back(mask.grid.center_mm(i, j, k));
                 }
-    const std::vector<double> widths = half_widths_mm(evidence, points, threads);
+    const std::vector<double> widths = half_widths_mm(evidence, points, work);
     for (std::size_t n = 0; n < widths.size(); ++n) map[border[n]] = static_cast<float>(widths[n]);
     return {mask.grid, std::move(map)};
 }

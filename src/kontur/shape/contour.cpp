@@ -28,9 +28,9 @@ bool is_unit(const Vec3& direction) {
     return std::abs(norm(direction) - 1) <= kUnitTolerance;
 }
 
-void check_plane(const Plane& plane, const std::string& owner) {
+void check_plane(const Plane& plane, const std::string& name) {
     if (!is_finite(plane.origin) || !is_unit(plane.normal))
-        refuse(fmt::format("the plane of {} has an origin that is not finite or a normal that is not of length 1", owner));
+        refuse(fmt::format("{} has an origin that is not finite or a normal that is not of length 1", name));
 }
 
 void check_on_plane(const Contour& contour, double limit_mm, const std::string& owner) {
@@ -73,7 +73,7 @@ void check_contour(const Contour& contour, const ContourCheckOptions& options, c
         refuse(fmt::format("{} has {} point{}; at least {} are needed", owner, contour.points.size(),
                            contour.points.size() == 1 ? "" : "s", least));
     check_all_finite(contour.points, owner);
-    check_plane(contour.plane, owner);
+    check_plane(contour.plane, "the plane of " + owner);
     // Files round to absolute lengths; beside a contour of a micrometre they are no small ones.
     const double size_mm = bounding_box(contour.points).diagonal();
     check_on_plane(contour, std::min(options.plane_tolerance_mm, 0.1 * size_mm), owner);
@@ -228,6 +228,8 @@ std::vector<std::string> set_problems(const ContourSet& set) {
     for (const Contour& contour : set.contours)
         for (const Vec3& p : contour.points) box.extend(p);
     for (std::size_t i = 0; i < set.surface.size(); ++i) collect([&] { check_surface_point(set.surface[i], i + 1, box); });
+    for (std::size_t i = 0; i < set.empty_planes.size(); ++i)
+        collect([&] { check_plane(set.empty_planes[i], fmt::format("empty plane {}", i + 1)); });
     return problems;
 }
 

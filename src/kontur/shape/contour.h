@@ -56,6 +56,7 @@ struct ContourSet {
     std::vector<Vec3> interior;  ///< mm; points that must lie inside the object (Turk & O'Brien's interior constraints)
     std::vector<Vec3> exterior;  ///< mm; points that must lie outside of the object
     std::vector<SurfacePoint> surface{};
+    std::vector<Plane> empty_planes{};  ///< that were looked at, and in which nothing of the object is seen
 };
 
 /// Number of points over all contours.
@@ -95,8 +96,8 @@ inline constexpr double kFarthestSurfacePoint = 100;
 /// segmented: no contour, none but holes, a closed contour with fewer than 3 points or an open one with fewer than 2, a NaN
 /// or infinite coordinate, a point off its plane by more than the tolerance, a closed contour whose points lie on one line
 /// (zero area), `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole, a weight out of its range.
-/// Interior, exterior and surface points must be finite, outward directions of length 1, and surface points no farther from
-/// the contours than `kFarthestSurfacePoint` times the diagonal of their box.
+/// Interior, exterior and surface points must be finite, outward directions and the normals of empty planes of length 1, and
+/// surface points no farther from the contours than `kFarthestSurfacePoint` times the diagonal of their box.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
 
 /// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.

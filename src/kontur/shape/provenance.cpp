@@ -55,6 +55,7 @@ std::string contours_sha256(const ContourSet& set) {
         digest.add(std::uint64_t{point.outward.has_value()});
         digest.add(point.outward.value_or(Vec3{}));
     }
+    for (const Plane& plane : set.empty_planes) digest.add(plane);  // none: as before there were any
     return digest.hex();
 }
 

@@ -40,7 +40,7 @@ double largest_extent(const ClusterTree& tree) { return std::max(tree.clusters.f
 }  // namespace
 
 NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const ClusterTree& tree, const std::vector<bool>& used,
-                         const H2Options& options, int threads, const Progress& progress)
+                         const H2Options& options, const Work& work)
     : tree_(tree), skeletons_(tree.clusters.size()), interpolations_(tree.clusters.size()) {
     for (const std::int32_t p : tree.order) {
         nodes_.x.push_back(points.x[static_cast<std::size_t>(p)]);
@@ -51,11 +51,11 @@ NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const Cluster
     const ProxyShells shells(kMostProxies, reach);
     for (std::size_t level = tree.level_begin.size() - 1; level-- > 0;) {
         const std::int32_t first = tree.level_begin[level], last = tree.level_begin[level + 1];
-        parallel_for(last - first, 4, threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(last - first, 4, work.threads, [&](std::int64_t begin, std::int64_t end) {
             std::vector<double> a;
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c) {
                 if (!used[c]) continue;
-                progress.check();
+                work.check();
                 const Cluster& cluster = tree.clusters[c];
                 const NodeRun run = candidates(cluster);
                 const std::int32_t rows = std::min(kMostProxies, run.size() + run.size() / 2 + 32);
@@ -93,10 +93,10 @@ void NestedBasis::add_level(std::int32_t begin, std::int32_t end) {
     }
 }
 
-void NestedBasis::collect(std::span<double> weights, int threads) const {
+void NestedBasis::collect(std::span<double> weights, const Work& work) const {
     for (std::size_t level = tree_.level_begin.size() - 1; level-- > 0;) {
         const std::int32_t first = tree_.level_begin[level], last = tree_.level_begin[level + 1];
-        parallel_for(last - first, 32, threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(last - first, 32, work.threads, [&](std::int64_t begin, std::int64_t end) {
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c)
                 if (const NodeRun to = skeletons_[c]; to.size() > 0)
                     condense(interpolations_[c], &weights[candidates(tree_.clusters[c]).begin], &weights[to.begin]);
@@ -104,10 +104,10 @@ void NestedBasis::collect(std::span<double> weights, int threads) const {
     }
 }
 
-void NestedBasis::spread(std::span<double> fields, int threads) const {
+void NestedBasis::spread(std::span<double> fields, const Work& work) const {
     for (std::size_t level = 0; level + 1 < tree_.level_begin.size(); ++level) {
         const std::int32_t first = tree_.level_begin[level], last = tree_.level_begin[level + 1];
-        parallel_for(last - first, 32, threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(last - first, 32, work.threads, [&](std::int64_t begin, std::int64_t end) {
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c)
                 if (const NodeRun from = skeletons_[c]; from.size() > 0)
                     expand(interpolations_[c], &fields[from.begin], &fields[candidates(tree_.clusters[c]).begin]);

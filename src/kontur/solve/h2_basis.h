@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/solve/h2_interpolation.h"
 #include "kontur/solve/pair_sums.h"
 
@@ -24,16 +24,16 @@ class NestedBasis {
 public:
     /// `used` tells for every cluster whether it needs a skeleton; the descendants of such a cluster must have one, too.
     NestedBasis(Kernel kernel, const PointArrays& points, const ClusterTree& tree, const std::vector<bool>& used,
-                const H2Options& options, int threads, const Progress& progress);
+                const H2Options& options, const Work& work);
 
     const PointArrays& nodes() const { return nodes_; }  ///< with kNodePadding more at the end
     std::int32_t node_count() const { return static_cast<std::int32_t>(nodes_.size()) - kNodePadding; }
     NodeRun skeleton(std::int32_t cluster) const { return skeletons_[static_cast<std::size_t>(cluster)]; }
 
     /// From the weights of the points to those of all skeletons.
-    void collect(std::span<double> weights, int threads) const;
+    void collect(std::span<double> weights, const Work& work) const;
     /// Adds the skeletons' fields to those of the points.
-    void spread(std::span<double> fields, int threads) const;
+    void spread(std::span<double> fields, const Work& work) const;
 
     double bytes() const;
 

@@ -42,7 +42,7 @@ double box_distance(const Cluster& a, const Cluster& b) {
     return norm(Vec3{gap(0), gap(1), gap(2)});
 }
 
-ClusterTree::ClusterTree(const PointArrays& points, std::int32_t leaf_size, int threads) : order(points.size()) {
+ClusterTree::ClusterTree(const PointArrays& points, std::int32_t leaf_size, const Work& work) : order(points.size()) {
     std::iota(order.begin(), order.end(), 0);
     clusters.resize(1);
     clusters.front().end = static_cast<std::int32_t>(points.size());
@@ -55,20 +55,21 @@ ClusterTree::ClusterTree(const PointArrays& points, std::int32_t leaf_size, int 
             cluster.first_child = static_cast<std::int32_t>(clusters.size());
             clusters.insert(clusters.end(), 2, {});
         }
-        parallel_for(level_begin[level + 1] - level_begin[level], 1, threads, [&](std::int64_t begin, std::int64_t end) {
-            for (auto c = static_cast<std::size_t>(level_begin[level] + begin);
-                 c < static_cast<std::size_t>(level_begin[level] + end); ++c) {
-                const Cluster& parent = clusters[c];
-                if (parent.is_leaf()) continue;
-                Cluster *lower = &clusters[static_cast<std::size_t>(parent.first_child)], *upper = lower + 1;
-                const std::int32_t middle = halve(points, parent, leaf_size, order);
-                lower->begin = parent.begin;
-                lower->end = upper->begin = middle;
-                upper->end = parent.end;
-                enclose(points, order, *lower);
-                enclose(points, order, *upper);
-            }
-        });
+        parallel_for(level_begin[level + 1] - level_begin[level], 1, work.threads,
+                     [&](std::int64_t begin, std::int64_t end) {
+                         for (auto c = static_cast<std::size_t>(level_begin[level] + begin);
+                              c < static_cast<std::size_t>(level_begin[level] + end); ++c) {
+                             const Cluster& parent = clusters[c];
+                             if (parent.is_leaf()) continue;
+                             Cluster *lower = &clusters[static_cast<std::size_t>(parent.first_child)], *upper = lower + 1;
+                             const std::int32_t middle = halve(points, parent, leaf_size, order);
+                             lower->begin = parent.begin;
+                             lower->end = upper->begin = middle;
+                             upper->end = parent.end;
+                             enclose(points, order, *lower);
+                             enclose(points, order, *upper);
+                         }
+                     });
         level_begin.push_back(static_cast<std::int32_t>(clusters.size()));
     }
     level_begin.pop_back();  // an empty level

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
 
 namespace kontur {
@@ -25,7 +26,7 @@ double box_distance(const Cluster& a, const Cluster& b);
 /// A binary tree of clusters: each box is halved across its longest axis such that both sides get as many points, until
 /// `leaf_size` are left (Hackbusch 2015, ch. 5.4). Points that coincide cannot stop it, and a far outlier costs one level.
 struct ClusterTree {
-    ClusterTree(const PointArrays& points, std::int32_t leaf_size, int threads);
+    ClusterTree(const PointArrays& points, std::int32_t leaf_size, const Work& work);
 
     std::vector<std::int32_t> order;        ///< points so that every cluster is a run
     std::vector<Cluster> clusters;          ///< level after level, the root first, siblings side by side

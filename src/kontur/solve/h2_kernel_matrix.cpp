@@ -33,14 +33,12 @@ void join(std::vector<NodeRun>& runs, std::int32_t gap) {
 
 }  // namespace
 
-H2KernelMatrix::H2KernelMatrix(Kernel kernel, const PointArrays& points, const H2Options& options, int threads,
-                               const Progress& progress)
+H2KernelMatrix::H2KernelMatrix(Kernel kernel, const PointArrays& points, const H2Options& options, const Work& work)
     : kernel_(kernel),
-      threads_(threads),
-      progress_(progress),
-      tree_(points, options.leaf_size, threads),
+      work_(work),
+      tree_(points, options.leaf_size, work),
       partition_(partition_pairs(tree_, options.eta)),
-      basis_(kernel, points, tree_, clusters_with_basis(tree_, partition_), options, threads, progress) {
+      basis_(kernel, points, tree_, clusters_with_basis(tree_, partition_), options, work) {
     add_rows(partition_.near, false);
     add_rows(partition_.far, true);
     partition_ = {};
@@ -93,18 +91,18 @@ void H2KernelMatrix::multiply(std::span<const double> weights, std::span<double>
     const auto count = static_cast<std::size_t>(basis_.node_count());
     std::vector<double> node_weights(count + kNodePadding);
     for (std::size_t i = 0; i < tree_.order.size(); ++i) node_weights[i] = weights[static_cast<std::size_t>(tree_.order[i])];
-    basis_.collect(node_weights, threads_);
+    basis_.collect(node_weights, work_);
 
     const PointArrays& nodes = basis_.nodes();
     const NodeView view{nodes.x.data(), nodes.y.data(), nodes.z.data(), node_weights.data()};
     sums_.resize(groups_.size());
-    parallel_for(static_cast<std::int64_t>(groups_.size()), 1, threads_, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(groups_.size()), 1, work_.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
             std::vector<double>& sums = sums_[g];
             sums.resize(count);
             for (const NodeRun& run : groups_[g].touched) std::fill(sums.begin() + run.begin, sums.begin() + run.end, 0.0);
             for (std::size_t r = groups_[g].first_row; r < groups_[g].last_row; ++r) {
-                if (r % 64 == 0) progress_.check();
+                if (r % 64 == 0) work_.check();
                 if (rows_[r].own) add_own_sums(kernel_, view, rows_[r].left, sums.data());
                 add_mutual_sums(kernel_, view, rows_[r].left, rows_[r].rights(rights_), sums.data());
             }
@@ -115,7 +113,7 @@ void H2KernelMatrix::multiply(std::span<const double> weights, std::span<double>
         for (const NodeRun& run : groups_[g].touched)
             for (auto i = static_cast<std::size_t>(run.begin); i < static_cast<std::size_t>(run.end); ++i)
                 fields[i] += sums_[g][i];
-    basis_.spread(fields, threads_);
+    basis_.spread(fields, work_);
     for (std::size_t i = 0; i < tree_.order.size(); ++i) out[static_cast<std::size_t>(tree_.order[i])] = fields[i];
 }
 

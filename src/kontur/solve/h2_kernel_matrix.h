@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kontur/base/work.h"
 #include "kontur/solve/h2_basis.h"
 #include "kontur/solve/h2_partition.h"
 #include "kontur/solve/kernel_matrix.h"
@@ -12,8 +13,7 @@ namespace kontur {
 /// `out` has an error of about the tolerance times the norm of the weights.
 class H2KernelMatrix final : public KernelMatrix {
 public:
-    H2KernelMatrix(Kernel kernel, const PointArrays& points, const H2Options& options, int threads,
-                   const Progress& progress = {});
+    H2KernelMatrix(Kernel kernel, const PointArrays& points, const H2Options& options, const Work& work = {});
 
     std::size_t size() const override { return tree_.order.size(); }
     /// One call at a time. Throws Error(cancelled) if the progress given to the constructor is asked to stop.
@@ -44,8 +44,7 @@ private:
     double cost(const Row& row) const;
 
     Kernel kernel_;
-    int threads_;
-    Progress progress_;
+    Work work_;
     ClusterTree tree_;
     Partition partition_;
     NestedBasis basis_;

@@ -20,8 +20,8 @@ constexpr std::size_t kMostDirect = 9000;
 
 }  // namespace
 
-DirectKernelMatrix::DirectKernelMatrix(Kernel kernel, const PointArrays& points, int threads, const Progress& progress)
-    : kernel_(kernel), size_(points.size()), points_(points), threads_(threads), progress_(progress) {
+DirectKernelMatrix::DirectKernelMatrix(Kernel kernel, const PointArrays& points, const Work& work)
+    : kernel_(kernel), size_(points.size()), points_(points), work_(work) {
     for (auto* axis : {&points_.x, &points_.y, &points_.z}) axis->resize(size_ + kNodePadding);
 }
 
@@ -42,16 +42,16 @@ void DirectKernelMatrix::multiply(std::span<const double> weights, std::span<dou
         add_mutual_sums(kernel_, nodes, rows, {&beyond, 1}, sum);
     };
     // Early tiles have more columns than late ones: tile g goes to the same group as its mirror image.
-    parallel_for(static_cast<std::int64_t>(groups), 1, threads_, [&](std::int64_t first, std::int64_t last) {
+    parallel_for(static_cast<std::int64_t>(groups), 1, work_.threads, [&](std::int64_t first, std::int64_t last) {
         for (auto g = static_cast<std::size_t>(first); g < static_cast<std::size_t>(last); ++g)
             for (std::size_t tile = 0; tile < tiles; ++tile) {
                 const std::size_t turn = tile % (2 * groups);
                 if (std::min(turn, 2 * groups - 1 - turn) != g) continue;
-                progress_.check();
+                work_.check();
                 multiply_tile(tile, sums.data() + g * size_);
             }
     });
-    parallel_for(static_cast<std::int64_t>(size_), 4096, threads_, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(size_), 4096, work_.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             double total = 0;
             for (std::size_t g = 0; g < groups; ++g) total += sums[g * size_ + i];
@@ -61,10 +61,10 @@ void DirectKernelMatrix::multiply(std::span<const double> weights, std::span<dou
 }
 
 std::unique_ptr<KernelMatrix> make_kernel_matrix(Kernel kernel, const PointArrays& points, Products products,
-                                                 double tolerance, int threads, const Progress& progress) {
+                                                 double tolerance, const Work& work) {
     if (products == Products::direct || (products == Products::automatic && points.size() <= kMostDirect))
-        return std::make_unique<DirectKernelMatrix>(kernel, points, threads, progress);
-    return std::make_unique<H2KernelMatrix>(kernel, points, H2Options{.tolerance = tolerance}, threads, progress);
+        return std::make_unique<DirectKernelMatrix>(kernel, points, work);
+    return std::make_unique<H2KernelMatrix>(kernel, points, H2Options{.tolerance = tolerance}, work);
 }
 
 }  // namespace kontur

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
 
 namespace kontur {
@@ -29,7 +29,7 @@ public:
 class DirectKernelMatrix final : public KernelMatrix {
 public:
     /// Products throw Error(cancelled) if `progress` is asked to stop.
-    DirectKernelMatrix(Kernel kernel, const PointArrays& points, int threads = 0, const Progress& progress = {});
+    DirectKernelMatrix(Kernel kernel, const PointArrays& points, const Work& work = {});
 
     std::size_t size() const override { return size_; }
     void multiply(std::span<const double> weights, std::span<double> out) const override;
@@ -41,13 +41,12 @@ private:
     Kernel kernel_;
     std::size_t size_;
     PointArrays points_;  ///< with kNodePadding more
-    int threads_;
-    Progress progress_;
+    Work work_;
 };
 
 /// The matrix whose dozen products, with what they need first, are cheapest for that many points, unless `products` says
 /// which: direct, or an H2KernelMatrix of the given tolerance, see H2Options.
 std::unique_ptr<KernelMatrix> make_kernel_matrix(Kernel kernel, const PointArrays& points, Products products,
-                                                 double tolerance, int threads = 0, const Progress& progress = {});
+                                                 double tolerance, const Work& work = {});
 
 }  // namespace kontur

@@ -58,9 +58,9 @@ void add_even_powers(Kernel kernel, const PointArrays& centers, std::span<const 
     for (std::size_t i = 0; i < image.size(); ++i) image[i] += powers.value(centers[i]);
 }
 
-double largest_residual(const LinearSystem& system, const Coefficients& c, int threads) {
+double largest_residual(const LinearSystem& system, const Coefficients& c, const Work& work) {
     std::vector<double> sums(system.size());
-    sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, threads);
+    sum_kernel(system.kernel, system.centers, c.weights, system.centers, sums, work);
     add_even_powers(system.kernel, system.centers, c.weights, sums);
     double largest = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/solve/solve.h"
 
 namespace kontur {
@@ -53,17 +54,17 @@ Coefficients solve_dense(const LinearSystem& system);
 /// the polynomial: with their Lagrange basis l_m, the weights that satisfy the side conditions are w = B v, and B^T Phi B is
 /// definite because phi is conditionally so. Blocked by tiles in a fixed order, so the result does not depend on the thread
 /// count.
-Coefficients solve_cholesky(const LinearSystem& system, int threads, const Progress& progress);
+Coefficients solve_cholesky(const LinearSystem& system, const Work& work);
 
 /// Conjugate gradients on the weights that satisfy the side conditions.
-Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Progress& progress);
+Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Work& work);
 
 /// Four centres, far apart and not in one plane, chosen greedily: the farthest from the mean, the farthest from it, then the
 /// largest triangle, then the largest tetrahedron. Throws Error(singular_system) when all centres lie in one plane.
 std::array<std::size_t, 4> spread_centers(const PointArrays& centers);
 
 /// The largest error of the coefficients over all constraints, in mm, by summation.
-double largest_residual(const LinearSystem& system, const Coefficients& coefficients, int threads);
+double largest_residual(const LinearSystem& system, const Coefficients& coefficients, const Work& work);
 
 /// Values at the four spread centres -> the linear polynomial through them.
 std::array<double, 4> linear_through(const PointArrays& centers, const std::array<std::size_t, 4>& spread,

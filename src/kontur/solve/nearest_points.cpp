@@ -67,8 +67,8 @@ struct EarlierNeighbours::Search {
     }
 };
 
-EarlierNeighbours::EarlierNeighbours(const PointArrays& points, int threads)
-    : points_(points), tree_(points, kLeafSize, threads) {
+EarlierNeighbours::EarlierNeighbours(const PointArrays& points, const Work& work)
+    : points_(points), tree_(points, kLeafSize, work) {
     for (const std::int32_t p : tree_.order) {
         clustered_.x.push_back(points.x[static_cast<std::size_t>(p)]);
         clustered_.y.push_back(points.y[static_cast<std::size_t>(p)]);

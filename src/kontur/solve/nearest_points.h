@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "kontur/base/work.h"
 #include "kontur/solve/h2_cluster_tree.h"
 
 namespace kontur {
@@ -12,7 +13,7 @@ namespace kontur {
 class EarlierNeighbours {
 public:
     /// Keeps a reference to the points.
-    EarlierNeighbours(const PointArrays& points, int threads);
+    EarlierNeighbours(const PointArrays& points, const Work& work);
 
     /// The `count` points nearest to any of the points [begin, end), among those before `begin`; ascending, and fewer if
     /// there are not that many.

@@ -119,8 +119,8 @@ KONTUR_EVERY_INSTRUCTION_SET void apply_rows(const float* rows, std::int32_t m, 
 }  // namespace
 
 Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern,
-                               std::span<const double> diagonal, int threads, const Progress& progress)
-    : pattern_(std::move(pattern)), threads_(threads) {
+                               std::span<const double> diagonal, const Work& work)
+    : pattern_(std::move(pattern)), work_(work.untold()) {
     std::vector<double> ordered;
     for (const std::int32_t point : pattern_->order()) ordered.push_back(diagonal[static_cast<std::size_t>(point)]);
 
@@ -131,7 +131,7 @@ Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const Precondition
             rows_begin_[s] + static_cast<std::size_t>(nodes[s].members) * static_cast<std::size_t>(nodes[s].size());
     rows_.resize(rows_begin_.back());
     for_top_and_nodes(4, [&](std::size_t s) {
-        progress.check();
+        work.check();
         if (s == kTop) factorise_top(kernel, ordered);
         else
             factorise(kernel, nodes[s], ordered,
@@ -139,12 +139,12 @@ Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const Precondition
     });
 }
 
-/// Calls work(kTop) and work(s) for every supernode, in parallel.
-template <class Work>
-void Preconditioner::for_top_and_nodes(std::int64_t chunk, const Work& work) const {
+/// Calls task(kTop) and task(s) for every supernode, in parallel.
+template <class Task>
+void Preconditioner::for_top_and_nodes(std::int64_t chunk, const Task& task) const {
     const auto nodes = static_cast<std::int64_t>(pattern_->supernodes().size());
-    parallel_for(nodes + 1, chunk, threads_, [&](std::int64_t begin, std::int64_t end) {
-        for (; begin < end; ++begin) work(begin == 0 ? kTop : static_cast<std::size_t>(begin - 1));
+    parallel_for(nodes + 1, chunk, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin) task(begin == 0 ? kTop : static_cast<std::size_t>(begin - 1));
     });
 }
 
@@ -202,7 +202,7 @@ void Preconditioner::apply(std::span<const double> r, std::span<double> z) const
         for (std::size_t c = 0; c < columns.size(); ++c) in[c] = ordered[static_cast<std::size_t>(columns[c])];
         apply_rows(&rows_[rows_begin_[s]], nodes[s].members, nodes[s].size(), in.data(), &contributions[nodes[s].columns]);
     });
-    parallel_for(static_cast<std::int64_t>(order.size()), 4096, threads_, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(order.size()), 4096, work_.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::int32_t>(begin); i < static_cast<std::int32_t>(end); ++i) {
             double sum = i < pattern_->top() ? top_scale_ * top[static_cast<std::size_t>(i)] : 0.0;
             for (const std::uint32_t at : pattern_->occurrences(i)) sum += contributions[at];

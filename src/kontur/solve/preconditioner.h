@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 #include "kontur/function/kernel.h"
 #include "kontur/solve/multiscale_order.h"
 
@@ -23,8 +23,8 @@ struct PreconditionerOptions {
 /// kernels and values share it.
 class PreconditionerPattern {
 public:
-    explicit PreconditionerPattern(const PointArrays& points, const PreconditionerOptions& options = {}, int threads = 0,
-                                   const Progress& progress = {});
+    explicit PreconditionerPattern(const PointArrays& points, const PreconditionerOptions& options = {},
+                                   const Work& work = {});
 
     /// Consecutive points in order that share their neighbours.
     struct Supernode {
@@ -52,7 +52,7 @@ public:
 
 private:
     void cut_into_supernodes(const MultiscaleOrder& order);
-    void find_neighbours(int threads, const Progress& progress);
+    void find_neighbours(const Work& work);
     void index_occurrences();
 
     PreconditionerOptions options_;
@@ -72,7 +72,7 @@ class Preconditioner {
 public:
     /// `sign` * phi on the pattern's points, and `diagonal` (one per given point) added, is the matrix; see kernel_sign.
     Preconditioner(Kernel kernel, std::shared_ptr<const PreconditionerPattern> pattern, std::span<const double> diagonal,
-                   int threads = 0, const Progress& progress = {});
+                   const Work& work = {});
 
     /// z = M^-1 r. The same bytes for any number of threads.
     void apply(std::span<const double> r, std::span<double> z) const;
@@ -80,14 +80,14 @@ public:
     double megabytes() const;
 
 private:
-    template <class Work>
-    void for_top_and_nodes(std::int64_t chunk, const Work& work) const;
+    template <class Task>
+    void for_top_and_nodes(std::int64_t chunk, const Task& task) const;
     void factorise_top(Kernel kernel, std::span<const double> diagonal);
     void factorise(Kernel kernel, const PreconditionerPattern::Supernode& node, std::span<const double> diagonal,
                    std::span<float> rows) const;
 
     std::shared_ptr<const PreconditionerPattern> pattern_;
-    int threads_;
+    Work work_;
     std::vector<double> top_factor_;  ///< see small_cholesky
     double top_scale_ = 1;
     std::vector<std::size_t> rows_begin_;  ///< of every supernode in rows_

@@ -28,18 +28,18 @@ PointArrays reordered(const PointArrays& points, const std::vector<std::int32_t>
 
 }  // namespace
 
-PreconditionerPattern::PreconditionerPattern(const PointArrays& points, const PreconditionerOptions& options, int threads,
-                                             const Progress& progress)
+PreconditionerPattern::PreconditionerPattern(const PointArrays& points, const PreconditionerOptions& options,
+                                             const Work& work)
     : options_(options) {
     if (options_.neighbours <= 0) options_.neighbours = fitting_neighbours(points.size());
     if (options_.dense_top <= 0) options_.dense_top = fitting_top(points.size());
     const MultiscaleOrder order = multiscale_order(points);
-    progress.check();
+    work.check();
     order_ = order.order;
     points_ = reordered(points, order_);
     top_ = std::min(static_cast<std::int32_t>(order_.size()), options_.dense_top);
     cut_into_supernodes(order);
-    find_neighbours(threads, progress);
+    find_neighbours(work);
     index_occurrences();
 }
 
@@ -64,11 +64,11 @@ void PreconditionerPattern::cut_into_supernodes(const MultiscaleOrder& order) {
     }
 }
 
-void PreconditionerPattern::find_neighbours(int threads, const Progress& progress) {
-    const EarlierNeighbours neighbours(points_, threads);
+void PreconditionerPattern::find_neighbours(const Work& work) {
+    const EarlierNeighbours neighbours(points_, work);
     std::vector<std::vector<std::int32_t>> found(supernodes_.size());
-    parallel_for(static_cast<std::int64_t>(supernodes_.size()), 16, threads, [&](std::int64_t begin, std::int64_t end) {
-        progress.check();
+    parallel_for(static_cast<std::int64_t>(supernodes_.size()), 16, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        work.check();
         for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s)
             found[s] =
                 neighbours.of(supernodes_[s].begin, supernodes_[s].begin + supernodes_[s].members, options_.neighbours);

@@ -49,16 +49,15 @@ void LinearPolynomials::project_out(Vector& v) const {
 }
 
 ProjectedOperator::ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, double tolerance,
-                                     const SolveOptions& options, const Progress& progress)
-    : system_(system), polynomials_(polynomials), tolerance_(tolerance), options_(options), progress_(progress) {
+                                     const SolveOptions& options, const Work& work)
+    : system_(system), polynomials_(polynomials), tolerance_(tolerance), options_(options), work_(work) {
     tighten(1);
 }
 
 void ProjectedOperator::tighten(double factor) {
     tolerance_ *= factor;
     matrix_.reset();  // the memory of one is enough
-    matrix_ =
-        make_kernel_matrix(system_.kernel, system_.centers, options_.products, tolerance_, options_.threads, progress_);
+    matrix_ = make_kernel_matrix(system_.kernel, system_.centers, options_.products, tolerance_, work_);
 }
 
 Vector ProjectedOperator::image(const KernelMatrix& matrix, const Vector& w) const {
@@ -82,7 +81,7 @@ CheckedImage ProjectedOperator::checked_image(const Vector& w) const {
     if (matrix_->is_exact()) return result;
     const double samples = kMostCheckedPairs / static_cast<double>(n);
     if (samples >= static_cast<double>(n)) {
-        Vector exact = image(DirectKernelMatrix(system_.kernel, system_.centers, options_.threads, progress_), w);
+        Vector exact = image(DirectKernelMatrix(system_.kernel, system_.centers, work_), w);
         for (std::size_t i = 0; i < n; ++i)
             result.deviation = std::max(result.deviation, std::abs(result.values[i] - exact[i]));
         result.values = std::move(exact);
@@ -98,7 +97,7 @@ double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image
     const EvenPowers powers = system_.kernel == Kernel::screened ? even_powers(system_.centers, w) : EvenPowers{};
     double largest = 0;
     for (std::size_t begin = 0; begin < samples; begin += kSamplesPerStep) {
-        progress_.check();
+        work_.check();
         std::vector<std::size_t> points;
         std::vector<Vec3> positions;
         for (std::size_t s = begin; s < std::min(samples, begin + kSamplesPerStep); ++s) {
@@ -106,7 +105,7 @@ double ProjectedOperator::sampled_deviation(const Vector& w, const Vector& image
             positions.push_back(system_.centers[points.back()]);
         }
         Vector exact(points.size());
-        sum_kernel(system_.kernel, system_.centers, w, PointArrays(positions), exact, options_.threads);
+        sum_kernel(system_.kernel, system_.centers, w, PointArrays(positions), exact, work_);
         for (std::size_t s = 0; s < points.size(); ++s) {
             const double sum = exact[s] + powers.value(positions[s]);
             const double expected = sign * sum + system_.smoothing[points[s]] * w[points[s]];

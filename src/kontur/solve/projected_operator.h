@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/solve/kernel_matrix.h"
 #include "kontur/solve/linear_system.h"
 
@@ -43,7 +44,7 @@ class ProjectedOperator {
 public:
     /// `tolerance` as in H2Options. Keeps references to its arguments.
     ProjectedOperator(const LinearSystem& system, const LinearPolynomials& polynomials, double tolerance,
-                      const SolveOptions& options, const Progress& progress);
+                      const SolveOptions& options, const Work& work);
 
     Vector operator()(const Vector& w) const;
     /// Not projected, and summed over all pairs as far as that does not take longer than a solve: everywhere up to 63,000
@@ -63,7 +64,7 @@ private:
     const LinearPolynomials& polynomials_;
     double tolerance_;
     const SolveOptions& options_;
-    const Progress& progress_;
+    const Work& work_;
     std::unique_ptr<KernelMatrix> matrix_;
 };
 

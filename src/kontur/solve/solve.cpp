@@ -69,12 +69,11 @@ void check_memory(std::size_t centers, double bytes_per_entry, const SolveOption
                                               std::to_string(static_cast<long long>(options.max_memory_mb)) + " MB");
 }
 
-Coefficients run(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
-    if (options.solver == Solver::iterative) return solve_iterative(system, options, progress);
+Coefficients run(const LinearSystem& system, const SolveOptions& options, const Work& work) {
+    if (options.solver == Solver::iterative) return solve_iterative(system, options, work);
     check_memory(system.size(), options.solver == Solver::dense ? 8 : 4, options);
-    Coefficients c =
-        options.solver == Solver::dense ? solve_dense(system) : solve_cholesky(system, options.threads, progress);
-    c.residual = largest_residual(system, c, options.threads);
+    Coefficients c = options.solver == Solver::dense ? solve_dense(system) : solve_cholesky(system, work);
+    c.residual = largest_residual(system, c, work);
     c.residual_points = system.size();
     return c;
 }
@@ -170,17 +169,16 @@ void check_solve_options(const SolveOptions& options) {
     if (!(options.max_memory_mb > 0))
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the solver's memory limit is {:g} MB; it must be above 0", options.max_memory_mb));
-    check_threads(options.threads);
 }
 
-Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Progress& progress,
-               PreviousSolve* previous) {
+Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, const Work& work, PreviousSolve* previous) {
     SolveOptions options = requested;
     if (options.solver == Solver::automatic) options.solver = Solver::iterative;
     check(constraints, options);
+    check_threads(work.threads);
     if (previous)
         check_same_count("weights of the previous solve", previous->weights.size(), "centres", previous->centers.size());
-    progress.check();
+    work.check();
 
     const bool screened = options.kernel == Kernel::screened;
     const UnitFrame frame = frame_of(constraints, options);
@@ -194,7 +192,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
         system.start = start_weights(constraints.centers, *previous, scale);
         if (previous->centers == constraints.centers) system.pattern = previous->pattern;
     }
-    Coefficients c = run(system, options, progress);
+    Coefficients c = run(system, options, work);
     const auto finite = [](double w) { return std::isfinite(w); };
     if (!finite(c.residual) || !std::ranges::all_of(c.weights, finite))
         throw Error(ErrorKind::singular_system, "the linear system has no finite solution");

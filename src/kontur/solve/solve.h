@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "kontur/base/progress.h"
 #include "kontur/base/smallest_ball.h"
+#include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/solve/constraint_set.h"
 
@@ -33,7 +33,6 @@ struct SolveOptions {
     int max_iterations = 500;    ///< iterative only
     Products products = Products::automatic;  ///< iterative only
     double max_memory_mb = 16384;             ///< a dense matrix larger than this is refused
-    int threads = 0;                          ///< 0: the machine's
 };
 
 /// Throws Error(invalid_input) for a tolerance or memory limit that is not above 0, a smoothing below 0, a tolerance or
@@ -78,7 +77,7 @@ inline constexpr double kMeanRadii = -1;
 /// `check_solve_options` refuses.
 /// Results are the same bytes for any number of threads. The iterative solver starts from the weights that centres had in
 /// the `previous` solve, which is replaced by this one; so it takes fewer iterations to the same tolerance.
-Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Progress& progress = {},
+Solution solve(const ConstraintSet& constraints, const SolveOptions& options = {}, const Work& work = {},
                PreviousSolve* previous = nullptr);
 
 }  // namespace kontur

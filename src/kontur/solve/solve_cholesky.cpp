@@ -78,8 +78,8 @@ struct ReducedBasis {
 
 /// `entry(i, j)` is symmetric; the lower triangle is wanted.
 template <class Entry>
-void fill(TiledMatrix& a, const Entry& entry, int threads) {
-    parallel_for(static_cast<std::int64_t>(a.tiles()), 1, threads, [&](std::int64_t first, std::int64_t last) {
+void fill(TiledMatrix& a, const Entry& entry, const Work& work) {
+    parallel_for(static_cast<std::int64_t>(a.tiles()), 1, work.threads, [&](std::int64_t first, std::int64_t last) {
         for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row)
             for (std::size_t column = 0; column <= row; ++column) {
                 double* tile = a.tile(row, column);
@@ -91,9 +91,9 @@ void fill(TiledMatrix& a, const Entry& entry, int threads) {
     });
 }
 
-void factorise(TiledMatrix& a, int threads, const Progress& progress) {
+void factorise(TiledMatrix& a, const Work& work) {
     for (std::size_t k = 0; k < a.tiles(); ++k) {
-        progress.report("solve", static_cast<double>(k) / static_cast<double>(a.tiles()));
+        work.report("solve", static_cast<double>(k) / static_cast<double>(a.tiles()));
         const int nk = a.rows(k);
         const lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', nk, a.tile(k, k), kLead);
         if (info < 0) throw Error(ErrorKind::singular_system, "the reduced system has entries that are not finite");
@@ -102,13 +102,13 @@ void factorise(TiledMatrix& a, int threads, const Progress& progress) {
                                                         std::to_string(a.begin(k) + static_cast<std::size_t>(info)) +
                                                         "; constraints coincide or contradict each other");
         const auto below = static_cast<std::int64_t>(a.tiles() - k - 1);
-        parallel_for(below, 1, threads, [&](std::int64_t first, std::int64_t last) {
+        parallel_for(below, 1, work.threads, [&](std::int64_t first, std::int64_t last) {
             for (auto i = k + 1 + static_cast<std::size_t>(first); i < k + 1 + static_cast<std::size_t>(last); ++i)
                 cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, a.rows(i), nk, 1.0,
                             a.tile(k, k), kLead, a.tile(i, k), kLead);
         });
         // Tile (i, j) of the trailing triangle, numbered row by row.
-        parallel_for(below * (below + 1) / 2, 1, threads, [&](std::int64_t first, std::int64_t last) {
+        parallel_for(below * (below + 1) / 2, 1, work.threads, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t t = first; t < last; ++t) {
                 auto r = static_cast<std::int64_t>((std::sqrt(8.0 * static_cast<double>(t) + 1) - 1) / 2);
                 while (r * (r + 1) / 2 > t) --r;
@@ -153,11 +153,11 @@ std::array<double, 4> polynomial_of(const LinearSystem& system, const ReducedBas
     return linear_through(system.centers, basis.spread, left);
 }
 
-Coefficients solve_definite(const LinearSystem& system, int threads, const Progress& progress) {
+Coefficients solve_definite(const LinearSystem& system, const Work& work) {
     TiledMatrix matrix(system.size());
     fill(
-        matrix, [&](std::size_t i, std::size_t j) { return system.entry(i, j); }, threads);
-    factorise(matrix, threads, progress);
+        matrix, [&](std::size_t i, std::size_t j) { return system.entry(i, j); }, work);
+    factorise(matrix, work);
     Coefficients c;
     c.weights = system.values;
     substitute(matrix, c.weights);
@@ -167,15 +167,15 @@ Coefficients solve_definite(const LinearSystem& system, int threads, const Progr
 
 }  // namespace
 
-Coefficients solve_cholesky(const LinearSystem& system, int threads, const Progress& progress) {
+Coefficients solve_cholesky(const LinearSystem& system, const Work& work) {
     const SingleThreadedBlas guard;
-    if (system.kernel == Kernel::screened) return solve_definite(system, threads, progress);
+    if (system.kernel == Kernel::screened) return solve_definite(system, work);
     const double sign = kernel_sign(system.kernel);
     const ReducedBasis basis(system);
     TiledMatrix matrix(basis.rest.size());
     fill(
-        matrix, [&](std::size_t i, std::size_t j) { return sign * basis.entry(system, i, j); }, threads);
-    factorise(matrix, threads, progress);
+        matrix, [&](std::size_t i, std::size_t j) { return sign * basis.entry(system, i, j); }, work);
+    factorise(matrix, work);
 
     std::vector<double> v(basis.rest.size());
     for (std::size_t i = 0; i < v.size(); ++i) {

@@ -56,15 +56,15 @@ std::array<double, 4> fit_linear(const LinearSystem& system, const Vector& value
 class StageTimes {
 public:
     /// The work's result; its time is added to the stage's.
-    template <class Work>
-    auto operator()(const char* stage, const Work& work) {
+    template <class Task>
+    auto operator()(const char* stage, const Task& task) {
         using Clock = std::chrono::steady_clock;
         struct Timer {
             double& sum;
             Clock::time_point start = Clock::now();
             ~Timer() { sum += std::chrono::duration<double>(Clock::now() - start).count(); }
         } timer{of(stage)};
-        return work();
+        return task();
     }
     const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
 
@@ -80,20 +80,19 @@ private:
 /// Solves by conjugate gradients and checks what they have reached.
 class IterativeSolver {
 public:
-    IterativeSolver(const LinearSystem& system, const SolveOptions& options, const Progress& progress)
+    IterativeSolver(const LinearSystem& system, const SolveOptions& options, const Work& work)
         : options_(options),
-          progress_(progress),
+          work_(work),
           limit_(options.tolerance_mm),
           polynomials_(system.kernel, system.centers),
           pattern_(system.pattern ? system.pattern
                                   : times_("neighbours",
                                            [&] {
                                                return std::make_shared<const PreconditionerPattern>(
-                                                   system.centers, PreconditionerOptions{}, options.threads, progress);
+                                                   system.centers, PreconditionerOptions{}, work);
                                            })),
           preconditioner_(
-              times_("factors",
-                     [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, options.threads, progress); })),
+              times_("factors", [&] { return Preconditioner(system.kernel, pattern_, system.smoothing, work); })),
           weights_(system.start.empty() ? Vector(system.size(), 0.0) : system.start),
           target_(system.values),
           image_{.values = Vector(system.size()), .checked = system.size()} {
@@ -102,7 +101,7 @@ public:
         start_ = std::max(largest(target_), limit_);
         // The preconditioner's first guess at the weights tells how large they are.
         const double tolerance = matrix_tolerance(precondition(target_), limit_);
-        times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, progress); });
+        times_("matrix", [&] { operator_.emplace(system, polynomials_, tolerance, options, work); });
         polynomials_.project_out(weights_);
         update_residual();
         if (!system.start.empty()) start_from_weights();
@@ -180,7 +179,7 @@ private:
             idle = largest(r_) < least ? 0 : idle + 1;
             least = std::min(least, largest(r_));
             const double done = std::log(start_ / std::max(least, limit_)) / std::log(start_ / limit_ + 1e-9);
-            progress_.report("solve", std::clamp(done, 0.0, 1.0));
+            work_.report("solve", std::clamp(done, 0.0, 1.0));
         }
         return true;
     }
@@ -204,7 +203,7 @@ private:
     }
 
     const SolveOptions& options_;
-    const Progress& progress_;
+    const Work& work_;
     StageTimes times_;
     double limit_, start_ = 0;
     LinearPolynomials polynomials_;
@@ -219,9 +218,9 @@ private:
 
 }  // namespace
 
-Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Progress& progress) {
-    progress.report("solve", 0);
-    IterativeSolver solver(system, options, progress);
+Coefficients solve_iterative(const LinearSystem& system, const SolveOptions& options, const Work& work) {
+    work.report("solve", 0);
+    IterativeSolver solver(system, options, work);
     solver.run();
     Coefficients c = solver.result(system);
     if (!(c.residual <= 1e3 * options.tolerance_mm))

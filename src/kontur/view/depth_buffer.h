@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/view/camera.h"
 
@@ -28,7 +29,7 @@ struct DepthBuffer {
 
 /// Fills the triangles by a depth test with interpolated normals, which are turned to face the viewer. A triangle
 /// with a point that is not finite is left out.
-DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, int threads);
+DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, const Work& work);
 
 /// A unit normal per point, the mean over its triangles by area; (0, 0, 0) for points in no triangle.
 std::vector<Vec3> point_normals(const TriangleMesh& mesh);

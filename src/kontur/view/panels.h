@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "kontur/base/work.h"
 #include "kontur/view/canvas.h"
 #include "kontur/view/slices.h"
 #include "kontur/view/window.h"
@@ -41,7 +42,7 @@ void draw_edge_letters(Canvas& canvas, const Place& place, const Plane& screen);
 
 /// The shaded surface with the drawn contours on it.
 void draw_surface_panel(Canvas& canvas, const Place& place, const TriangleMesh& mesh, const ContourSet& contours,
-                        int threads);
+                        const Work& work);
 
 /// A slice of the image (may be null) with the contours and the surface's outline.
 struct SliceContent {

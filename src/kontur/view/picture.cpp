@@ -176,11 +176,11 @@ Window picture::window_about(const Image& image, const Box3& box_mm) {
 std::string in_ml(double volume_ml) { return rounded(volume_ml, 4) + " ml"; }
 
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
-                      const PictureOptions& options) {
+                      const PictureOptions& options, const Work& work) {
     check_size(options);
     check_mesh(mesh);
     if (image) check_image(*image);
-    check_threads(options.threads);
+    check_threads(work.threads);
     if (options.window) check_window(*options.window);
     const Layout layout = lay_out(options.width_px, options.height_px);
     Canvas canvas(options.width_px, options.height_px);
@@ -188,7 +188,7 @@ RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, cons
 
     const std::string& name = options.title.empty() ? contours.name : options.title;
     draw_frame_texts(canvas, layout, name.empty() ? "segmentation" : name, subtitle(mesh, contours));
-    picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, options.threads);
+    picture::draw_surface_panel(canvas, {layout.surface, layout.unit}, mesh, contours, work);
 
     const std::array<Slice, 3> slices = choose_slices(mesh, contours, image);
     const Window window = options.window ? *options.window

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/rgb_image.h"
@@ -27,7 +28,6 @@ struct PictureOptions {
     std::string title = {};               ///< empty: the contour set's name
     std::vector<PictureFact> facts = {};  ///< below the volume and the counts, which the picture gives by itself
     std::optional<Window> window = {};    ///< of the slices; unset: `suggest_window` of the object's surroundings
-    int threads = 0;                      ///< 0: the machine's
 };
 
 /// One picture of a segmentation that is understood at once: the surface in 3D seen from the patient's front, left and
@@ -40,6 +40,6 @@ struct PictureOptions {
 /// a window that is not finite or of no width, and what `check_mesh` and `check_image` refuse, Error(too_large) above 16384
 /// pixels on a side.
 RgbImage make_picture(const TriangleMesh& mesh, const ContourSet& contours, const Image* image,
-                      const PictureOptions& options = {});
+                      const PictureOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

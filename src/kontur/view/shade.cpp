@@ -35,15 +35,15 @@ DepthBuffer nearest_per_pixel(const DepthBuffer& fine, int samples) {
 /// Screen-space ambient occlusion: how much of the light from all around the relief within some radius keeps out.
 class Occlusion {
 public:
-    Occlusion(const DepthBuffer& buffer, double pixel_mm, int threads)
+    Occlusion(const DepthBuffer& buffer, double pixel_mm, const Work& work)
         : buffer_(buffer), pixel_mm_(pixel_mm), radius_(0.09 * std::min(buffer.width, buffer.height)) {
         const auto count = buffer.pixels.size();
         raw_.resize(count);
         smooth_.resize(count);
-        for_rows(threads, [this](int y) {
+        for_rows(work, [this](int y) {
             for (int x = 0; x < buffer_.width; ++x) raw_[index(x, y)] = raw(x, y);
         });
-        for_rows(threads, [this](int y) {
+        for_rows(work, [this](int y) {
             for (int x = 0; x < buffer_.width; ++x) smooth_[index(x, y)] = smoothed(x, y);
         });
     }
@@ -53,8 +53,8 @@ public:
 
 private:
     template <class Body>
-    void for_rows(int threads, const Body& body) const {
-        parallel_for(buffer_.height, kChunkRows, threads, [&](std::int64_t begin, std::int64_t end) {
+    void for_rows(const Work& work, const Body& body) const {
+        parallel_for(buffer_.height, kChunkRows, work.threads, [&](std::int64_t begin, std::int64_t end) {
             for (auto y = static_cast<int>(begin); y < end; ++y) body(y);
         });
     }
@@ -131,7 +131,7 @@ std::uint32_t premultiplied_argb(const Vec3& linear, double alpha) {
 
 }  // namespace
 
-ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeOptions& options) {
+ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeOptions& options, const Work& work) {
     check_mesh(mesh);
     check_at_least("the width of the view in pixels", camera.width, 1);
     check_at_least("the height of the view in pixels", camera.height, 1);
@@ -140,12 +140,12 @@ ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeO
     check_from_0_to_1("the red of the material", options.color.x);
     check_from_0_to_1("the green of the material", options.color.y);
     check_from_0_to_1("the blue of the material", options.color.z);
-    check_threads(options.threads);
+    check_threads(work.threads);
     const int samples = options.samples;
     const Camera fine_camera{camera.plane, camera.width * samples, camera.height * samples, camera.pixel_mm / samples};
-    const DepthBuffer fine = render_depth(mesh, fine_camera, options.threads);
+    const DepthBuffer fine = render_depth(mesh, fine_camera, work);
     const DepthBuffer coarse = nearest_per_pixel(fine, samples);
-    const Occlusion occlusion(coarse, camera.pixel_mm, options.threads);
+    const Occlusion occlusion(coarse, camera.pixel_mm, work);
     const Vec3 material{linear_from_srgb(options.color.x), linear_from_srgb(options.color.y),
                         linear_from_srgb(options.color.z)};
 
@@ -163,7 +163,7 @@ ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeO
                 }
         return covered == 0 ? 0 : premultiplied_argb(sum / covered, static_cast<double>(covered) / (samples * samples));
     };
-    parallel_for(camera.height, kChunkRows, options.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(camera.height, kChunkRows, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = static_cast<int>(begin); y < end; ++y)
             for (int x = 0; x < camera.width; ++x) {
                 const std::size_t i =

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/view/camera.h"
 
@@ -20,7 +21,6 @@ struct ShadedSurface {
 struct ShadeOptions {
     Vec3 color{0.42, 0.66, 0.78};  ///< of the material, sRGB 0 to 1
     int samples = 2;               ///< per pixel and axis, against stair steps
-    int threads = 0;               ///< 0: the machine's
 };
 
 /// The mesh under a key light from the upper left, a fill light from the right and light from all around, darker where the
@@ -28,6 +28,6 @@ struct ShadeOptions {
 /// if it has none, averaged over the triangles by area; both sides of a triangle are visible. The same bytes for any number
 /// of threads. Linear in triangles and pixels: 400,000 triangles on
 /// 800 x 900 pixels take well under a second.
-ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeOptions& options = {});
+ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeOptions& options = {}, const Work& work = {});
 
 }  // namespace kontur

@@ -116,15 +116,14 @@ void draw_orientation_cube(Canvas& canvas, const Place& place, const Plane& scre
 }  // namespace
 
 void draw_surface_panel(Canvas& canvas, const Place& place, const TriangleMesh& mesh, const ContourSet& contours,
-                        int threads) {
+                        const Work& work) {
     const auto clip = canvas.clip(place.rect);
     canvas.fill_gradient(place.rect, {0.155, 0.185, 0.235}, {0.075, 0.090, 0.115});
     const std::vector<Vec3> points = everything(mesh, contours);
     const auto width = static_cast<int>(place.rect.width), height = static_cast<int>(place.rect.height);
     const Camera camera = fit_camera(view_plane({}, kTowardsViewer), points, width, height, 0.07);
 
-    const ShadedSurface surface =
-        shade(mesh, camera, {.color = {kMaterial.red, kMaterial.green, kMaterial.blue}, .threads = threads});
+    const ShadedSurface surface = shade(mesh, camera, {.color = {kMaterial.red, kMaterial.green, kMaterial.blue}}, work);
     canvas.blend(static_cast<int>(place.rect.x), static_cast<int>(place.rect.y), width, height, surface.argb);
     draw_contours(canvas, place, ContourOverlay(surface, camera, 0.008 * bounding_box(points).diagonal()), contours);
     if (mesh.triangles.empty())

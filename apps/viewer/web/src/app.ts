@@ -210,6 +210,8 @@ export class App {
         return this.project.apply(event);
       case "surface":
         return this.project.setSurface(event);
+      case "borders":
+        return this.project.setBorderPairs(event.pairs);
       case "outlines":
         return this.showOutlines(event);
       case "status":

@@ -4,8 +4,11 @@
 export class Emitter<Topic extends string> {
   private readonly listeners: { topics: readonly Topic[]; listener: () => void }[] = [];
 
-  on(topics: readonly Topic[], listener: () => void): void {
-    this.listeners.push({ topics, listener });
+  /** Returns what ends it. */
+  on(topics: readonly Topic[], listener: () => void): () => void {
+    const entry = { topics, listener };
+    this.listeners.push(entry);
+    return () => void this.listeners.splice(this.listeners.indexOf(entry), 1);
   }
 
   protected emit(...topics: Topic[]): void {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Changed, Contour, History, Session, Structure, Surface } from "../net/protocol";
+import type { BorderPair, Borders, Changed, Contour, History, Session, Structure, Surface } from "../net/protocol";
 import { Emitter } from "./emitter";
 
-type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft";
+type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders";
 
 export interface Selection {
   contour: number;
@@ -16,10 +16,14 @@ export class Project extends Emitter<Topic> {
   readonly contours = new Map<number, Contour>();
   readonly surfaces = new Map<number, Surface>();
   history: History = { undo: null, redo: null };
+  borders: Borders = { shared: false, rules: [] };
+  /** Of structures that touch. */
+  borderPairs: BorderPair[] = [];
   selection: Selection | null = null;
   /** Contours that are deleted, moved or hidden together; the selected one is among them. */
   readonly marked = new Set<number>();
   private draftContour: Contour | null = null;
+  private carried: readonly Contour[] = [];
   private active = 0;
 
   start(session: Session): void {
@@ -30,12 +34,19 @@ export class Project extends Emitter<Topic> {
     for (const contour of session.contours) this.contours.set(contour.id, contour);
     for (const surface of session.surfaces) this.surfaces.set(surface.structure, surface);
     this.history = session.history;
+    this.borders = session.borders;
+    this.borderPairs = session.border_pairs;
     this.draftContour = null;
     this.keepReferencesValid();
-    this.emit("contours", "structures", "surfaces", "history", "selection", "draft");
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders");
   }
 
-  apply({ structures, contours, history }: Changed): void {
+  setBorderPairs(pairs: BorderPair[]): void {
+    this.borderPairs = pairs;
+    this.emit("borders");
+  }
+
+  apply({ structures, contours, history, borders }: Changed): void {
     for (const structure of structures?.set ?? []) this.structures.set(structure.id, structure);
     for (const id of structures?.removed ?? []) {
       this.structures.delete(id);
@@ -48,9 +59,10 @@ export class Project extends Emitter<Topic> {
     }
     for (const id of contours?.removed ?? []) this.contours.delete(id);
     this.history = history;
+    this.borders = borders ?? this.borders;
     this.draftContour = null;
     this.keepReferencesValid();
-    this.emit("contours", "structures", "surfaces", "history", "selection", "draft");
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders");
   }
 
   setSurface(surface: Surface): void {
@@ -68,7 +80,13 @@ export class Project extends Emitter<Topic> {
   }
 
   set draft(contour: Contour | null) {
+    this.setDraft(contour);
+  }
+
+  /** With neighbours' contours that go with it. */
+  setDraft(contour: Contour | null, carried: readonly Contour[] = []): void {
     this.draftContour = contour;
+    this.carried = carried;
     this.emit("draft");
   }
 
@@ -79,7 +97,8 @@ export class Project extends Emitter<Topic> {
   }
 
   contour(id: number): Contour | undefined {
-    return this.draftContour?.id === id ? this.draftContour : this.contours.get(id);
+    if (this.draftContour?.id === id) return this.draftContour;
+    return (this.draftContour && this.carried.find((contour) => contour.id === id)) ?? this.contours.get(id);
   }
 
   isShown(contour: Contour): boolean {

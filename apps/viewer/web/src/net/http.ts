@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BinaryReply } from "./binary";
-import type { Folder, OpenRequest, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
+import type { CodedMesh } from "./mesh_code";
+import type { Comparison, Folder, OpenRequest, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
@@ -23,10 +24,11 @@ export interface ImportReply {
   doubts: string[];
 }
 
-export interface MeshHeader {
+export interface MeshHeader extends CodedMesh {
   structure: number;
   revision: number;
   stage: string;
+  half_width_step_mm: number;
 }
 
 /** Requests for bulk data below `/api/`. One that is aborted costs the server nothing more. */
@@ -75,7 +77,7 @@ export class Http {
   }
 
   async mesh(structure: number): Promise<BinaryReply<MeshHeader>> {
-    return new BinaryReply(await (await this.request(`mesh/${structure}`)).arrayBuffer());
+    return new BinaryReply(await (await this.request(`mesh/${structure}?coded=1`)).arrayBuffer());
   }
 
   /** The file and the name that the server proposes for it. */
@@ -87,6 +89,10 @@ export class Http {
 
   async statistics(signal: AbortSignal): Promise<Statistics> {
     return (await (await this.request("statistics", { signal })).json()) as Statistics;
+  }
+
+  async compare(first: number, second: number, signal: AbortSignal): Promise<Comparison> {
+    return (await (await this.request(`compare?first=${first}&second=${second}`, { signal })).json()) as Comparison;
   }
 
   async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<ImportReply> {

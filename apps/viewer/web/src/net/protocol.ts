@@ -30,6 +30,8 @@ export interface Structure {
   name: string;
   color: string;
   visible: boolean;
+  /** In which nothing of it is seen; absent: none. */
+  empty_planes?: Plane[];
 }
 
 export interface ControlPoint {
@@ -53,6 +55,27 @@ export interface Contour {
 export interface History {
   undo: string | null;
   redo: string | null;
+}
+
+/** How two structures lie to each other. Of "inside" the first lies in the second. */
+export type Relation = "exclusive" | "inside" | "overlap";
+
+export interface BorderRule {
+  first: number;
+  second: number;
+  relation: Relation;
+}
+
+/** Whether structures share borders, and the rules that the user gave. */
+export interface Borders {
+  shared: boolean;
+  rules: BorderRule[];
+}
+
+/** How two that touch lie to each other, or two that a rule is about. */
+export interface BorderPair extends BorderRule {
+  share: number; // of the smaller one that both have
+  given: boolean; // by a rule
 }
 
 export interface Conflict {
@@ -124,6 +147,18 @@ export interface Statistics {
   structures: StructureStatistics[];
 }
 
+/** Of the masks of two structures, each fitted by itself; distances of their surfaces, null where one is empty. */
+export interface Comparison {
+  first: number;
+  second: number;
+  dice: number;
+  jaccard: number;
+  volumes_ml: [number, number];
+  mean_mm: number | null;
+  percentile_95_mm: number | null;
+  largest_mm: number | null;
+}
+
 export interface Session {
   event: "session";
   version: string;
@@ -139,6 +174,8 @@ export interface Session {
   contours: Contour[];
   surfaces: Surface[];
   history: History;
+  borders: Borders;
+  border_pairs: BorderPair[];
   imports: ImportEndings;
   page: unknown;
   opening: string; // names this session among those that the server has had
@@ -156,6 +193,12 @@ export interface Changed {
   structures?: { set?: Structure[]; removed?: number[] };
   contours?: { set?: Contour[]; removed?: number[] };
   history: History;
+  borders?: Borders;
+}
+
+export interface FoundBorders {
+  event: "borders";
+  pairs: BorderPair[];
 }
 
 /** Where a surface cuts the planes of views, told before the `surface` event of the same revision. */
@@ -210,7 +253,7 @@ export interface OpeningState {
 
 export interface Failed {
   event: "failed";
-  error: { kind: string; message: string };
+  error: { kind: string; message: string; frames?: number }; // frames: how many there are, and one has to be chosen
 }
 
 export interface ListedFile extends Place {
@@ -250,11 +293,12 @@ export interface OpenRequest {
   path: string;
   series?: string;
   volume?: number;
+  frame?: number; // from 0
 }
 
 export type StartEvent = Start | ({ event: "opening" } & OpeningState) | Failed | { event: "opened" } | { event: "closed" };
 
-export type ServerEvent = StartEvent | Session | Changed | (Surface & { event: "surface" }) | Outlines | Status | Notice;
+export type ServerEvent = StartEvent | Session | Changed | (Surface & { event: "surface" }) | FoundBorders | Outlines | Status | Notice;
 
 export interface SketchPoint {
   at: Vec3;

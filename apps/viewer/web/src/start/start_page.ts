@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Http } from "../net/http";
-import type { OpeningState, OpenRequest, RecentProject, Start } from "../net/protocol";
+import type { Failed, OpeningState, OpenRequest, RecentProject, Start } from "../net/protocol";
 import type { ConnectionState } from "../net/socket";
-import { button, el } from "../ui/dom";
+import { button, el, listen } from "../ui/dom";
 import { FolderView } from "./folder_view";
 
 const ENDED = "There is no connection to kontur. If it has ended, start it again and open the address that it prints.";
@@ -19,6 +19,7 @@ export class StartPage {
   private readonly openingStage = el("p", { "aria-live": "polite" });
   private readonly openingBar = el("progress", { max: 1, "aria-label": "Read so far" });
   private example = "";
+  private asked: OpenRequest | null = null;
 
   constructor(private readonly http: Http) {
     this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.setProblem(sentence) });
@@ -66,8 +67,9 @@ export class StartPage {
     else this.openingBar.removeAttribute("value");
   }
 
-  failed({ kind, message }: { kind: string; message: string }): void {
+  failed({ kind, message, frames }: Failed["error"]): void {
     this.setOpening(null);
+    if (frames !== undefined && this.asked) return this.chooseFrame(this.asked, frames);
     this.setProblem(kind === "cancelled" ? "" : message);
   }
 
@@ -93,7 +95,26 @@ export class StartPage {
     });
   }
 
+  /** Of a file with several; kontur counts frames from 0. */
+  private chooseFrame(request: OpenRequest, frames: number): void {
+    this.setProblem(`${request.path} has ${frames} frames. Which one is to be opened`);
+    const field = el("input", { type: "number", class: "number", min: "0", max: String(frames - 1), step: "1", value: "0", "aria-label": `Frame, from 0 to ${frames - 1}`, "data-test": "frame" });
+    const open = () => {
+      const frame = field.valueAsNumber;
+      if (Number.isInteger(frame) && frame >= 0 && frame < frames) return void this.open({ ...request, frame });
+      this.setProblem(`There is no frame ${field.value || "without a number"}; frames are numbered from 0 to ${frames - 1}`);
+      this.problem.append(row);
+      field.focus();
+    };
+    listen(field, { keydown: (event) => void (event.key === "Enter" && open()) });
+    const row = el("span", { class: "frame-choice" }, ` Frame 0 to ${frames - 1}: `, field, button({ label: "Open", title: "Open this frame", class: "choice", test: "frame-open", click: open }));
+    this.problem.append(row);
+    field.select();
+    field.focus();
+  }
+
   private open(request: OpenRequest): Promise<void> {
+    this.asked = request;
     this.setProblem("");
     return this.attempt(() => this.http.open(request));
   }

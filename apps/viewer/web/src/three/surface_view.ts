@@ -4,6 +4,7 @@ import type { Project } from "../model/project";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
+import { normalsOf, positionsOf, trianglesOf, widthsOf } from "../net/mesh_code";
 import { VIEW_NAMES, type ImageInfo } from "../net/protocol";
 import type { Vec3 } from "../geometry/vec";
 import { button, el } from "../ui/dom";
@@ -150,8 +151,9 @@ export class SurfaceView {
     try {
       const reply = await this.services.http.mesh(structure);
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
-      const colors = this.colorsOf(reply.f32("half_widths_mm"));
-      this.scene?.setMesh(structure, { positions: reply.f32("positions"), normals: reply.f32("normals"), triangles: reply.u32("triangles"), colors });
+      const { header } = reply;
+      const colors = this.colorsOf(widthsOf(header.half_width_step_mm, reply.u8("half_widths")));
+      this.scene?.setMesh(structure, { positions: positionsOf(header, reply.u8("positions")), normals: normalsOf(header, reply.u8("normals")), triangles: trianglesOf(header, reply.u8("triangles")), colors });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();
     } catch (error) {

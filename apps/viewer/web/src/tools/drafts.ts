@@ -57,8 +57,8 @@ export class Drafts {
 
   private async ask({ name, args }: Edit): Promise<void> {
     try {
-      const { contour } = await this.services.call<{ contour: Contour }>(name, { ...args, draft: true });
-      this.project.draft = contour;
+      const { contour, carried } = await this.services.call<{ contour: Contour; carried?: Contour[] }>(name, { ...args, draft: true });
+      this.project.setDraft(contour, carried);
     } catch (error) {
       this.services.failed(error);
     }

@@ -110,6 +110,19 @@ export class Proposals extends Emitter<"proposal"> {
     return true;
   }
 
+  /** The plane of the proposal shows nothing of the structure: the surface keeps out of it. False where nothing is proposed. */
+  nothingHere(): boolean {
+    if (!this.shown || this.drawing.holdsUnsaved()) return false;
+    const { project, services } = this;
+    const { plane, structure } = this.shown;
+    const own = project.structures.get(structure);
+    this.drop();
+    if (!own) return false;
+    services.call("structure.set", { id: structure, empty_planes: [...(own.empty_planes ?? []), plane] }).catch(services.failed);
+    services.tell(`Nothing of ${own.name} in this plane. Ctrl + Z takes it back; G goes on.`);
+    return true;
+  }
+
   /** False where nothing is proposed. */
   drop(): boolean {
     const was = this.shown;

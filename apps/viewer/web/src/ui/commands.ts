@@ -99,6 +99,11 @@ export const COMMANDS: readonly Command[] = [
     help: ["Draw", "G", "go to where a contour tells most, with the expected outline as a proposal; again: the next best place"],
     run: ({ suggest }) => suggest(),
   },
+  {
+    keys: ["e"],
+    help: ["Draw", "E", "what is proposed is empty: nothing of the structure is in this plane"],
+    run: ({ editor, tell }) => void (editor.proposals.nothingHere() || tell("Nothing is proposed; G and C propose an outline.")),
+  },
   { keys: ["h"], help: ["Edit", "H", "hole on or off"], run: toggleHole },
   {
     keys: ["Control+z"],

@@ -4,7 +4,7 @@ import type { Editor } from "../tools/editor";
 const CLOSE = "Click the first point, double click or press Enter to close · Backspace removes a point";
 const GO_ON = "Click on, or drag to draw by hand · Ctrl + Z takes a point back · Esc leaves";
 
-const PROPOSED = "A proposal: Enter makes it a contour · Esc drops it · C goes on to the next slice, Shift + C back";
+const PROPOSED = "A proposal: Enter makes it a contour · E: nothing is here · Esc drops it · C goes on to the next slice, Shift + C back";
 
 /** What can be done next, for the status line. */
 export function hintFor(editor: Editor): string {

@@ -5,6 +5,7 @@ import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { Contour, ViewName } from "../net/protocol";
 import { VIEW_NAMES } from "../net/protocol";
+import { BorderPanel } from "./borders";
 import { ContourActions, type ActionServices } from "./contour_actions";
 import type { RowServices } from "./contour_rows";
 import { button, el } from "./dom";
@@ -42,11 +43,13 @@ export class Panel {
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
       this.list.filter,
       this.list.element,
+      new BorderPanel(services).element,
       this.actions.element,
       el("div", { class: "panel-title" }, el("span", {}, "Surface"), measure),
       this.quality,
     );
     project.on(["structures", "contours", "selection"], () => this.update());
+    services.editor.proposals.on(["proposal"], () => this.update(false));
     project.on(["surfaces", "stages"], () => this.update(false)); // a list made anew for each would take a click away
   }
 
@@ -74,7 +77,9 @@ export class Panel {
     const { project } = this.services;
     const structure = project.activeStructure;
     const surface = structure && project.surfaces.get(structure.id);
-    this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], this.services));
+    const { proposals } = this.services.editor;
+    const nothingHere = structure && proposals.shown?.structure === structure.id ? () => void proposals.nothingHere() : null;
+    this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere }));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);

@@ -16,6 +16,8 @@ export interface QualityServices {
   goTo(p: Vec3): void;
   /** Shows where to draw next. */
   suggest(): void;
+  /** What is proposed is empty; null while nothing is. */
+  nothingHere: (() => void) | null;
   call(name: string, args: Record<string, unknown>): void;
 }
 
@@ -36,6 +38,7 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   if (surface.uncertainty) {
     entries.push(el("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
     entries.push(button({ label: "Where to draw next", title: "Go to where a contour tells most, with the expected outline as a proposal (G)", class: "choice", test: "suggest", click: services.suggest }));
+    if (services.nothingHere) entries.push(button({ label: "Nothing here", title: "The plane of the proposal shows nothing of the structure (E)", class: "choice", test: "nothing-here", click: services.nothingHere }));
   }
   const { residual } = surface;
   if (residual) {

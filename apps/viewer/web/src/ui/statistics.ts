@@ -2,6 +2,7 @@
 import type { Vec3 } from "../geometry/vec";
 import type { Http } from "../net/http";
 import type { Statistics, StructureStatistics } from "../net/protocol";
+import { comparison } from "./comparison";
 import { openDialog } from "./dialogs";
 import { button, el } from "./dom";
 import { download } from "./download";
@@ -53,6 +54,7 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void): void {
       content.replaceChildren(table(found, (p) => (dialog.close(), goTo(p))));
       const save = button({ label: "Save as CSV", title: "Save the table as CSV", class: "choice", test: "statistics-csv", click: () => download(new Blob([asCsv(found)], { type: "text/csv" }), "statistics.csv") });
       dialog.append(el("div", { class: "dialog-buttons" }, save));
+      if (found.structures.length > 1) dialog.append(comparison(http, found.structures, abort.signal));
     },
     (error: unknown) => void (status.textContent = error instanceof Error ? error.message : String(error)),
   );

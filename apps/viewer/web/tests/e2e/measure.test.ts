@@ -50,6 +50,23 @@ describe("all structures", () => {
     assert.match(csv[2]!, /^Structure 2,2,/);
   });
 
+  test("are compared two by two, as two readers' drawings of one are", async () => {
+    const { page } = viewer;
+    await page.click("[data-test=statistics-open]");
+    await page.click("[data-test=compare]");
+    const row = async (head: string) => Number.parseFloat(await page.locator("[data-test=comparison] tr", { has: page.locator(`th:text-is("${head}")`) }).locator("td").innerText());
+    await page.locator("[data-test=comparison] tr").first().waitFor();
+    const [large, small] = [BALL_RADIUS_MM ** 3, SMALL_MM ** 3];
+    assert.ok(Math.abs((await row("Dice")) - (2 * small) / (large + small)) < 0.02, `Dice ${await row("Dice")}`);
+    const apart = BALL_RADIUS_MM - SMALL_MM;
+    assert.ok(Math.abs((await row("Mean distance of the surfaces")) - apart) < 3, `mean ${await row("Mean distance of the surfaces")} mm`);
+    assert.ok(Math.abs((await row("95 % of the distances are within")) - apart) < 5, `95 % ${await row("95 % of the distances are within")} mm`);
+    assert.ok(Math.abs((await row("Volume of Structure 1")) / BALL_ML - 1) < 0.06);
+    await page.locator("[data-test=compare-second]").selectOption({ label: "Structure 1" });
+    await page.click("[data-test=compare]");
+    await page.locator(".comparison .dialog-status", { hasText: "Structure 1 would be compared with itself; 2 structures are needed" }).waitFor();
+  });
+
   test("go into one label map, where the smaller one keeps its voxels, and that is said", async () => {
     const { bytes } = await viewer.export("labels.nii.gz");
     await viewer.page.locator(".notice", { hasText: "belong to Structure 2, the smaller one" }).waitFor();

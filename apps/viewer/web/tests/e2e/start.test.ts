@@ -57,6 +57,15 @@ async function axeFindings(viewer: Viewer): Promise<string[]> {
   });
 }
 
+/** The ball's image three times, as frames. */
+function writeFrames(path: string): void {
+  const one = readFileSync(join(home, "scans", "ball.nii"));
+  const head = Buffer.from(one.subarray(0, 352));
+  head.writeInt16LE(4, 40);
+  head.writeInt16LE(3, 48);
+  writeFileSync(path, Buffer.concat([head, ...Array.from({ length: 3 }, () => one.subarray(352))]));
+}
+
 describe("the start page", () => {
   test("lists folders and what can be opened, and no more", async () => {
     const viewer = await visit();
@@ -173,5 +182,21 @@ describe("the start page", () => {
     const viewer = await visit(join(home, "study"));
     await viewer.page.locator("[data-test=volume]").first().waitFor();
     await viewer.page.close();
+  });
+
+  test("asks which frame of a file with several is to be opened", async () => {
+    writeFrames(join(home, "study", "beating.nii"));
+    const viewer = await visit();
+    await goHome(viewer);
+    await enter(viewer, "study");
+    await entry(viewer, "beating.nii").click();
+    await viewer.page.locator("[data-test=start-problem]", { hasText: "has 3 frames. Which one is to be opened" }).waitFor();
+    await viewer.type(viewer.page.locator("[data-test=frame]"), "7");
+    await viewer.page.keyboard.press("Enter");
+    await viewer.page.locator("[data-test=start-problem]", { hasText: "There is no frame 7; frames are numbered from 0 to 2" }).waitFor();
+    await viewer.type(viewer.page.locator("[data-test=frame]"), "2");
+    await viewer.page.click("[data-test=frame-open]");
+    await viewer.ready();
+    assert.deepEqual(viewer.complaints, []);
   });
 });

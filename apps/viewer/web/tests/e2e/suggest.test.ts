@@ -40,6 +40,16 @@ describe("where to draw next", () => {
     await proposed().waitFor({ state: "detached" });
     assert.equal(await viewer.contours(), 3);
 
+    // What is said to be empty is a step of the history that undo takes back.
+    await page.keyboard.press("g");
+    await proposed().waitFor();
+    await page.click("[data-test=nothing-here]");
+    await viewer.waitForStep("undo", "Nothing of");
+    await proposed().waitFor({ state: "detached" });
+    await page.keyboard.press("Control+z");
+    await viewer.waitForStep("redo", "Nothing of");
+    await viewer.surfaceShown();
+
     await page.click(".quality >> text=Where to draw next");
     await proposed().waitFor();
     await page.keyboard.press("Enter");

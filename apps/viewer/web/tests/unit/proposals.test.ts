@@ -85,6 +85,23 @@ test("beyond the image's last slice nothing is proposed, and the crosshair stays
   assert.match(complaints.at(-1)!, /no slice further on/);
 });
 
+test("a proposal that shows nothing becomes an empty plane of its structure, beside those it had", async () => {
+  const { proposals, project, edits, settled, complaints } = proposing((z) => [ring(5, z)]);
+  assert.equal(proposals.nothingHere(), false);
+  await proposals.next("axial", 1);
+  const { plane } = proposals.shown!;
+  assert.equal(proposals.nothingHere(), true);
+  assert.equal(proposals.shown, null);
+  assert.match(complaints.at(-1)!, /Nothing of Liver in this plane/);
+  project.apply({ event: "changed", structures: { set: [{ ...project.structures.get(1)!, empty_planes: [plane] }] }, history: { undo: null, redo: null } });
+  await proposals.next("axial", -1);
+  const other = proposals.shown!.plane;
+  proposals.nothingHere();
+  await settled();
+  const told = edits().filter(({ name }) => name === "structure.set").map(({ args }) => args["empty_planes"]);
+  assert.deepEqual(told, [[plane], [plane, other]]);
+});
+
 test("where to draw next is shown on the oblique view with the expected outline; asked once more, that place is skipped", async () => {
   const { editor, server, calls, navigation, project, proposals, complaints } = proposing(() => []);
   assert.equal(await proposals.suggest(), null);

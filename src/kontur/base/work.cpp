@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/base/progress.h"
+#include "kontur/base/work.h"
 
 #include "kontur/base/error.h"
 
 namespace kontur {
 
-void Progress::report(std::string_view stage, double fraction) const {
+void Work::report(std::string_view stage, double fraction) const {
     if (callback) callback(stage, fraction);
     check();
 }
 
-void Progress::check() const {
+void Work::check() const {
     if (stop.stop_requested()) throw Error(ErrorKind::cancelled, "cancelled by the caller");
 }
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "kontur/refine/surface_uncertainty.h"
+#include "viewer/binary_reply.h"
+#include "viewer/mesh_code.h"
+#include "viewer/model_json.h"
+#include "viewer/session.h"
+
+// The surface of a structure, as numbers or in few bytes.
+
+namespace kontur::viewer {
+namespace {
+
+std::vector<float> floats(const std::vector<Vec3>& points) {
+    std::vector<float> numbers;
+    numbers.reserve(3 * points.size());
+    for (const Vec3& p : points)
+        for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<float>(p[axis]));
+    return numbers;
+}
+
+std::string as_numbers(nlohmann::json head, const TriangleMesh& mesh, const std::vector<double>& widths_mm) {
+    BinaryReply reply(std::move(head));
+    reply.add<float>("positions", floats(mesh.points));
+    reply.add<float>("normals", floats(mesh.normals));
+    if (!widths_mm.empty()) reply.add<float>("half_widths_mm", std::vector<float>(widths_mm.begin(), widths_mm.end()));
+    reply.add("triangles",
+              std::span(reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), 3 * mesh.triangles.size()));
+    return reply.bytes();
+}
+
+std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::vector<double>& widths_mm) {
+    const MeshCode code = code_mesh(mesh);
+    const WidthCode widths = code_widths(widths_mm);
+    head["points"] = mesh.points.size();
+    head["triangles"] = mesh.triangles.size();
+    head["origin"] = to_json(code.origin);
+    head["step_mm"] = to_json(code.step_mm);
+    head["half_width_step_mm"] = widths.step_mm;
+    BinaryReply reply(std::move(head));
+    reply.add<std::uint8_t>("positions", code.positions);
+    reply.add<std::uint8_t>("normals", code.normals);
+    reply.add<std::uint8_t>("half_widths", widths.steps);
+    reply.add<std::uint8_t>("triangles", code.triangles);
+    return reply.bytes();
+}
+
+}  // namespace
+
+std::string Session::mesh(Id structure, bool coded) {
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    const bool is_there = found != surfaces.end() && found->second->mesh && state().structures.contains(structure);
+    const Surface none;
+    const TriangleMesh no_mesh;
+    const Surface& surface = is_there ? *found->second : none;
+    const TriangleMesh& mesh = is_there ? *surface.mesh : no_mesh;
+    std::vector<double> widths_mm;
+    if (surface.evidence && surface.stage == SurfaceStage::refined)
+        widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
+    return (coded ? as_code : as_numbers)(
+        {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}}, mesh,
+        widths_mm);
+}
+
+}  // namespace kontur::viewer

@@ -141,6 +141,12 @@ void add_holes(CLI::App& sub, std::optional<HoleEncoding>& holes) {
         WriteRtstructOptions{}.holes);
 }
 
+void add_use_image(CLI::App& sub, UseImage& use) {
+    add_choice<UseImage>(sub, "--use-image", use, {{"auto", UseImage::automatic}, {"off", UseImage::off}},
+                         "Let the image tell how the surface runs between the contours: where it is shown, at contours left "
+                         "out, that this helps; or never");
+}
+
 void add_segment_method(CLI::App& sub, SegmentOptions& o, int& threads) {
     constexpr double kMostMb = 1e9;
     add_choice<Kernel>(
@@ -228,10 +234,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
     add_holes(*bind.sub, c.holes);
     bind.flag("--date", c.date, "Say in the outputs when they were made; without it the same input gives the same bytes");
     add_segment_method(*bind.sub, c.options, c.threads);
-    add_choice<UseImage>(*bind.sub, "--use-image", c.options.use_image,
-                         {{"auto", UseImage::automatic}, {"off", UseImage::off}},
-                         "Let the image tell how the surface runs between the contours: where it is shown, at contours left "
-                         "out, that this helps; or never");
+    add_use_image(*bind.sub, c.options.use_image);
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
     for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
@@ -354,9 +357,10 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     bind.option("--roi", c.read.roi, "NAME", "Which structure of an RTSTRUCT, by name or number");
     bind.flag("--json", c.json, "Print JSON");
     add_segment_method(*bind.sub, c.options, c.threads);
+    add_use_image(*bind.sub, c.options.use_image);
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
-    for (const char* name : {"--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
+    for (const char* name : {"--use-image", "--frame", "--prefer", "--allow-missing-geometry", "--series", "--volume"})
         bind.sub->get_option(name)->needs(image);
     bind.quiet();
 }

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "dicom_output.h"
+#include "drawn_on.h"
 #include "facts.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
@@ -76,6 +77,15 @@ std::vector<Plane> skipped(int count, const SurfaceEvidence& evidence, const Con
     return std::move(options.avoid);
 }
 
+/// The image's grid, and its voxels where they are asked; without one a grid of the contours' own.
+DrawnOn drawn_on(const SuggestCommand& command, const ContourSet& contours, const Work& work, Console& console) {
+    if (command.image.path.empty()) return {grid_around_contours(contours), {}};
+    std::vector<std::string> notes;
+    DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, notes);
+    for (const std::string& note : notes) console.warn(note);
+    return drawn_on;
+}
+
 /// The predicted outlines: to be corrected, not to be believed.
 ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const std::string& name) {
     ContourSet sketch;
@@ -101,16 +111,14 @@ void run(const SuggestCommand& command, Console& console) {
         for (const Plane& plane : read_planes_json(command.empty_planes)) contours.empty_planes.push_back(plane);
     if (contours.contours.empty())
         throw Error(ErrorKind::invalid_input, "the contour files have no contour; at least 1 is needed");
-    const bool has_image = !command.image.path.empty();
-    const Grid grid = has_image ? read_grid(command.image.path, console.noting(command.image.options), work)
-                                : grid_around_contours(contours);
+    const auto [grid, image] = drawn_on(command, contours, work, console);
 
     SegmentOptions options = command.options;
     options.mesh = !command.sketch.empty();
-    const Segmentation made = segment(contours, grid, options, work);
+    const Segmentation made = segment(contours, grid, image ? &*image : nullptr, options, work);
     for (const std::string& warning : made.report.warnings) console.warn(warning);
     SuggestPlaneOptions choose{.planes = command.among};
-    if (has_image) choose.grid = grid;
+    if (!command.image.path.empty()) choose.grid = grid;
     const SurfaceEvidence evidence = gather_evidence(made, contours, work);
     choose.avoid = skipped(command.skip, evidence, contours, choose, work);
     const PlaneSuggestions found =
@@ -129,6 +137,7 @@ void run(const SuggestCommand& command, Console& console) {
     outputs.commit();
 
     const std::string about = sentence(made.report.uncertainty);
+    const RefineReport& asked = made.report.image;
     if (found.planes.size() < static_cast<std::size_t>(command.planes))
         console.warn(
             fmt::format("{} of {} planes are suggested: every other one that meets the object runs along one that "
@@ -137,11 +146,15 @@ void run(const SuggestCommand& command, Console& console) {
     if (command.json) {
         Facts list = Facts::array();
         for (const SuggestedPlane& one : found.planes) list.push_back(facts_of(one));
-        console.print(to_json_text({{"planes", list}, {"about", about}}));
+        Facts all{{"planes", list}, {"about", about}};
+        if (asked.verdict != ImageVerdict::none)
+            all["image"] = {{"verdict", std::string(name(asked.verdict))}, {"sentence", sentence(asked)}};
+        console.print(to_json_text(all));
         return;
     }
     std::string text;
     for (std::size_t n = 0; n < found.planes.size(); ++n) text += line_of(n + 1, found.planes[n]);
+    if (asked.verdict != ImageVerdict::none) text += sentence(asked) + "\n";
     console.print(text + about + "\n");
 }
 

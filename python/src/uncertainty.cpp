@@ -91,6 +91,7 @@ drawn. Never one that misses the surface, and never one that runs along a drawn 
 Parameters
 ----------
 segmentation : Segmentation
+    Where its image was used, places that the image knows count less.
 contours : ContourSet
     What it was made from.
 count : int

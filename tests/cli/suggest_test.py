@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur suggest: planes in which to draw next, as text, JSON and files that other commands read."""
+import itertools
 import json
 
 import nibabel
 import numpy
 import pytest
 from scipy import ndimage
-from support import CENTER, RADIUS, ball_array, kontur, succeed, write_nifti, write_planes
+from support import CENTER, RADIUS, ball_array, kontur, lps_affine, succeed, voxel_centers, write_nifti, write_planes
 
 
 def plane(origin, normal):
@@ -41,7 +42,8 @@ def test_planes_are_written_for_trace_and_sketches_for_segment(drawn, tmp_path):
     contours, mask = drawn(3)
     result = succeed("suggest", contours, "--image", mask, "--planes", 2, "--output", tmp_path / "planes.json",
                      "--sketch", tmp_path / "sketch.json")
-    assert len(result.splitlines()) == 3 and "expected Dice" in result
+    assert len(result.splitlines()) == 4 and "expected Dice" in result
+    assert "the image is a mask or a label map; not used" in result
     planes = json.loads((tmp_path / "planes.json").read_text())["planes"]
     assert len(planes) == 2
     succeed("trace", mask, "--planes", tmp_path / "planes.json", "--output", tmp_path / "more.json")
@@ -93,6 +95,47 @@ def test_an_empty_plane_is_not_suggested_again_and_the_surface_keeps_out_of_it(d
     assert sketches[0] == sketches[1] < 0.6 * RADIUS < sketches[2]
 
 
+@pytest.fixture
+def lobed(tmp_path):
+    """A ball with lobes and hollows between four drawn planes: its contours, and an image that shows it."""
+    affine = lps_affine(1.5, (-45, -45, -45))
+    centers = voxel_centers((61, 61, 61), affine)
+    distance = numpy.linalg.norm(centers, axis=-1) + 1e-9
+    radius = numpy.full(distance.shape, 30.0)
+    for x, y, z in itertools.product((-1, 1), repeat=3):
+        apart = centers / distance[..., None] - (0.6 * x, 0.5 * y, 0.62 * z)
+        radius += 7 * x * y * z * numpy.exp(-(apart**2).sum(-1) / 0.18)
+    mask = write_nifti(tmp_path / "body.nii.gz", (distance < radius).astype(numpy.uint8), affine)
+    noise = numpy.random.default_rng(7).normal(0, 8, distance.shape)
+    image = write_nifti(tmp_path / "ct.nii.gz", (60 + 40 * numpy.tanh((radius - distance) / 1.5) + noise).astype(numpy.float32), affine)
+    drawn = [plane((0, 0, -8), (0, 0, 1)), plane((0, 0, 5), (0, 0, 1)), plane((4, 0, 0), (1, 0, 0)), plane((0, -3, 0), (0, 1, 0))]
+    succeed("trace", mask, "--planes", write_planes(tmp_path / "four.json", drawn), "--output", tmp_path / "drawn.json")
+    return tmp_path / "drawn.json", image
+
+
+def test_what_the_image_knows_counts_less(lobed, tmp_path):
+    contours, image = lobed
+    words = ("suggest", contours, "--image", image, "--planes", 2)
+    plain, asked = (json.loads(succeed(*words, "--json", *more)) for more in (("--use-image", "off"), ()))
+    assert "image" not in plain
+    assert asked["image"]["verdict"] == "used"
+    expected = [found["planes"][0]["expected_dice"]["value"] for found in (plain, asked)]
+    assert expected[0] + 0.01 < expected[1]
+    assert [p["normal"] for p in plain["planes"]] != [p["normal"] for p in asked["planes"]]
+    assert asked["image"]["sentence"] in succeed(*words).splitlines()
+    assert "image" not in succeed(*words, "--use-image", "off")
+
+    # What the report of segment says, and a suggestion from an image that tells nothing is that without one.
+    succeed("segment", contours, "--image", image, "--output", tmp_path / "m.nii.gz", "--report", tmp_path / "r.json")
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["image"]["sentence"] == asked["image"]["sentence"]
+    assert report["uncertainty"]["expected_dice"]["value"] == expected[1]
+    noise = numpy.random.default_rng(3).normal(0, 8, (61, 61, 61)).astype(numpy.float32)
+    write_nifti(image, noise, lps_affine(1.5, (-45, -45, -45)))
+    blank = json.loads(succeed(*words, "--json"))
+    assert blank["image"]["verdict"] == "no_help" and blank["planes"] == plain["planes"]
+
+
 def test_works_without_an_image(drawn):
     contours, _ = drawn(3)
     assert "1: through" in kontur("suggest", contours).stdout
@@ -100,12 +143,13 @@ def test_works_without_an_image(drawn):
 
 @pytest.mark.parametrize("words, sentence", [
     (["--among", "image-slices"], "slices of an image are asked for; give --image"),
+    (["--use-image", "auto"], "--use-image requires --image"),
     (["--output", "planes.txt"], "planes.txt does not end with .json"),
 ])
 def test_says_what_is_wrong(drawn, tmp_path, words, sentence):
     contours, _ = drawn(3)
     result = kontur("suggest", contours, *words, cwd=tmp_path)
-    assert result.returncode in (65, 69) and sentence in result.stderr, result.stderr
+    assert result.returncode in (64, 65, 69) and sentence in result.stderr, result.stderr
 
 
 def test_report_and_summary_of_segment_say_how_sure_the_surface_is(drawn, tmp_path):

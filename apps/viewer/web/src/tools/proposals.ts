@@ -141,6 +141,7 @@ export class Proposals extends Emitter<"proposal"> {
   private goTo(plane: Plane, step_mm: number): boolean {
     const { navigation } = this;
     const before = navigation.crosshair;
+    this.drop(); // Enter accepts no outline of the slice that one has left
     this.asked = plane;
     navigation.setCrosshair(projected(plane, before));
     if (Math.abs(heightOver(plane, navigation.crosshair)) < step_mm / 4) return true;

@@ -53,6 +53,18 @@ test("what is not seen any more is not accepted, nor what contours have changed 
   assert.deepEqual(added(), []);
 });
 
+test("Enter while the next outline is on its way accepts nothing: the one before is not seen any more", async () => {
+  const { proposals, drawing, settled, added } = proposing((z) => [ring(5, z)]);
+  await proposals.next("axial", 1);
+  const next = proposals.next("axial", 1);
+  assert.equal(proposals.accept(), false);
+  await next;
+  assert.equal(proposals.accept(), true);
+  await drawing.outbox.afterSending(() => undefined);
+  await settled();
+  assert.deepEqual(added().map(({ args }) => (args["plane"] as Plane).origin[2]), [-4]);
+});
+
 test("an answer that comes after the next key or after Esc shows nothing", async () => {
   const { proposals } = proposing((z) => [ring(5, z)]);
   const late = proposals.next("axial", 1);

@@ -3,34 +3,35 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "kontur/base/error.h"
-#include "kontur/io/image.h"
 
 namespace kontur::app {
 
-DrawnOn read_drawn_on(const ImageInput& input, UseImage use, const Work& work, std::vector<std::string>& notes) {
-    std::string why;
-    if (use != UseImage::off) {
-        try {
-            std::vector<std::string> said;
-            ReadImageOptions read = input.options;
-            read.on_note = [&](std::string_view note) { said.emplace_back(note); };
-            Image image = read_image(input.path, read, work);
-            notes.insert(notes.end(), said.begin(), said.end());
-            Grid grid = image.grid;
-            return {std::move(grid), std::move(image)};
-        } catch (const Error& error) {
-            if (error.kind() == ErrorKind::cancelled) throw;
-            why = error.what();
-        }
+std::optional<Image> readable_image(const ImageInput& input, const Work& work, std::string& sentence) {
+    try {
+        return read_image(input.path, input.options, work);
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::cancelled || !std::filesystem::exists(input.path)) throw;
+        sentence = fmt::format("the image was not used between the contours: {}", error.what());
+        return {};
     }
-    ReadImageOptions read = input.options;
-    read.on_note = [&](std::string_view note) { notes.emplace_back(note); };
-    Grid grid = read_grid(input.path, read, work);
-    if (!why.empty()) notes.push_back(fmt::format("the image was not used between the contours: {}", why));
-    return {std::move(grid), {}};
+}
+
+DrawnOn read_drawn_on(const ImageInput& input, UseImage use, const Work& work, std::vector<std::string>& notes) {
+    std::string unused;
+    std::vector<std::string> said;
+    ImageInput heard = input;
+    heard.options.on_note = [&](std::string_view note) { said.emplace_back(note); };
+    std::optional<Image> image;
+    if (use != UseImage::off) image = readable_image(heard, work, unused);
+    if (!image) said.clear();  // they come again
+    Grid grid = image ? image->grid : read_grid(heard.path, heard.options, work);
+    notes.insert(notes.end(), said.begin(), said.end());
+    if (!unused.empty()) notes.push_back(unused);
+    return {std::move(grid), std::move(image)};
 }
 
 }  // namespace kontur::app

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "dicom_output.h"
+#include "drawn_on.h"
 #include "facts.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
@@ -94,12 +95,11 @@ void run(const FillCommand& command, Console& console) {
         Image labels = read_labels(input, {}, work);
         std::optional<Image> image;
         if (!command.image.empty() && command.options.use_image != UseImage::off) {
-            try {
-                image = kontur::read_image(images.path, images.options, work);
-            } catch (const Error& error) {
-                if (error.kind() == ErrorKind::cancelled || !fs::exists(images.path)) throw;
-                warnings.push_back(fmt::format("the image was not used between the slices: {}", error.what()));
-                console.warn(warnings.back());
+            std::string unused;
+            image = readable_image(images, work, unused);
+            if (!unused.empty()) {
+                console.warn(unused);
+                warnings.push_back(std::move(unused));
             }
         }
         try {

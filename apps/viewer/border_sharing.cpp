@@ -75,14 +75,11 @@ BoxedMask voxels(const ImplicitFunction& function, const TriangleMesh& mesh, con
     return trimmed({box, fill(find_surface(function, grid, std::move(starts), Voxelizer::adaptive, work), work)}, lattice);
 }
 
-/// Each point's is the mean of its triangles', by their areas.
-void add_normals(TriangleMesh& mesh) {
-    mesh.normals.assign(mesh.points.size(), {});
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec3 twice = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-        for (const std::uint32_t corner : {a, b, c}) mesh.normals[corner] += twice;
-    }
-    for (Vec3& normal : mesh.normals) normal = norm(normal) > 0 ? normalized(normal) : Vec3{0, 0, 1};
+/// The mesh's code has no zero: where triangles without an area meet any direction will do.
+std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
+    std::vector<Vec3> normals = point_normals(mesh);
+    std::replace(normals.begin(), normals.end(), Vec3{}, Vec3{0, 0, 1});
+    return normals;
 }
 
 /// Whose surfaces are not what they are alone.
@@ -179,7 +176,7 @@ SharedBorders BorderSharing::shared_anew(const std::vector<const LoneSurface*>& 
     const SharedSurface surface = shared_surface(masks, member_functions, lattice_, work);
     for (std::size_t n = 0; n < members.size(); ++n) {
         TriangleMesh own = surface_of(surface, n);
-        add_normals(own);
+        own.normals = normals_of(own);
         result.meshes[ids[members[n]]] = std::make_shared<const TriangleMesh>(std::move(own));
     }
     return result;

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "viewer/gzip.h"
 #include "viewer/model_json.h"
 #include "viewer/page.h"
@@ -77,8 +77,8 @@ HttpReply page_file(const std::string& path) {
 }
 
 /// The known extension that a file name ends with, in capitals or not. Nothing else of the name is used.
-std::string known_extension(std::string name, std::span<const char* const> known) {
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+std::string known_extension(std::string_view file, std::span<const char* const> known) {
+    const std::string name = lower_case(file);
     std::string list;
     for (const char* extension : known) {
         if (name.ends_with(extension)) return extension;

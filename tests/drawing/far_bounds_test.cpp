@@ -19,7 +19,7 @@ TEST(FarBounds, LieAllAroundAtNearlyTwiceTheBallWithItsClicks) {
     std::vector<Vec3> all = set.interior;
     for (const Contour& contour : set.contours) all.insert(all.end(), contour.points.begin(), contour.points.end());
     const Ball3 ball = smallest_ball(all);
-    const std::vector<Bound> bounds = far_bounds(set);
+    const std::vector<Bound> bounds = far_bounds(DrawnPlanes(set));
     for (const Bound& bound : bounds) {
         EXPECT_NEAR(distance(bound.position, ball.center), 1.9 * ball.radius, 1e-9 * ball.radius);
         EXPECT_LT(bound.most_mm, 0);

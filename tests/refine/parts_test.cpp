@@ -53,17 +53,22 @@ TEST(IsLabelMap, TellsMasksAndLabelMapsFromIntensities) {
     EXPECT_FALSE(is_label_map(whole)) << "a background of one value is no label";
 }
 
+std::vector<MovingPoint> on_the_equator(double radius_mm) {
+    std::vector<MovingPoint> points;
+    for (int n = 0; n < 200; ++n) {
+        const double angle = 2 * M_PI * n / 200;
+        const Vec3 normal{std::cos(angle), std::sin(angle), 0};
+        points.push_back({radius_mm * normal, normal});
+    }
+    return points;
+}
+
 TEST(Appearance, FindsTheOffsetOfABorderThatItHasLearnt) {
     const Image image = image_of(
         cube_grid(1), [](const Vec3& p) { return two_tissues(30 - norm(p)); }, 5);
     const Intensities intensities(image);
     const double step = intensities.step_mm();
-    std::vector<MovingPoint> examples;
-    for (int n = 0; n < 200; ++n) {
-        const double angle = 2 * M_PI * n / 200;
-        const Vec3 normal{std::cos(angle), std::sin(angle), 0};
-        examples.push_back({30.0 * normal, normal});
-    }
+    const std::vector<MovingPoint> examples = on_the_equator(30);
     const IntensityScale scale(intensities_across(intensities, examples, step, {.threads = 1}));
     const Appearance appearance(intensities, scale, examples, step, {.threads = 1});
     for (const double off : {-3.0, -1.0, 0.0, 2.0}) {
@@ -85,12 +90,7 @@ TEST(Appearance, TakesNothingBeyondWhatItHasLearntForTheBody) {
     const Image image = image_of(cube_grid(1, 60), rind_look, 5);
     const Intensities intensities(image);
     const double step = intensities.step_mm();
-    std::vector<MovingPoint> examples;
-    for (int n = 0; n < 200; ++n) {
-        const double angle = 2 * M_PI * n / 200;
-        const Vec3 normal{std::cos(angle), std::sin(angle), 0};
-        examples.push_back({30.0 * normal, normal});
-    }
+    const std::vector<MovingPoint> examples = on_the_equator(30);
     const IntensityScale scale(intensities_across(intensities, examples, step, {.threads = 1}));
     const Appearance appearance(intensities, scale, examples, step, {.threads = 1});
     for (const Vec3& direction : {Vec3{0.3, 0.2, 1}, Vec3{0, 1, 1}, Vec3{-1, 0.4, -1}}) {

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "kontur/drawing/plane_lattice.h"
 
 namespace kontur {
 namespace {
 
-// Reach, step, value and noise as of a drawn plane's places outside of its lines.
-constexpr double kReach = 1.25, kStep = 0.125;  // radii of the ball
-constexpr double kValue = 0.25, kNoise = 0.1;   // of the distance outside
-constexpr double kParallel = 0.1, kSlantedSine2 = 0.25;
 constexpr double kTouched = 0.005, kReachedThrough = 0.02;  // of the ball's diameter
 
 /// How far a contour reaches through a plane, in diameters of the ball: the lesser of both sides; 1 if it lies in the plane.
@@ -54,22 +53,13 @@ public:
     }
 
     std::vector<Bound> bounds(double belief) const {
-        const Ball3& ball = planes_.ball;
-        const double off = distance(center_, ball.center), reach = kReach * ball.radius, step = kStep * ball.radius;
         std::vector<Bound> bounds;
-        if (off >= reach) return bounds;
-        const double extent = std::sqrt(reach * reach - off * off);
-        const auto steps = static_cast<int>(extent / step);
-        for (int row = -steps; row <= steps; ++row)
-            for (int column = -steps; column <= steps; ++column) {
-                if (std::hypot(row * step, column * step) > extent) continue;
-                const Vec3 place = center_ + column * step * u_ + row * step * v_;
-                const double outside = outside_mm(place);
-                if (std::isfinite(outside))
-                    bounds.push_back({.position = place,
-                                      .most_mm = -kValue * outside,
-                                      .noise_mm = faded(kNoise * std::max(outside, step), belief)});
-            }
+        const PlaneLattice lattice(planes_.ball, distance(center_, planes_.ball.center));
+        lattice.for_each_place([&](double x, double y) {
+            const Vec3 place = center_ + x * u_ + y * v_;
+            const double outside = outside_mm(place);
+            if (std::isfinite(outside)) bounds.push_back(lattice.outside(place, outside, belief));
+        });
         return bounds;
     }
 
@@ -79,8 +69,7 @@ private:
     double outside_mm(const Vec3& place) const {
         double nearest = std::numeric_limits<double>::infinity();
         for (const DrawnRegion& region : regions_) {
-            const double cosine = dot(normal_, region.section.plane.normal);
-            const double share = kParallel + (1 - kParallel) * smooth_step(0, kSlantedSine2, 1 - cosine * cosine);
+            const double share = outside_per_mm(normal_, region.section.plane.normal);
             for (const Vec3& shown : region.places) nearest = std::min(nearest, share * distance(shown, place));
         }
         for (const Contour& contour : planes_.set.contours)

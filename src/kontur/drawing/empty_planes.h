@@ -11,9 +11,8 @@ namespace kontur {
 
 /// What a plane in which nothing of the object is seen says of the places in it: f is negative there, a quarter of how far
 /// the place is known to lie outside, which is its distance to what other planes show of the object; a parallel plane tells
-/// less (plane_bounds.h). A lattice of an eighth of the radius of the ball around all that was drawn, in one and a quarter
-/// of that ball. Contours that reach through the plane contradict it: it fades out as they do so by 0.5 to 2 % of the ball's
-/// diameter, and altogether when one lies in it. Turns, moves and scales with the drawing.
+/// less (plane_lattice.h). Contours that reach through the plane contradict it: it fades out as they do so by 0.5 to 2 % of
+/// the ball's diameter, and altogether when one lies in it. Turns, moves and scales with the drawing.
 std::vector<Bound> empty_plane_bounds(const DrawnPlanes& planes, const std::vector<DrawnRegion>& regions,
                                       const Plane& empty);
 

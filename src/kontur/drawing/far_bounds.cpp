@@ -19,13 +19,19 @@ Vec3 direction(int n) {
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
+Ball3 ball_with_clicks(const DrawnPlanes& planes) {
+    if (planes.set.interior.empty()) return planes.ball;
+    std::vector<Vec3> points = planes.set.interior;
+    for (const Contour& contour : planes.set.contours)
+        points.insert(points.end(), contour.points.begin(), contour.points.end());
+    for (const SurfacePoint& point : planes.set.surface) points.push_back(point.position);
+    return smallest_ball(points);
+}
+
 }  // namespace
 
-std::vector<Bound> far_bounds(const ContourSet& set) {
-    std::vector<Vec3> points = set.interior;
-    for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
-    for (const SurfacePoint& point : set.surface) points.push_back(point.position);
-    const Ball3 ball = smallest_ball(points);
+std::vector<Bound> far_bounds(const DrawnPlanes& planes) {
+    const Ball3 ball = ball_with_clicks(planes);
     std::vector<Bound> bounds;
     for (int n = 0; n < kPlaces; ++n)
         bounds.push_back({.position = ball.center + kReach * ball.radius * direction(n),

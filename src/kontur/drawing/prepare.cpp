@@ -115,7 +115,7 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, con
         prepared.points.insert(prepared.points.end(), ends.lids.begin(), ends.lids.end());
         prepared.bounds.insert(prepared.bounds.end(), ends.guards.begin(), ends.guards.end());
         prepared.notes.insert(prepared.notes.end(), ends.notes.begin(), ends.notes.end());
-        const std::vector<Bound> far = far_bounds(planes.set);
+        const std::vector<Bound> far = far_bounds(planes);
         prepared.bounds.insert(prepared.bounds.end(), far.begin(), far.end());
         const std::vector<std::string> contradicted = contradicted_empty_planes(planes);
         prepared.notes.insert(prepared.notes.end(), contradicted.begin(), contradicted.end());

@@ -76,6 +76,16 @@ void check_mesh(const TriangleMesh& mesh) {
     check_triangles(mesh);
 }
 
+std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
+    std::vector<Vec3> normals(mesh.points.size());
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 area = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+        for (const std::uint32_t p : {a, b, c}) normals[p] += area;
+    }
+    for (Vec3& n : normals) n = normalized(n);
+    return normals;
+}
+
 double signed_volume_mm3(const TriangleMesh& mesh) {
     check_triangles(mesh);
     if (mesh.points.empty()) return 0;

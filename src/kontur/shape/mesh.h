@@ -20,6 +20,9 @@ struct TriangleMesh {
 /// mesh does not have, or normals for other than all points.
 void check_mesh(const TriangleMesh& mesh);
 
+/// A unit normal per point, the mean over its triangles by area; (0, 0, 0) for points in no triangle.
+std::vector<Vec3> point_normals(const TriangleMesh& mesh);
+
 /// Enclosed volume in mm^3 (divergence theorem); negative when the triangles are turned inward. This and the following
 /// throw Error(invalid_input) for a triangle with a point that the mesh does not have; other points do not matter.
 double signed_volume_mm3(const TriangleMesh& mesh);

@@ -96,16 +96,6 @@ std::vector<std::vector<std::uint32_t>> triangles_by_band(const TriangleMesh& me
 
 }  // namespace
 
-std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
-    std::vector<Vec3> normals(mesh.points.size());
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec3 area = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-        for (const std::uint32_t p : {a, b, c}) normals[p] += area;
-    }
-    for (Vec3& n : normals) n = normalized(n);
-    return normals;
-}
-
 DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, const Work& work) {
     DepthBuffer buffer{camera.width, camera.height, {}};
     buffer.pixels.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));

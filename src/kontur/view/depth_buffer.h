@@ -31,7 +31,4 @@ struct DepthBuffer {
 /// with a point that is not finite is left out.
 DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, const Work& work);
 
-/// A unit normal per point, the mean over its triangles by area; (0, 0, 0) for points in no triangle.
-std::vector<Vec3> point_normals(const TriangleMesh& mesh);
-
 }  // namespace kontur

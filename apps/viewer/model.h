@@ -61,6 +61,7 @@ struct State {
     std::map<Id, Structure> structures;
     std::map<Id, std::shared_ptr<const DrawnContour>> contours;
     Borders borders;
+    bool use_image = true;  ///< between the contours, where it helps
 };
 
 /// The structure's contours as the library takes them, in the order they were made.

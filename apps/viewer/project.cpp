@@ -86,6 +86,13 @@ std::optional<BordersChange> borders_change_from(const json& changes) {
     return BordersChange{borders_from_json(change.at("before")), borders_from_json(change.at("after"))};
 }
 
+/// Of steps from before the image was asked there is none.
+std::optional<UseImageChange> use_image_change_from(const json& changes) {
+    if (!changes.contains("use_image")) return std::nullopt;
+    const Members change(changes["use_image"]);
+    return UseImageChange{change.flag("before"), change.flag("after")};
+}
+
 /// `body()`, with everything that JSON or our own checks find wrong told as damage of the file.
 template <class Body>
 auto reading(const Database& database, Body body) {
@@ -168,6 +175,7 @@ void Project::create(const ImageReference& image) {
     save_setting("next_id", "1");
     save_setting("page", "null");
     save_setting("borders", to_text(viewer::to_json(Borders{.shared = true})));
+    save_setting("use_image", "true");
     write_image(image);
     transaction.commit();
 }
@@ -178,6 +186,7 @@ void Project::load() {
         const json numbers{{"position", parsed(setting("position"))}, {"next_id", parsed(setting("next_id"))}};
         if (const std::string borders = setting("borders"); !borders.empty())
             state_.borders = borders_from_json(parsed(borders));
+        state_.use_image = setting("use_image") == "true";  // projects of before have none: they stay what they were
         position_ = Members(numbers).integer("position", 0, kLargestId - 1);
         next_id_ = Members(numbers).id("next_id");
         for (Query rows(database_, "SELECT data FROM structure"); rows.next();) {
@@ -252,6 +261,7 @@ void Project::commit(const Commit& commit) {
     if (commit.borders)
         changes["borders"] = {{"before", viewer::to_json(commit.borders->before)},
                               {"after", viewer::to_json(commit.borders->after)}};
+    if (commit.use_image) changes["use_image"] = {{"before", commit.use_image->before}, {"after", commit.use_image->after}};
     Transaction transaction(database_);
     Query(database_, "DELETE FROM history WHERE number > ?1").bind(position_).finish();
     Query(database_, "INSERT INTO history VALUES (?1, ?2, datetime('now'), ?3)")
@@ -271,6 +281,7 @@ std::optional<Commit> Project::undo() {
     turn_back(commit->structures);
     turn_back(commit->contours);
     if (commit->borders) std::swap(commit->borders->before, commit->borders->after);
+    if (commit->use_image) std::swap(commit->use_image->before, commit->use_image->after);
     Transaction transaction(database_);
     store(*commit, position_ - 1);
     transaction.commit();
@@ -305,7 +316,8 @@ std::optional<Commit> Project::step(std::int64_t number) {
     return reading(database_, [&] {
         const json changes = parsed(query.text(1));
         return Commit{query.text(0), changes_from<Structure>(changes.at("structures")),
-                      changes_from<DrawnContour>(changes.at("contours")), borders_change_from(changes)};
+                      changes_from<DrawnContour>(changes.at("contours")), borders_change_from(changes),
+                      use_image_change_from(changes)};
     });
 }
 
@@ -315,6 +327,7 @@ void Project::store(const Commit& commit, std::int64_t new_position) {
     write_rows(database_, commit.contours, "INSERT OR REPLACE INTO contour VALUES (?1, ?2)",
                "DELETE FROM contour WHERE id = ?1");
     if (commit.borders) save_setting("borders", to_text(viewer::to_json(commit.borders->after)));
+    if (commit.use_image) save_setting("use_image", commit.use_image->after ? "true" : "false");
     save_setting("position", std::to_string(new_position));
     save_setting("next_id", std::to_string(next_id_));
 }
@@ -329,6 +342,7 @@ void Project::apply(const Commit& commit) {
         else state_.contours.erase(change.id);
     }
     if (commit.borders) state_.borders = commit.borders->after;
+    if (commit.use_image) state_.use_image = commit.use_image->after;
 }
 
 ImageReference image_of_project(const std::filesystem::path& path) {

@@ -23,14 +23,19 @@ struct BordersChange {
     Borders before, after;
 };
 
+struct UseImageChange {
+    bool before = false, after = false;
+};
+
 /// One step of the history.
 struct Commit {
     std::string label;  ///< what the user did, as in "Undo: LABEL"
     std::vector<Change<Structure>> structures;
     std::vector<Change<DrawnContour>> contours;
     std::optional<BordersChange> borders{};
+    std::optional<UseImageChange> use_image{};
 
-    bool is_empty() const { return structures.empty() && contours.empty() && !borders; }
+    bool is_empty() const { return structures.empty() && contours.empty() && !borders && !use_image; }
 };
 
 /// Which of the volumes of a path; nothing where there is only one.

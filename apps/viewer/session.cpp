@@ -9,6 +9,7 @@
 #include <set>
 
 #include "kontur/base/error.h"
+#include "kontur/refine/intensities.h"
 #include "kontur/refine/surface_uncertainty.h"
 #include "viewer/contour_edits.h"
 #include "viewer/model_json.h"
@@ -192,10 +193,11 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       presets_(window_presets(*image_)),
       window_(suggest_window(*image_)),
       range_(value_range(*image_)),
+      shows_borders_(range_.first < range_.second && !is_label_map(*image_)),
       edges_(image_),
       project_(project, opened.reference),
       surfaces_(
-          {[this](Id structure, std::int64_t revision, const PlaneCutter& cut) { tell_outlines(structure, revision, cut); },
+          {[this](Id structure, std::int64_t revision, const PlaneCutters& cut) { tell_outlines(structure, revision, cut); },
            [this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
            [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); },
            [this](const std::vector<BorderPair>& pairs, const std::string& problem) { tell_borders(pairs, problem); }}) {
@@ -204,6 +206,7 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
                     fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
     if (project_.image().path != opened.reference.path || project_.image().choice != opened.reference.choice)
         project_.save_image(opened.reference);
+    surfaces_.use_image(image_to_ask());
     surfaces_.share_borders(project_.state().borders);
     for (const auto& [id, structure] : project_.state().structures) surfaces_.follow_later(surface_task(id));
 }
@@ -271,6 +274,7 @@ std::string Session::greeting(const json& more) {
                {"contours", contours},
                {"surfaces", surfaces},
                {"borders", to_json(project_.state().borders)},
+               {"use_image", use_image()},
                {"border_pairs", borders_found(surfaces_.border_pairs())},
                {"history", history()},
                {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
@@ -304,14 +308,16 @@ json Session::surface_event(const Surface& surface) const {
                {"stage", std::string(name(surface.stage))},
                {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
                {"warnings", surface.warnings}};
-    if (surface.stage == SurfaceStage::refined || surface.stage == SurfaceStage::none) {
+    if (is_finished(surface.stage) || surface.stage == SurfaceStage::none) {
         event["conflicts"] = json::array();
         for (const Conflict& conflict : surface.conflicts)
             event["conflicts"].push_back({{"at", to_json(conflict.at)},
                                           {"distance_mm", conflict.disagreement_mm},
                                           {"contours", {conflict.contour, conflict.other}}});
     }
-    if (surface.stage != SurfaceStage::refined) return event;
+    if (!is_finished(surface.stage)) return event;
+    if (surface.image.verdict != ImageVerdict::none)
+        event["image"] = {{"verdict", std::string(name(surface.image.verdict))}, {"text", sentence(surface.image)}};
     event["volume_ml"] = surface.volume_ml;
     event["residual"] = {{"max_mm", surface.residual.max_mm},
                          {"rms_mm", surface.residual.rms_mm},
@@ -383,6 +389,7 @@ const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
         {"structure.add", {&Session::add_structure}},
         {"structure.set", {&Session::set_structure}},
         {"structure.remove", {&Session::remove_structure}},
+        {"image.set", {&Session::set_image}},
         {"borders.set", {&Session::set_borders}},
         {"borders.rule", {&Session::set_border_rule}},
         {"draft.drop", {&Session::drop_draft}},
@@ -653,7 +660,7 @@ void Session::commit(const Commit& commit) {
     }
     surfaces_.outdate(touched);
     if (!commit.is_empty()) tell_changes(commit);
-    for (const Id id : touched) follow(id);
+    follow_touched(commit, touched);
 }
 
 void Session::commit_ahead(const Commit& step) {
@@ -680,7 +687,9 @@ void Session::tell_changes(const Commit& commit) {
           {"structures", changes_json(commit.structures)},
           {"contours", changes_json(commit.contours)},
           {"history", history()},
-          {"borders", to_json(project_.state().borders)}});
+          {"borders", to_json(project_.state().borders)},
+          {"use_image", use_image()}});
+    surfaces_.use_image(image_to_ask());
     surfaces_.share_borders(project_.state().borders);
 }
 
@@ -688,11 +697,20 @@ void Session::announce(const Commit& commit) {
     const std::set<Id> touched = touched_surfaces(commit);
     surfaces_.outdate(touched);
     tell_changes(commit);
-    for (const Id id : touched) follow(id);
+    follow_touched(commit, touched);
 }
 
-std::set<Id> Session::touched_surfaces(const Commit& commit) {
+void Session::follow_touched(const Commit& step, const std::set<Id>& touched) {
+    for (const Id id : touched) {
+        if (step.use_image) surfaces_.follow_later(surface_task(id));
+        else follow(id);
+    }
+}
+
+std::set<Id> Session::touched_surfaces(const Commit& commit) const {
     std::set<Id> touched;
+    if (commit.use_image)
+        for (const auto& [id, structure] : project_.state().structures) touched.insert(id);
     for (const auto& change : commit.structures)
         if (!change.before || !change.after || change.before->empty_planes != change.after->empty_planes)
             touched.insert(change.id);

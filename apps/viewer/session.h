@@ -143,6 +143,7 @@ private:
     nlohmann::json save_page(const Members& m);
     nlohmann::json ping(const Members& m);
 
+    nlohmann::json set_image(const Members& m);
     nlohmann::json set_borders(const Members& m);
     nlohmann::json set_border_rule(const Members& m);
 
@@ -155,7 +156,9 @@ private:
     void commit_ahead(const Commit& step);
     void tell_changes(const Commit& commit);
     void announce(const Commit& commit);
-    static std::set<Id> touched_surfaces(const Commit& commit);
+    std::set<Id> touched_surfaces(const Commit& commit) const;
+    /// Of a step that touches all, one after the other.
+    void follow_touched(const Commit& step, const std::set<Id>& touched);
     SurfaceTask surface_task(Id structure) const;
     void follow(Id structure) { surfaces_.follow(surface_task(structure)); }
     void clear_draft();
@@ -164,6 +167,10 @@ private:
     std::vector<DrawnContour> carried_with(const DrawnContour& contour);
     /// Whether two structures have no voxel in common, by a rule, or as their surfaces lie.
     bool exclude(Id a, Id b) const;
+    /// The image that surfaces are asked of; null where the project does not use it, or it cannot tell borders.
+    std::shared_ptr<const Image> image_to_ask() const;
+    /// For pages: null where the image cannot tell borders.
+    nlohmann::json use_image() const;
     void commit_borders(const std::string& label, Borders after);
     void tell_borders(const std::vector<BorderPair>& pairs, const std::string& problem);
     nlohmann::json borders_found(const std::vector<BorderPair>& pairs) const;
@@ -175,7 +182,7 @@ private:
     SurfaceEvidence evidence_of(const Surface& surface) const;
     void tell(const nlohmann::json& event);
     void watch(WatchedPlane plane);
-    void tell_outlines(Id structure, std::int64_t revision, const PlaneCutter& cut);
+    void tell_outlines(Id structure, std::int64_t revision, const PlaneCutters& cut);
     void tell_status(const std::string& text, std::optional<double> fraction);
     auto status_teller() {
         return [this](const std::string& text, std::optional<double> done) { tell_status(text, done); };
@@ -191,6 +198,7 @@ private:
     const std::vector<WindowPreset> presets_;
     const Window window_;
     const std::pair<double, double> range_;
+    const bool shows_borders_;  ///< no label map, nor the same value everywhere
     SliceEdges edges_;
     mutable std::mutex listener_mutex_;
     std::function<void(const std::string&)> listener_;

@@ -84,7 +84,7 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         project_.copy_to(path);
         download.file_name = file_name(project_.path().stem().string(), name);
     } else if (is_export_of_all(name)) {
-        const auto all = fit_structures(state(), image_->grid, name.ends_with(".zip"), line.work(stop));
+        const auto all = fit_structures(state(), *image_, name.ends_with(".zip"), line.work(stop));
         for (const std::string& note : write_structures(path, name, all, series_, line.work(stop))) notice("info", note);
         download.file_name = plain_name(project_path().stem().string()) + "_" + name;
     } else {
@@ -96,7 +96,7 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         const Structure& chosen = structure_of(now, *structure);
         const ContourSet set = contour_set(now, *structure);
         const auto made = [&, &now = now](bool with_mesh) {
-            return fit_structure(now, *structure, image_->grid, with_mesh, line.work(stop));
+            return fit_structure(now, *structure, *image_, with_mesh, line.work(stop));
         };
         if (is_one_of(name, kMasks)) write_mask_file(path, made(false));
         else if (is_one_of(name, kMeshes)) write_mesh_file(path, made(true));
@@ -112,7 +112,7 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
 std::string Session::statistics(const std::stop_token& stop) {
     const StatusLine line(status_teller(), "Measuring");
     nlohmann::json rows = nlohmann::json::array();
-    for (const FittedStructure& one : fit_structures(state(), image_->grid, true, line.work(stop))) {
+    for (const FittedStructure& one : fit_structures(state(), *image_, true, line.work(stop))) {
         const Statistics found = viewer::statistics(*one.made.mesh, one.made.mask, *image_);
         rows.push_back({{"structure", one.structure.id},
                         {"name", one.structure.name},

@@ -57,8 +57,7 @@ std::string Session::mesh(Id structure, bool coded) {
     const Surface& surface = is_there ? *found->second : none;
     const TriangleMesh& mesh = is_there ? *surface.mesh : no_mesh;
     std::vector<double> widths_mm;
-    if (surface.evidence && surface.stage == SurfaceStage::refined)
-        widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
+    if (surface.evidence && is_finished(surface.stage)) widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
     return (coded ? as_code : as_numbers)(
         {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}}, mesh,
         widths_mm);

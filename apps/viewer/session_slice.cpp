@@ -120,6 +120,17 @@ private:
     std::vector<float> numbers_;
 };
 
+/// To hundredths of a pixel, column and row alternating.
+json in_pixels(const std::vector<std::vector<Vec3>>& lines, const Reslice& raster) {
+    json told = json::array();
+    for (const std::vector<Vec3>& line : lines) {
+        json& numbers = told.emplace_back(json::array());
+        for (const Vec3& p : line)
+            for (const double mm : raster.plane.to_uv(p)) numbers.push_back(std::round(100 * mm / raster.pixel_mm) / 100);
+    }
+    return told;
+}
+
 /// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
 void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, const Reslice& raster,
                   double thickness_mm, json& head, PixelPoints& lines, PixelPoints& dots) {
@@ -127,12 +138,17 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
     const auto is_visible = [&](Id id) { return state.structures.contains(id) && state.structures.at(id).visible; };
     for (const auto& [id, surface] : surfaces) {
         if (!is_visible(id) || !surface->mesh) continue;
-        json runs = json::array();
-        for (const Polyline& line : outline(*surface->mesh, raster.plane)) {
-            runs.push_back(lines.add(line.points));
-            runs.back()["closed"] = line.closed;
-        }
-        head["outlines"].push_back({{"structure", id}, {"revision", surface->revision}, {"lines", std::move(runs)}});
+        const auto runs_of = [&](const TriangleMesh& mesh) {
+            json runs = json::array();
+            for (const Polyline& line : outline(mesh, raster.plane)) {
+                runs.push_back(lines.add(line.points));
+                runs.back()["closed"] = line.closed;
+            }
+            return runs;
+        };
+        json told{{"structure", id}, {"revision", surface->revision}, {"lines", runs_of(*surface->mesh)}};
+        if (surface->without_image) told["without_image"] = runs_of(*surface->without_image);
+        head["outlines"].push_back(std::move(told));
     }
     for (const auto& [id, contour] : state.contours) {
         if (!contour->visible || !is_visible(contour->structure)) continue;
@@ -157,7 +173,7 @@ void Session::watch(WatchedPlane plane) {
 }
 
 /// In all views, before anybody asks: a page that is busy drawing would come to ask much later.
-void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutter& cut) {
+void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutters& cut) {
     std::vector<WatchedPlane> watched;
     {
         const std::scoped_lock lock(watched_mutex_);
@@ -165,14 +181,10 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
     }
     json views = json::array();
     for (const WatchedPlane& plane : watched) {
-        json lines = json::array();
-        for (const std::vector<Vec3>& line : cut(plane.raster.plane)) {
-            json& numbers = lines.emplace_back(json::array());
-            for (const Vec3& p : line)
-                for (const double mm : plane.raster.plane.to_uv(p))
-                    numbers.push_back(std::round(100 * mm / plane.raster.pixel_mm) / 100);
-        }
-        views.push_back({{"view", plane.view}, {"plane", plane.plane}, {"lines", std::move(lines)}});
+        const Reslice& raster = plane.raster;
+        json told{{"view", plane.view}, {"plane", plane.plane}, {"lines", in_pixels(cut.surface(raster.plane), raster)}};
+        if (cut.without_image) told["without_image"] = in_pixels(cut.without_image(raster.plane), raster);
+        views.push_back(std::move(told));
     }
     tell({{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}});
 }

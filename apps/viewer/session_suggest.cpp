@@ -35,7 +35,7 @@ json Session::suggest(const Members& m) {
     const auto found = surfaces.find(structure);
     json planes = json::array();
     // While contours change there is no surface of them yet, and none to suggest a plane for.
-    if (found == surfaces.end() || !found->second->evidence || found->second->stage != SurfaceStage::refined)
+    if (found == surfaces.end() || !found->second->evidence || !is_finished(found->second->stage))
         return {{"planes", planes}};
     const Surface& surface = *found->second;
     for (const SuggestedPlane& one : suggest_planes(evidence_of(surface), *surface.drawn, 1, options).planes) {

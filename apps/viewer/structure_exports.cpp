@@ -162,7 +162,10 @@ void share_surfaces(std::vector<FittedStructure>& all, const std::vector<Structu
         if (const auto mesh = found.meshes.find(one.structure.id); mesh != found.meshes.end()) one.made.mesh = *mesh->second;
 }
 
-std::vector<FittedStructure> fit_together(const State& state, const Grid& grid, bool with_mesh, const Work& work) {
+/// Null where the image is not to be asked.
+const Image* asked(const State& state, const Image& image) { return state.use_image ? &image : nullptr; }
+
+std::vector<FittedStructure> fit_together(const State& state, const Image& image, bool with_mesh, const Work& work) {
     std::vector<FittedStructure> all;
     std::vector<ContourSet> sets;
     std::vector<Id> ids;
@@ -177,7 +180,7 @@ std::vector<FittedStructure> fit_together(const State& state, const Grid& grid, 
     TogetherOptions options;
     options.segment.mesh = with_mesh;
     options.rules = rules_among(state.borders, ids);
-    Together together = segment_together(sets, grid, options, work);
+    Together together = segment_together(sets, image.grid, asked(state, image), options, work);
     for (std::size_t n = 0; n < all.size(); ++n) {
         Mask whole = whole_mask(together, n);
         all[n].made = std::move(together.structures[n]);
@@ -190,7 +193,7 @@ std::vector<FittedStructure> fit_together(const State& state, const Grid& grid, 
     return all;
 }
 
-std::vector<FittedStructure> fit_each(const State& state, const Grid& grid, bool with_mesh, const Work& work) {
+std::vector<FittedStructure> fit_each(const State& state, const Image& image, bool with_mesh, const Work& work) {
     std::vector<FittedStructure> all;
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
@@ -198,7 +201,7 @@ std::vector<FittedStructure> fit_each(const State& state, const Grid& grid, bool
         SegmentOptions options;
         options.mesh = with_mesh;
         try {
-            Segmentation made = segment(set, grid, options, work);
+            Segmentation made = segment(set, image.grid, asked(state, image), options, work);
             all.push_back({structure, std::move(set), std::move(made)});
         } catch (const Error& error) {
             throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
@@ -209,23 +212,23 @@ std::vector<FittedStructure> fit_each(const State& state, const Grid& grid, bool
 
 }  // namespace
 
-std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Work& work) {
-    auto all = (state.borders.shared ? fit_together : fit_each)(state, grid, with_mesh, work);
+std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work) {
+    auto all = (state.borders.shared ? fit_together : fit_each)(state, image, with_mesh, work);
     if (all.empty()) throw Error(ErrorKind::invalid_input, "no structure has contours");
     return all;
 }
 
-FittedStructure fit_structure(const State& state, Id structure, const Grid& grid, bool with_mesh, const Work& work) {
+FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work) {
     ContourSet set = contour_set(state, structure);
     const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
                                       [&](const auto& item) { return item.second->structure == structure; });
     if (!state.borders.shared || is_alone || set.contours.empty()) {
         SegmentOptions options;
         options.mesh = with_mesh;
-        Segmentation made = segment(set, grid, options, work);
+        Segmentation made = segment(set, image.grid, asked(state, image), options, work);
         return {structure_of(state, structure), std::move(set), std::move(made)};
     }
-    std::vector<FittedStructure> all = fit_structures(state, grid, with_mesh, work);
+    std::vector<FittedStructure> all = fit_structures(state, image, with_mesh, work);
     const auto chosen =
         std::find_if(all.begin(), all.end(), [&](const FittedStructure& one) { return one.structure.id == structure; });
     return std::move(*chosen);

@@ -31,13 +31,14 @@ struct FittedStructure {
     bool shares_border = false;  ///< mask and mesh are not those that the function alone would give
 };
 
-/// All structures that have contours, in the order they were made, hidden ones too; with their surfaces if wished. Where the
-/// project's structures share borders, masks and surfaces do, by its rules (see segment_together). Throws
-/// Error(invalid_input) where there is none, and what `segment` throws, with the structure's name.
-std::vector<FittedStructure> fit_structures(const State& state, const Grid& grid, bool with_mesh, const Work& work);
+/// All structures that have contours, in the order they were made, hidden ones too, on the image's grid; with their surfaces
+/// if wished. The image is asked where the project uses it. Where its structures share borders, masks and surfaces do, by
+/// its rules (see segment_together). Throws Error(invalid_input) where there is none, and what `segment` throws, with the
+/// structure's name.
+std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work);
 
 /// One of them; only where borders are shared are the others fitted, too.
-FittedStructure fit_structure(const State& state, Id structure, const Grid& grid, bool with_mesh, const Work& work);
+FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work);
 
 /// Writes the file of this name, one of `kExportsOfAll`. Labels count from 1 in the order of the structures; a voxel in
 /// several of them belongs to the smallest, so that a lesion in an organ is not lost; in DICOM objects it belongs to all.

@@ -53,7 +53,9 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
         surface.conflicts = conflicts(task, find_crossings(task.set));
         return surface;
     }
-    surface.stage = update.surface.refined ? SurfaceStage::refined : SurfaceStage::preview;
+    surface.stage = !update.surface.refined ? SurfaceStage::preview
+                    : update.asks_image     ? SurfaceStage::asking
+                                            : SurfaceStage::refined;
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
     if (!update.surface.refined) return surface;
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
@@ -66,19 +68,26 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
         gather_evidence(sample_surface(*surface.mesh, update.surface.function), task.set,
                         {.volume_mm3 = 1000 * surface.volume_ml,
                          .residual_mm = surface.residual.rms_mm,
-                         .disagreement_mm = trusted_disagreement_mm(disagreement(crossings))}));
+                         .disagreement_mm = trusted_disagreement_mm(disagreement(crossings)),
+                         .asked = update.surface.image.asked}));
+    surface.image = update.surface.image;
     surface.drawn = std::make_shared<const ContourSet>(task.set);
     return surface;
 }
 
 }  // namespace
 
-PlaneCutter cutter(const Surface& surface) {
-    return [mesh = surface.mesh](const Plane& plane) {
-        std::vector<std::vector<Vec3>> lines;
-        for (Polyline& line : outline(*mesh, plane)) lines.push_back(std::move(line.points));  // a closed mesh: closed lines
-        return lines;
+PlaneCutters cutters(const Surface& surface) {
+    const auto cutter = [](const std::shared_ptr<const TriangleMesh>& mesh) -> PlaneCutter {
+        if (!mesh) return {};
+        return [mesh](const Plane& plane) {
+            std::vector<std::vector<Vec3>> lines;
+            for (Polyline& line : outline(*mesh, plane))
+                lines.push_back(std::move(line.points));  // of a closed mesh: closed
+            return lines;
+        };
     };
+    return {cutter(surface.mesh), cutter(surface.without_image)};
 }
 
 std::string_view name(SurfaceStage stage) noexcept {
@@ -87,6 +96,8 @@ std::string_view name(SurfaceStage stage) noexcept {
             return "outdated";
         case SurfaceStage::preview:
             return "preview";
+        case SurfaceStage::asking:
+            return "asking";
         case SurfaceStage::refined:
             return "refined";
         case SurfaceStage::none:
@@ -112,11 +123,16 @@ void Surfaces::outdate(const std::set<Id>& structures) {
 void Surfaces::outdate_locked(Id structure) {
     if (const auto follower = followers_.find(structure); follower != followers_.end()) follower->second.is_outdated = true;
     const auto shown = latest_.find(structure);
-    if (shown == latest_.end() || shown->second->stage != SurfaceStage::refined) return;
+    if (shown == latest_.end() || !is_finished(shown->second->stage)) return;
     Surface outdated = *shown->second;
     outdated.stage = SurfaceStage::outdated;
     shown->second = std::make_shared<const Surface>(std::move(outdated));
     listener_.surface(shown->second);
+}
+
+void Surfaces::use_image(std::shared_ptr<const Image> image) {
+    const std::scoped_lock lock(mutex_);
+    image_ = std::move(image);
 }
 
 void Surfaces::follow(SurfaceTask task) {
@@ -130,6 +146,8 @@ void Surfaces::follow(SurfaceTask task) {
 void Surfaces::follow_later(SurfaceTask task) {
     const std::scoped_lock lock(mutex_);
     std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
+    const auto follower = followers_.find(task.structure);
+    if (follower != followers_.end() && follower->second.is_working) return start(std::move(task));
     later_.push_back(std::move(task));
     start_next();
 }
@@ -166,7 +184,7 @@ void Surfaces::start(SurfaceTask task) {
         }
     }
     // The lock makes the editor's answer wait until its task is known.
-    const std::uint64_t number = follower.editor->edit(task.set);
+    const std::uint64_t number = follower.editor->edit(task.set, image_);
     follower.is_working = true;
     follower.tasks[number] = std::move(task);
 }
@@ -201,24 +219,47 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
         tasks.erase(tasks.begin(), tasks.lower_bound(update.edit));
         task = tasks.at(update.edit);
     }
-    Surface surface = shown(task, update);
-    const bool is_final = update.kind != EditorUpdate::Kind::preview;
-    if (is_final && hand_over(task, surface, update)) return;
-    if (surface.stage == SurfaceStage::refined) {
+    Alone alone = heard(task, update);
+    Surface& surface = alone.surface;
+    const bool is_final = update.kind != EditorUpdate::Kind::preview && !update.asks_image;
+    if (is_final && hand_over(task, alone)) return;
+    if (is_finished(surface.stage) && surface.revision == 0) {
         surface.revision = next_revision();
-        listener_.outlines(structure, surface.revision, cutter(surface));
+        listener_.outlines(structure, surface.revision, cutters(surface));
     }
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[structure];
+    if (update.asks_image) follower.without_image = alone;
     if (update.kind == EditorUpdate::Kind::preview) surface.revision = std::exchange(follower.ahead, 0);
     const bool is_newest = follower.tasks.size() == 1 && !follower.is_outdated;
     // Of contours that have changed meanwhile it is only on the way to their surface.
-    if (!is_newest && surface.stage == SurfaceStage::refined) surface.stage = SurfaceStage::preview;
+    if (!is_newest && is_finished(surface.stage)) surface.stage = SurfaceStage::preview;
     publish_locked(std::move(surface));
     if (!is_newest || !is_final) return;
     finish_locked(follower, task);
     // Of borders that are not shared any more, too: surfaces are those of before until then.
     if ((borders_.shared || sharing_thread_.joinable()) && !is_busy_locked()) ask_to_share_locked();
+}
+
+/// Where the image was not used, or could not be asked, it is the surface that is shown already, and keeps its revision.
+Surfaces::Alone Surfaces::heard(const SurfaceTask& task, const EditorUpdate& update) {
+    Alone known = [&] {
+        const std::scoped_lock lock(mutex_);
+        return std::exchange(followers_[task.structure].without_image, {});
+    }();
+    const bool is_of_image = update.kind == EditorUpdate::Kind::with_image ||
+                             (update.kind == EditorUpdate::Kind::problem && known.surface.stage == SurfaceStage::asking);
+    const bool is_used = update.surface.image.verdict == ImageVerdict::used;
+    if (!is_of_image || is_used) {
+        Alone made{shown(task, update), update.surface.function};
+        if (is_used) made.surface.without_image = known.surface.mesh;
+        return made;
+    }
+    if (known.surface.stage == SurfaceStage::asking) known.surface.stage = SurfaceStage::refined;
+    if (update.kind == EditorUpdate::Kind::problem)
+        known.surface.warnings.push_back(fmt::format("The image could not be asked: {}.", update.problem));
+    known.surface.image = update.surface.image;
+    return known;
 }
 
 void Surfaces::finish_locked(Follower& follower, const SurfaceTask& task) {
@@ -238,7 +279,7 @@ void Surfaces::hear_ahead(Id structure, const SurfaceBand& band) {
         const std::scoped_lock lock(mutex_);
         followers_[structure].ahead = revision;
     }
-    listener_.outlines(structure, revision, [&](const Plane& plane) { return band.cut(plane); });
+    listener_.outlines(structure, revision, {[&](const Plane& plane) { return band.cut(plane); }});
 }
 
 std::int64_t Surfaces::next_revision() {

@@ -25,9 +25,12 @@ enum class SurfaceStage {
     none,
     outdated,  ///< the contours have changed since; the next one is on its way
     preview,
+    asking,  ///< what the contours make of themselves; the image is asked now whether it knows better
     refined,
 };
 std::string_view name(SurfaceStage stage) noexcept;
+/// Whether all is known of the surface that there is to know.
+constexpr bool is_finished(SurfaceStage stage) { return stage == SurfaceStage::asking || stage == SurfaceStage::refined; }
 
 /// Two contours that contradict each other at a place.
 struct Conflict {
@@ -44,13 +47,15 @@ struct Surface {
     std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
     std::vector<std::string> warnings;
     std::vector<Conflict> conflicts;  ///< the largest first; known when refined, and when there is no surface
-    // Known when refined:
+    // Known when finished:
     double volume_ml = 0;
     Residual residual;
     Id worst_contour = 0;  ///< where the residual is largest
     Vec3 worst_at;
-    std::shared_ptr<const SurfaceEvidence> evidence;  ///< how sure it is, without the image's part in that
-    std::shared_ptr<const ContourSet> drawn;          ///< what it was made from
+    std::shared_ptr<const SurfaceEvidence> evidence;    ///< how sure it is
+    std::shared_ptr<const ContourSet> drawn;            ///< what it was made from
+    RefineReport image;                                 ///< what became of the image, when refined
+    std::shared_ptr<const TriangleMesh> without_image;  ///< what the contours alone make; null where no image was used
 };
 
 /// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
@@ -63,12 +68,16 @@ struct SurfaceTask {
 /// The closed lines, in mm, where a surface meets a plane.
 using PlaneCutter = std::function<std::vector<std::vector<Vec3>>(const Plane& plane)>;
 
-PlaneCutter cutter(const Surface& surface);
+struct PlaneCutters {
+    PlaneCutter surface;
+    PlaneCutter without_image{};  ///< what the contours alone make; none where no image was used
+};
+PlaneCutters cutters(const Surface& surface);
 
 /// Called from the threads that compute, and from those that change contours. Must not call Surfaces.
 struct SurfaceListener {
     /// Told before the surface with this revision, which of previews takes as long again.
-    std::function<void(Id structure, std::int64_t revision, const PlaneCutter& cut)> outlines;
+    std::function<void(Id structure, std::int64_t revision, const PlaneCutters& cut)> outlines;
     std::function<void(std::shared_ptr<const Surface>)> surface;
     /// What is being computed, and how much of it is done; an empty text when nothing is.
     std::function<void(const std::string& text, std::optional<double> fraction)> status;
@@ -77,8 +86,9 @@ struct SurfaceListener {
 };
 
 /// A LiveEditor for each structure that has contours: surfaces follow the contours, previews at once, the refined ones when
-/// the hand rests. Where structures share borders a refined surface waits until these are found, and then the surfaces of
-/// its neighbours change, too: on a thread of its own, from the functions that there are.
+/// the hand rests, and then those that the image helps to make. Where structures share borders a refined surface waits until
+/// these are found, and then the surfaces of its neighbours change, too: on a thread of its own, from the functions that
+/// there are.
 class Surfaces {
 public:
     explicit Surfaces(SurfaceListener listener) : listener_(std::move(listener)) {}
@@ -91,8 +101,11 @@ public:
     void outdate(const std::set<Id>& structures);
     /// The structure's contours are now these. Does not wait.
     void follow(SurfaceTask task);
-    /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed.
+    /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed,
+    /// or in place of what is computed for them already.
     void follow_later(SurfaceTask task);
+    /// Contours that are followed from now on were drawn on this image, and it is asked; null: none is.
+    void use_image(std::shared_ptr<const Image> image);
     /// From now on these hold. Does not wait.
     void share_borders(const Borders& borders);
     /// How structures lie to each other as far as it has been found.
@@ -104,19 +117,20 @@ public:
     std::map<Id, std::shared_ptr<const Surface>> all() const;
 
 private:
+    /// A finished surface as it was fitted, before borders are shared.
+    struct Alone {
+        Surface surface;
+        ImplicitFunction function;
+    };
     struct Follower {
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
         bool is_working = false;
         bool is_outdated = false;            ///< there will be another task
+        Alone without_image;                 ///< of the task for which the image is asked
         std::int64_t ahead = 0;              ///< revision of the preview whose outlines have been told
         std::string_view stage;              ///< what the status line was told last ...
         int tenths = 0;                      ///< ... and how far it was
         std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
-    };
-    /// A refined surface as it was fitted, before borders are shared.
-    struct Alone {
-        Surface surface;
-        ImplicitFunction function;
     };
     using Editors = std::vector<std::shared_ptr<LiveEditor>>;
 
@@ -128,11 +142,12 @@ private:
     void show_progress(Id structure, const EditorUpdate& update);
     void outdate_locked(Id structure);
     void publish_locked(Surface surface);
+    Alone heard(const SurfaceTask& task, const EditorUpdate& update);
     void finish_locked(Follower& follower, const SurfaceTask& task);
 
     // Sharing borders (surfaces_shared.cpp).
     bool is_busy_locked() const;
-    bool hand_over(const SurfaceTask& task, const Surface& surface, const EditorUpdate& update);
+    bool hand_over(const SurfaceTask& task, const Alone& alone);
     bool ask_to_share_locked();
     void keep_sharing(const std::stop_token& closed);
     void share(const std::map<Id, Alone>& alone, const Borders& borders, const std::stop_token& stop);
@@ -142,6 +157,7 @@ private:
     mutable std::mutex mutex_;
     std::map<Id, std::shared_ptr<const Surface>> latest_;
     std::int64_t revision_ = 0;
+    std::shared_ptr<const Image> image_;
     std::map<Id, Alone> alone_;
     Borders borders_;
     std::vector<BorderPair> pairs_;

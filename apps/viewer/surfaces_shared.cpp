@@ -15,6 +15,7 @@ bool is_same(const TriangleMesh& a, const TriangleMesh& b) { return a.points == 
 /// As it was fitted, but for the surface itself.
 Surface with_mesh(const Surface& alone, std::shared_ptr<const TriangleMesh> mesh) {
     Surface surface = alone;
+    surface.revision = 0;
     if (mesh == alone.mesh) return surface;
     surface.mesh = std::move(mesh);
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
@@ -41,12 +42,12 @@ std::vector<BorderPair> Surfaces::border_pairs() const {
 
 /// Whether the refined surface is told by the other thread, with its borders. Where more structures are on their way it is
 /// told as it is, so that they come to be seen one by one.
-bool Surfaces::hand_over(const SurfaceTask& task, const Surface& surface, const EditorUpdate& update) {
+bool Surfaces::hand_over(const SurfaceTask& task, const Alone& alone) {
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[task.structure];
     if (follower.tasks.size() != 1 || follower.is_outdated) return false;
-    if (surface.stage != SurfaceStage::refined) return alone_.erase(task.structure), false;
-    alone_[task.structure] = {surface, update.surface.function};
+    if (alone.surface.stage != SurfaceStage::refined) return alone_.erase(task.structure), false;
+    alone_[task.structure] = alone;
     const bool is_last = later_.empty() && std::all_of(followers_.begin(), followers_.end(), [&](const auto& other) {
                              return other.first == task.structure || !other.second.is_working;
                          });
@@ -132,7 +133,7 @@ void Surfaces::publish_shared(const Alone& alone, std::shared_ptr<const Triangle
     }
     Surface surface = with_mesh(alone.surface, std::move(mesh));
     surface.revision = next_revision();
-    listener_.outlines(id, surface.revision, cutter(surface));
+    listener_.outlines(id, surface.revision, cutters(surface));
     const std::scoped_lock lock(mutex_);
     if (!is_wanted()) surface.stage = SurfaceStage::preview;  // only on the way to another one
     publish_locked(std::move(surface));

@@ -50,6 +50,7 @@ void bind_editor_itself(py::module_& m) {
     surface.def_readonly("spacing_mm", &EditedSurface::spacing_mm, "float: of the lattice that the mesh was made on.");
     surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; refined surfaces only.");
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
+    surface.def_readonly("image", &EditedSurface::image, "RefineReport: what became of the image; refined surfaces only.");
     surface.def_property_readonly(
         "seconds", [](const EditedSurface& s) { return py::dict(py::cast(s.seconds)); },
         "dict of str to float: wall time by stage; previews only.");
@@ -57,8 +58,8 @@ void bind_editor_itself(py::module_& m) {
     const Keywords<EditorOptions> keywords = editor_keywords();
     const std::string help = filled_in(R"(Follows contours while they are edited.
 
-After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give. Threads that
-share one wait for each other.
+After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give, with an image or without.
+Threads that share one wait for each other.
 
 Parameters
 ----------
@@ -89,14 +90,16 @@ Examples
         },
         py::arg("contours"), py::kw_only(), kThreads, kProgress, kStop);
     method(
-        editor, "refine", "The final EditedSurface through a ContourSet: the same function as `segment`'s.",
-        [](SharedEditor& self, const ContourSet& contours, int threads, const py::object& progress, const py::object& stop) {
+        editor, "refine",
+        "The final EditedSurface through a ContourSet: the same function as `segment`'s, with the `image` if one is given.",
+        [](SharedEditor& self, const ContourSet& contours, const Image* image, int threads, const py::object& progress,
+           const py::object& stop) {
             return run({progress, stop, threads}, [&](const Work& work) {
                 const std::lock_guard lock(self.mutex);
-                return self.editor.refine(contours, work);
+                return self.editor.refine(contours, image, work);
             });
         },
-        py::arg("contours"), py::kw_only(), kThreads, kProgress, kStop);
+        py::arg("contours"), py::kw_only(), py::arg("image") = py::none(), kThreads, kProgress, kStop);
 }
 
 }  // namespace

@@ -17,6 +17,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
+bool has_surface(const EditorUpdate& update) {
+    return update.kind != EditorUpdate::Kind::problem && update.kind != EditorUpdate::Kind::progress;
+}
+
+/// Python's image, not a copy: kept as long as the editor's thread may read it, and let go by whichever thread is the last.
+std::shared_ptr<const Image> kept(const Image* image) {
+    if (!image) return nullptr;
+    py::object known = py::cast(image, py::return_value_policy::reference);  // the object that holds it
+    return {image, [owner = std::move(known)](const Image*) mutable {
+                const py::gil_scoped_acquire acquire;
+                owner = {};
+            }};
+}
+
 /// What the editor's thread and Python's threads share; the last of them takes it along. Whoever waits for the editor's
 /// thread must not hold the interpreter's lock, which that thread takes for each update.
 class Session {
@@ -36,11 +50,11 @@ public:
         return session;
     }
 
-    std::uint64_t edit(const ContourSet& contours) {
+    std::uint64_t edit(const ContourSet& contours, std::shared_ptr<const Image> image) {
         const ReleasedLock released;
         const std::scoped_lock lock(mutex_);  // so that no answer comes before its edit is known
         if (!editor_) throw Error(ErrorKind::invalid_input, "the editor is closed");
-        return newest_ = editor_->edit(contours);
+        return newest_ = editor_->edit(contours, std::move(image));
     }
 
     /// Looks at signals every 20 ms; the editor works on when Ctrl-C ends the wait.
@@ -82,7 +96,8 @@ private:
                 error.discard_as_unraisable("the listener of kontur.LiveEditor");
             }
         }
-        if (update.kind != EditorUpdate::Kind::refined && update.kind != EditorUpdate::Kind::problem) return;
+        if (!has_surface(update) && update.kind != EditorUpdate::Kind::problem) return;
+        if (update.kind == EditorUpdate::Kind::preview || update.asks_image) return;  // more follows
         {
             const std::scoped_lock lock(mutex_);
             answered_ = std::max(answered_, update.edit);
@@ -109,7 +124,9 @@ public:
     ListenedEditor(const ListenedEditor&) = delete;
     ListenedEditor& operator=(const ListenedEditor&) = delete;
 
-    std::uint64_t edit(const ContourSet& contours) const { return session()->edit(contours); }
+    std::uint64_t edit(const ContourSet& contours, const Image* image) const {
+        return session()->edit(contours, kept(image));
+    }
 
     void wait() const {
         refuse_listener("wait");
@@ -177,26 +194,25 @@ private:
 };
 
 std::string word(EditorUpdate::Kind kind) {
-    constexpr std::array<const char*, 4> kWords{"preview", "refined", "problem", "progress"};
+    constexpr std::array<const char*, 5> kWords{"preview", "refined", "with_image", "problem", "progress"};
     return kWords[static_cast<std::size_t>(kind)];
-}
-
-bool has_surface(const EditorUpdate& update) {
-    return update.kind == EditorUpdate::Kind::preview || update.kind == EditorUpdate::Kind::refined;
 }
 
 void bind_update(py::module_& m) {
     py::class_<EditorUpdate> update(m, "EditorUpdate", "What a LiveEditor has to say about an edit.");
     update.def_property_readonly(
         "kind", [](const EditorUpdate& u) { return word(u.kind); },
-        "str: 'preview', 'refined' (final for this edit), 'problem' (the contours cannot be fitted) or 'progress'.");
+        "str: 'preview', 'refined' (what the contours make: final for this edit, unless `asks_image`), 'with_image' (the "
+        "image "
+        "was asked, and this is final), 'problem' (the contours cannot be fitted) or 'progress'.");
     update.def_readonly("edit", &EditorUpdate::edit, "int: which edit this answers, from 1.");
     update.def_property_readonly(
         "surface",
         [](const EditorUpdate& u) -> std::optional<EditedSurface> {
             return has_surface(u) ? std::optional(u.surface) : std::nullopt;
         },
-        "EditedSurface of a preview or refined update, else None.");
+        "EditedSurface of an update that is neither a problem nor progress, else None.");
+    update.def_readonly("asks_image", &EditorUpdate::asks_image, "bool: of a refined one: 'with_image' follows.");
     update.def_readonly("problem", &EditorUpdate::problem, "str: why the contours cannot be fitted.");
     update.def_property_readonly(
         "stage", [](const EditorUpdate& u) { return std::string(u.stage); }, "str: of a progress update.");
@@ -207,9 +223,10 @@ void bind_update(py::module_& m) {
 
 void bind_live_editor(py::module_& m, const Keywords<EditorOptions>& keywords) {
     bind_update(m);
-    const std::string help = filled_in(R"(An Editor on a thread of its own: previews the newest contours, then refines.
+    const std::string help =
+        filled_in(R"(An Editor on a thread of its own: previews the newest contours, refines, then asks the image.
 
-An edit cancels a running refinement at once; a running preview is finished first. Close it, or use it in a `with` statement.
+An edit cancels a running refinement, and the question to the image, at once; a running preview is finished first. Close it, or use it in a `with` statement.
 In a forked process it is closed.
 
 Parameters
@@ -229,7 +246,7 @@ Examples
 >>> number, kinds[-1], "preview" in kinds
 (1, 'refined', True)
 )",
-                                       keywords.documentation());
+                  keywords.documentation());
     py::class_<ListenedEditor> editor(m, "LiveEditor", help.c_str());
     const std::string init_doc = docstring("__init__", "self, listener, *, threads=0", "", KeywordText(keywords));
     editor.def(py::init([keywords](py::object listener, int threads, const py::kwargs& given) {
@@ -239,10 +256,13 @@ Examples
                    return std::make_unique<ListenedEditor>(options, std::move(listener), threads);
                }),
                py::arg("listener"), py::kw_only(), kThreads, init_doc.c_str());
-    method(editor, "edit", "The contours are now this ContourSet; returns the number of the edit, from 1. Does not wait.",
-           &ListenedEditor::edit, py::arg("contours"));
+    method(editor, "edit",
+           R"(The contours are now this ContourSet, drawn on this Image, if any is to be asked.
+
+Returns the number of the edit, from 1. Does not wait. The image is not copied.)",
+           &ListenedEditor::edit, py::arg("contours"), py::kw_only(), py::arg("image") = py::none());
     method(editor, "wait",
-           R"(Waits until the newest edit is refined or has turned out to be a problem.
+           R"(Waits until the newest edit has its final surface or has turned out to be a problem.
 
 Ctrl-C ends the wait, not the work. Raises CancelledError when the editor is closed before.)",
            &ListenedEditor::wait);

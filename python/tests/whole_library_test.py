@@ -108,6 +108,39 @@ def test_a_live_editor_answers_the_newest_edit(case):
         editor.edit(case.contours)
 
 
+def ball_on_image(radius=40.0):
+    """Circles of a ball in five slices, and an image in which it is bright."""
+    turns = numpy.linspace(0, 2 * numpy.pi, 60, endpoint=False)
+    rings = [(radius**2 - z**2) ** 0.5 * numpy.stack([numpy.cos(turns), numpy.sin(turns), 0 * turns], 1) + [0, 0, z]
+             for z in (-34, -18, -2, 14, 30)]
+    z, y, x = numpy.meshgrid(4 * (numpy.arange(40) - 19.5), *[2 * (numpy.arange(60) - 29.5)] * 2, indexing="ij")
+    noise = numpy.random.default_rng(1).integers(0, 21, x.shape)
+    grid = kontur.Grid((60, 60, 40), numpy.array([[2, 0, 0, -59], [0, 2, 0, -59], [0, 0, 4, -78], [0, 0, 0, 1.0]]), frame="LPS")
+    image = kontur.Image((100 * (x**2 + y**2 + z**2 < radius**2) + noise).astype(numpy.int16), grid)
+    return kontur.ContourSet([kontur.Contour(ring) for ring in rings]), image
+
+
+def test_editors_ask_the_image_that_they_are_given():
+    contours, image = ball_on_image()
+    wanted = kontur.segment(contours, image.grid, image=image)
+    assert wanted.report.image.verdict == "used"
+    refined = kontur.Editor().refine(contours, image=image)
+    assert numpy.array_equal(refined.function.weights, wanted.function.weights)
+    assert refined.image.error_with_mm == wanted.report.image.error_with_mm
+    assert kontur.Editor().refine(contours).image.verdict == "none"
+    updates = []
+    with kontur.LiveEditor(updates.append) as editor:
+        editor.edit(contours, image=image)
+        del image  # the editor keeps it
+        editor.wait()
+    told = [update for update in updates if update.kind != "progress"]
+    assert [(update.kind, update.asks_image) for update in told] == [("preview", False), ("refined", True), ("with_image", False)]
+    assert numpy.array_equal(told[-1].surface.function.weights, wanted.function.weights)
+    assert told[-1].surface.image.verdict == "used"
+    with pytest.raises(TypeError):
+        kontur.LiveEditor(print).edit(contours, image=7)
+
+
 def test_a_listener_that_raises_or_waits_does_no_harm(case):
     def listener(update):
         editor.wait()

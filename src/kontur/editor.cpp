@@ -111,20 +111,36 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     return surface;
 }
 
-EditedSurface Editor::refine(const ContourSet& drawn, const Work& work) const {
-    EditedSurface surface;
-    surface.refined = true;
-    if (drawn.contours.empty()) return surface;
+EditedSurface Editor::refine(const ContourSet& drawn, const Work& work) const { return refine(drawn, nullptr, work); }
+
+EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const Work& work,
+                             const std::function<void(const EditedSurface&)>& alone) const {
+    if (drawn.contours.empty()) {
+        EditedSurface nothing;
+        nothing.refined = true;
+        return nothing;
+    }
     const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
     const StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages, work);
     const double spacing_mm =
         options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(drawing.diameter_mm()) / 3;
-    const FittedFunction fitted = fit(prepared, stages.fit, work);
-    surface = surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
-                         {spacing_mm}, work);
-    surface.refined = true;
-    surface.residual = residual(surface.function, drawing.contours, work);
+    const auto refined_surface = [&](const FittedFunction& fitted) {
+        EditedSurface surface =
+            surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
+                       {spacing_mm}, work);
+        surface.refined = true;
+        surface.residual = residual(surface.function, drawing.contours, work);
+        return surface;
+    };
+    const FittedFunction by_contours = fit(prepared, stages.fit, work);
+    EditedSurface surface = refined_surface(by_contours);
+    if (!image || options_.segment.use_image == UseImage::off) return surface;
+    if (alone) alone(surface);
+    RefinedFunction with_image =
+        kontur::refine(drawing, prepared, by_contours, image, options_.segment.use_image, stages, work);
+    if (with_image.report.verdict == ImageVerdict::used) surface = refined_surface(with_image.fitted);
+    surface.image = std::move(with_image.report);
     return surface;
 }
 

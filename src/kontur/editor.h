@@ -11,6 +11,7 @@
 #include "kontur/extract/surface_band.h"
 #include "kontur/fit/residual.h"
 #include "kontur/segment_options.h"
+#include "kontur/shape/volume.h"
 
 namespace kontur {
 
@@ -29,12 +30,14 @@ struct EditedSurface {
     double spacing_mm = 0;  ///< of the lattice that the mesh was made on
     Residual residual;      ///< at all drawn points; refined surfaces only
     int solves = 0;         ///< how often a linear system was solved for it
+    RefineReport image{};   ///< what became of the image; refined surfaces only
 
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order; previews only
 };
 
 /// Follows contours while they are edited. After each edit, `preview` gives a surface within about a tenth of a second for
-/// organs, then `refine` the one that `segment` would give: the same function, to the last bit, whatever came before.
+/// organs, then `refine` the one that `segment` would give, with an image or without: the same function, to the last bit,
+/// whatever came before.
 ///
 /// A preview is fitted to a part of the points, to a fraction of a voxel; what it keeps from the edit before is the
 /// surface's tilt along every contour that has not changed, which saves the rounds that would find it. Nothing else is worth
@@ -51,6 +54,10 @@ public:
     EditedSurface preview(const ContourSet& contours, const Work& work = {},
                           const std::function<void(const SurfaceBand&)>& ahead = {});
     EditedSurface refine(const ContourSet& contours, const Work& work = {}) const;
+    /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` is told first what the
+    /// contours alone make, which stays the result where the image does not help. Throws as `kontur::refine`, too.
+    EditedSurface refine(const ContourSet& contours, const Image* image, const Work& work = {},
+                         const std::function<void(const EditedSurface&)>& alone = {}) const;
 
     const EditorOptions& options() const { return options_; }
 

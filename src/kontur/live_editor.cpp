@@ -14,6 +14,7 @@ struct LiveEditor::Worker {
     struct Edit {
         std::uint64_t number;
         ContourSet contours;
+        std::shared_ptr<const Image> image;
     };
 
     Editor editor;
@@ -70,8 +71,15 @@ struct LiveEditor::Worker {
             listener(update);
             const std::stop_token stop = start_refining();
             if (stop.stop_requested()) return;
-            update.surface = editor.refine(edit.contours, work_for(edit, stop));
             update.kind = EditorUpdate::Kind::refined;
+            const auto tell_alone = [&](const EditedSurface& alone) {
+                update.surface = alone;
+                update.asks_image = true;
+                listener(update);
+                update.asks_image = false;
+                update.kind = EditorUpdate::Kind::with_image;
+            };
+            update.surface = editor.refine(edit.contours, edit.image.get(), work_for(edit, stop), tell_alone);
             listener(update);
         } catch (const std::exception& error) {
             const auto* known = dynamic_cast<const Error*>(&error);
@@ -117,9 +125,9 @@ LiveEditor::LiveEditor(const EditorOptions& options, Listener listener, BandList
 
 LiveEditor::~LiveEditor() = default;
 
-std::uint64_t LiveEditor::edit(ContourSet contours) {
+std::uint64_t LiveEditor::edit(ContourSet contours, std::shared_ptr<const Image> image) {
     const std::lock_guard lock(worker_->mutex);
-    worker_->pending = {++worker_->newest, std::move(contours)};
+    worker_->pending = {++worker_->newest, std::move(contours), std::move(image)};
     worker_->refining.request_stop();
     worker_->changed.notify_all();
     return worker_->newest;

@@ -14,22 +14,25 @@ namespace kontur {
 /// What a LiveEditor has to say about an edit.
 struct EditorUpdate {
     enum class Kind {
-        preview,   ///< `surface` is a preview; the refined one follows unless there is another edit
-        refined,   ///< `surface` is final for this edit
-        problem,   ///< the contours cannot be fitted; `problem` says why
-        progress,  ///< `stage` has done the fraction `done`
+        preview,     ///< `surface` is a preview; the refined one follows unless there is another edit
+        refined,     ///< `surface` is what the contours make: final for this edit, unless `asks_image`
+        with_image,  ///< the image was asked, and `surface` is final: the refined one, where `surface.image` was not used
+        problem,     ///< the contours cannot be fitted; `problem` says why
+        progress,    ///< `stage` has done the fraction `done`
     };
     Kind kind = Kind::progress;
     std::uint64_t edit = 0;  ///< which edit this answers
     EditedSurface surface;
+    bool asks_image = false;  ///< of a refined one: `with_image` follows, unless there is another edit
     std::string problem;
     std::string_view stage;
     double done = 0;
 };
 
-/// An Editor on a thread of its own: takes the newest contours, previews them and then refines. An edit cancels a running
-/// refinement at once. A running preview is finished first, so that surfaces keep coming while a hand drags a contour;
-/// edits that arrive meanwhile are answered by the newest of them alone.
+/// An Editor on a thread of its own: takes the newest contours, previews them, refines, and asks the image, if there is one.
+/// An edit cancels a running refinement, and the question to the image, at once. A running preview is finished first, so
+/// that surfaces keep coming while a hand drags a contour; edits that arrive meanwhile are answered by the newest of them
+/// alone.
 class LiveEditor {
 public:
     /// Called from the editor's thread, one update at a time; it must neither throw, nor call `wait`, nor destroy the
@@ -44,9 +47,10 @@ public:
     /// Cancels what runs and waits for it.
     ~LiveEditor();
 
-    /// The contours are now these; returns the number of the edit, counted from 1. Does not wait.
-    std::uint64_t edit(ContourSet contours);
-    /// Waits until the newest edit is refined or has turned out to be a problem.
+    /// The contours are now these, drawn on this image, if any is to be asked; it is not copied. Returns the number of the
+    /// edit, counted from 1. Does not wait.
+    std::uint64_t edit(ContourSet contours, std::shared_ptr<const Image> image = nullptr);
+    /// Waits until the newest edit has its final surface or has turned out to be a problem.
     void wait();
 
 private:

@@ -112,6 +112,7 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
                        const Image* image, UseImage use, const StageOptions& options, const Work& work) {
     if (!image || use == UseImage::off) return {fitted, {}};
+    work.report("ask the image", 0);
     const Work alone{.threads = 1, .stop = work.stop};  // parts are fitted beside each other
     const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
     return refine(drawing, prepared, fitted, *image, fit_part, {.fit = options.fit}, work);

@@ -138,6 +138,31 @@ TEST(Project, BordersAreAStepOfTheHistoryLikeAnyOther) {
     EXPECT_EQ(project.undo()->label, "Share no borders");
 }
 
+TEST(Project, UseOfTheImageIsAStepOfTheHistoryToo) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.kontur";
+    {
+        Project project(path, kImage);
+        EXPECT_TRUE(project.state().use_image) << "of a new project";
+        Commit step{"Do not use the image", {}, {}};
+        step.use_image = UseImageChange{true, false};
+        EXPECT_FALSE(step.is_empty());
+        project.commit(step);
+    }
+    {
+        Project project(path, kImage);
+        EXPECT_FALSE(project.state().use_image);
+        EXPECT_TRUE(project.undo()->use_image->after);
+        EXPECT_TRUE(project.state().use_image);
+    }
+    {
+        Project project(path, kImage);
+        EXPECT_TRUE(project.state().use_image);
+        project.database().run("DELETE FROM setting WHERE key = 'use_image'");
+    }
+    EXPECT_FALSE(Project(path, kImage).state().use_image) << "of before the image was asked: surfaces stay what they were";
+}
+
 TEST(Project, WhatItBeginsWithIsKeptAndCannotBeUndone) {
     const TemporaryFolder folder;
     Id first = 0;

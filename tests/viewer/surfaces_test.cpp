@@ -30,7 +30,7 @@ SurfaceTask ball(Id structure) {
 SurfaceTask nothing(Id structure) { return {structure, {}, {}}; }
 
 SurfaceListener deaf() {
-    return {[](Id, std::int64_t, const PlaneCutter&) {}, [](const std::shared_ptr<const Surface>&) {},
+    return {[](Id, std::int64_t, const PlaneCutters&) {}, [](const std::shared_ptr<const Surface>&) {},
             [](const std::string&, std::optional<double>) {}};
 }
 
@@ -49,7 +49,7 @@ TEST(Surfaces, EndWhileOneIsBeingFinishedAndStartNoOther) {
     std::vector<Id> told;
     SurfaceListener listener = deaf();
     listener.surface = [&](const std::shared_ptr<const Surface>& surface) { told.push_back(surface->structure); };
-    listener.outlines = [&](Id structure, std::int64_t revision, const PlaneCutter&) {
+    listener.outlines = [&](Id structure, std::int64_t revision, const PlaneCutters&) {
         if (structure != 2 || revision < 4) return;  // of the refined one, which comes after two for each preview
         {
             const std::scoped_lock lock(mutex);
@@ -93,6 +93,25 @@ TEST(Surfaces, AThreadLivesNoLongerThanTheContoursItFollows) {
     surfaces.wait();
     EXPECT_EQ(surfaces.all().at(2)->stage, SurfaceStage::refined) << "contours after none are followed again";
     EXPECT_EQ(surfaces.all().at(3)->stage, SurfaceStage::none);
+}
+
+TEST(Surfaces, AnImageThatCannotBeAskedTakesNoSurfaceAway) {
+    Surfaces surfaces(deaf());
+    surfaces.use_image(std::make_shared<const Image>(Image{{{9, 9, 9}, {}}, std::vector<float>(7)}));
+    for (int edit = 0; edit < 2; ++edit) {
+        surfaces.follow(ball(1));
+        surfaces.wait();
+        const auto shown = surfaces.all().at(1);
+        EXPECT_EQ(shown->stage, SurfaceStage::refined);
+        EXPECT_GT(shown->volume_ml, 20);
+        ASSERT_EQ(shown->warnings.size(), 1u);
+        EXPECT_EQ(shown->warnings[0], "The image could not be asked: the image has 7 values for a grid of 729 voxels.");
+    }
+    SurfaceTask broken = ball(1);
+    broken.set.contours[0].points.resize(2);
+    surfaces.follow(broken);
+    surfaces.wait();
+    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::none) << "of contours that cannot be fitted there is none";
 }
 
 /// Makes every new thread ask for more memory than there are addresses, so that none can be started.

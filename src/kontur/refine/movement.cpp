@@ -95,7 +95,7 @@ Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& functi
     std::vector<double> distances;
     for (const MovingPoint& p : movement.points) distances.push_back(p.distance_mm);
     movement.prior.length_mm = std::max(kCorrelation * median(std::move(distances)), 2 * drawn.image.voxel_mm());
-    movement.offsets = find_offsets(movement.points, movement.prior, evidence);
+    movement.offsets = find_offsets(movement.points, movement.prior, evidence, work);
     return movement;
 }
 

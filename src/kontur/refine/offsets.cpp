@@ -77,13 +77,15 @@ double OffsetPrior::correlation(const MovingPoint& a, const MovingPoint& b) cons
     return (1 + r) * std::exp(-r) * std::clamp(0.5 + 0.5 * dot(a.normal, b.normal), 0.0, 1.0);
 }
 
-Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence) {
+Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence,
+                     const Work& work) {
     const std::size_t n = points.size();
     const std::vector<double> k = covariances(points, prior);
     const std::vector<double> most = caps(points, prior, evidence);
     std::vector<double> precision(n), information(n);
     GaussianPosterior posterior = gaussian_posterior(k, precision, information);
     for (int round = 0; round < kRounds; ++round) {
+        work.check();
         for (std::size_t i = 0; i < n; ++i) {
             const double inverse = 1 / posterior.variance[i];
             const double cavity = std::max(inverse - precision[i], kLeastCavity);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/refine/moving_point.h"
 
 namespace kontur {
@@ -35,7 +36,8 @@ struct Offsets {
 /// The posterior by expectation propagation (Minka 2001; Rasmussen & Williams 2006, 3.6), all points at once. What a point
 /// shows counts as Gaussian with the moments that it leaves; a flat line of intensities says nothing. The image's errors are
 /// shared by neighbours: together they count no more than one seen with `image_sd_mm`.
-Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence);
+Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence,
+                     const Work& work = {});
 
 /// The mean offset of another point.
 double offset_at(const MovingPoint& point, std::span<const MovingPoint> points, const OffsetPrior& prior,

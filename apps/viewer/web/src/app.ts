@@ -223,7 +223,7 @@ export class App {
   }
 
   private showOutlines({ structure, revision, views }: Outlines): void {
-    for (const { view, plane, lines } of views) this.views.get(view as ViewName)?.showOutlines(structure, revision, plane, lines);
+    for (const { view, plane, lines, without_image } of views) this.views.get(view as ViewName)?.showOutlines(structure, revision, plane, lines, without_image);
   }
 
   private begin(session: Session): void {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { BorderPair, Borders, Changed, Contour, History, Session, Structure, Surface } from "../net/protocol";
+import type { BorderPair, Borders, Changed, Contour, History, Session, Structure, Surface, UseImage } from "../net/protocol";
 import { Emitter } from "./emitter";
 
-type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders";
+type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders" | "image";
 
 export interface Selection {
   contour: number;
@@ -19,6 +19,7 @@ export class Project extends Emitter<Topic> {
   borders: Borders = { shared: false, rules: [] };
   /** Of structures that touch. */
   borderPairs: BorderPair[] = [];
+  useImage: UseImage = null;
   selection: Selection | null = null;
   /** Contours that are deleted, moved or hidden together; the selected one is among them. */
   readonly marked = new Set<number>();
@@ -36,9 +37,10 @@ export class Project extends Emitter<Topic> {
     this.history = session.history;
     this.borders = session.borders;
     this.borderPairs = session.border_pairs;
+    this.useImage = session.use_image;
     this.draftContour = null;
     this.keepReferencesValid();
-    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders");
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image");
   }
 
   setBorderPairs(pairs: BorderPair[]): void {
@@ -46,7 +48,7 @@ export class Project extends Emitter<Topic> {
     this.emit("borders");
   }
 
-  apply({ structures, contours, history, borders }: Changed): void {
+  apply({ structures, contours, history, borders, use_image }: Changed): void {
     for (const structure of structures?.set ?? []) this.structures.set(structure.id, structure);
     for (const id of structures?.removed ?? []) {
       this.structures.delete(id);
@@ -60,9 +62,10 @@ export class Project extends Emitter<Topic> {
     for (const id of contours?.removed ?? []) this.contours.delete(id);
     this.history = history;
     this.borders = borders ?? this.borders;
+    this.useImage = use_image ?? this.useImage;
     this.draftContour = null;
     this.keepReferencesValid();
-    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders");
+    this.emit("contours", "structures", "surfaces", "history", "selection", "draft", "borders", "image");
   }
 
   setSurface(surface: Surface): void {

@@ -88,13 +88,15 @@ export interface Surface {
   event?: "surface";
   structure: number;
   revision: number;
-  stage: "preview" | "refined" | "outdated" | "none";
+  stage: "preview" | "asking" | "refined" | "outdated" | "none";
   triangles: number;
   volume_ml?: number;
   residual?: { max_mm: number; rms_mm: number; contour: number; at: Vec3 };
   conflicts?: Conflict[];
   warnings?: string[];
   uncertainty?: { known: boolean; planes: number; text: string };
+  /** What became of the image; absent where it was not asked. */
+  image?: { verdict: "labels" | "unknown" | "no_help" | "astray" | "used"; text: string };
 }
 
 /** Where to draw next, and the outline that is expected there. */
@@ -176,6 +178,7 @@ export interface Session {
   history: History;
   borders: Borders;
   border_pairs: BorderPair[];
+  use_image: UseImage;
   imports: ImportEndings;
   page: unknown;
   opening: string; // names this session among those that the server has had
@@ -194,7 +197,11 @@ export interface Changed {
   contours?: { set?: Contour[]; removed?: number[] };
   history: History;
   borders?: Borders;
+  use_image?: UseImage;
 }
+
+/** Whether the image is asked between the contours; null: it cannot tell borders. */
+export type UseImage = boolean | null;
 
 export interface FoundBorders {
   event: "borders";
@@ -206,7 +213,7 @@ export interface Outlines {
   event: "outlines";
   structure: number;
   revision: number;
-  views: { view: string; plane: PixelPlane; lines: number[][] }[]; // closed; column and row alternating
+  views: { view: string; plane: PixelPlane; lines: number[][]; without_image?: number[][] }[]; // closed; column and row alternating
 }
 
 export interface Status {
@@ -330,11 +337,18 @@ export interface SliceRequest {
   outlines: boolean;
 }
 
+/** Points of an outline among all. */
+export interface LineRun {
+  first: number;
+  count: number;
+  closed: boolean;
+}
+
 export interface SliceHeader {
   width: number;
   height: number;
   letters: { left: string; right: string; top: string; bottom: string };
-  outlines: { structure: number; revision: number; lines: { first: number; count: number; closed: boolean }[] }[];
+  outlines: { structure: number; revision: number; lines: LineRun[]; without_image?: LineRun[] }[];
   crossings: { contour: number; first: number; count: number }[];
   contours: number[];
   values?: Coding;

@@ -19,7 +19,7 @@ export class Keyboard {
 
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
-    const presses = event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ");
+    const presses = (event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ")) || (isCheckbox(event.target) && event.key === " ");
     const { drawing, proposals } = this.services.editor;
     if (presses && !drawing.sketch && !(event.key === "Enter" && proposals.shown)) return;
     if (this.hold(event) || this.obey(event)) event.preventDefault();
@@ -49,6 +49,8 @@ export class Keyboard {
 
 const letterOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toLowerCase() : key);
 const keyOf = (event: KeyboardEvent): string => (event.ctrlKey || event.metaKey ? "Control+" : "") + letterOf(event);
+
+const isCheckbox = (target: EventTarget | null): boolean => target instanceof HTMLInputElement && target.type === "checkbox";
 
 function isField(target: EventTarget | null): boolean {
   if (target instanceof Element && target.closest("[popover]")) return true;

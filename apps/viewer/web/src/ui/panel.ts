@@ -12,6 +12,7 @@ import { button, el } from "./dom";
 import { ICONS } from "./icons";
 import { qualityOf } from "./quality";
 import { StructureList } from "./structure_list";
+import { UseImageSwitch } from "./use_image";
 
 export interface PanelServices extends RowServices, ActionServices {
   /** Whose image it is. */
@@ -46,6 +47,7 @@ export class Panel {
       new BorderPanel(services).element,
       this.actions.element,
       el("div", { class: "panel-title" }, el("span", {}, "Surface"), measure),
+      new UseImageSwitch(services).element,
       this.quality,
     );
     project.on(["structures", "contours", "selection"], () => this.update());
@@ -82,6 +84,7 @@ export class Panel {
     this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere }));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
+    this.element.dataset["image"] = surface?.image?.verdict ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);
   }
 }

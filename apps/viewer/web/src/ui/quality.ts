@@ -40,6 +40,8 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
     entries.push(button({ label: "Where to draw next", title: "Go to where a contour tells most, with the expected outline as a proposal (G)", class: "choice", test: "suggest", click: services.suggest }));
     if (services.nothingHere) entries.push(button({ label: "Nothing here", title: "The plane of the proposal shows nothing of the structure (E)", class: "choice", test: "nothing-here", click: services.nothingHere }));
   }
+  if (surface.stage === "asking") entries.push(el("p", { class: "image-sentence", "data-test": "image-sentence" }, "The image is being asked …"));
+  else if (surface.image) entries.push(el("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(surface.image.text)));
   const { residual } = surface;
   if (residual) {
     entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
@@ -76,6 +78,8 @@ function selfCrossings(contours: Contour[], services: QualityServices): HTMLElem
 function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing", click: () => void): HTMLElement {
   return button({ label, icon: kind === "residual" ? ICONS.lines : ICONS.warning, title, class: kind === "residual" ? "place" : "place warning", test: kind, click });
 }
+
+const asSentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
 
 const volume = (ml: number): string => (ml >= 100 ? ml.toFixed(0) : ml.toPrecision(3));
 

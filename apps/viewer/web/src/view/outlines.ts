@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { SliceHeader } from "../net/protocol";
+import type { LineRun, SliceHeader } from "../net/protocol";
 
 /** Where the surface of this revision cuts a view's plane, in pixels of the plane, column and row alternating. */
 export interface Outline {
   structure: number;
   revision: number;
   points: ArrayLike<number>;
-  lines: { first: number; count: number; closed: boolean }[];
+  lines: LineRun[];
+  /** What the contours alone make, where the image was used. */
+  without_image?: LineRun[];
 }
 
 export type Outlines = Map<number, Outline>; // by structure
 
 /** Of lines that the server told unasked. */
-export function toldOutline(structure: number, revision: number, told: number[][]): Outline {
+export function toldOutline(structure: number, revision: number, told: number[][], withoutImage?: number[][]): Outline {
   const points: number[] = [];
-  const lines = told.map((line) => {
+  const run = (line: number[]): LineRun => {
     const first = points.length / 2;
     points.push(...line);
     return { first, count: line.length / 2, closed: true };
-  });
-  return { structure, revision, points, lines };
+  };
+  const outline: Outline = { structure, revision, points, lines: told.map(run) };
+  if (withoutImage) outline.without_image = withoutImage.map(run);
+  return outline;
 }
 
 /** Those of a slice that was asked for, but where newer ones have been told meanwhile, those. */

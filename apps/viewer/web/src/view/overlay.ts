@@ -4,7 +4,7 @@ import { scaleBar } from "../geometry/scale_bar";
 import type { PixelPlane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
-import type { Contour, SliceHeader } from "../net/protocol";
+import type { Contour, LineRun, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
 import type { Outline } from "./outlines";
 import { PLANE_COLORS, tinted, withAlpha } from "./palette";
@@ -28,20 +28,18 @@ export class OverlayPainter {
     this.scale = fontPixels / USUAL_FONT_PIXELS;
   }
 
-  /** Where the computed surfaces cut the plane: thin, filled. */
+  /** Where the computed surfaces cut the plane: thin, filled. What contours alone would make of them: thinner, dotted, below. */
   outlines(outlines: Iterable<Outline>, slice: PixelPlane, colorOf: (structure: number) => string): void {
-    const { a, dx, dy } = sliceOnScreen(this.screen, slice);
-    for (const { structure, points, lines } of outlines) {
-      const path = new Path2D();
-      for (const { first, count, closed } of lines) {
-        for (let i = first; i < first + count; ++i) {
-          const x = a * points[2 * i]! + dx, y = a * points[2 * i + 1]! + dy;
-          if (i === first) path.moveTo(x, y);
-          else path.lineTo(x, y);
-        }
-        if (closed) path.closePath();
-      }
+    for (const { structure, points, lines, without_image } of outlines) {
+      const path = this.runs(points, lines, slice);
       const color = colorOf(structure);
+      if (without_image) {
+        const alone = this.runs(points, without_image, slice);
+        this.stroke(alone, SHADE, 1.9 * this.appearance.width);
+        this.ctx.setLineDash([3 * this.scale, 3 * this.scale]);
+        this.stroke(alone, tinted(color, 0.45), 1.2 * this.appearance.width);
+        this.ctx.setLineDash([]);
+      }
       this.ctx.fillStyle = withAlpha(color, this.appearance.fill);
       this.ctx.fill(path, "evenodd");
       this.ctx.lineJoin = "round";
@@ -206,6 +204,20 @@ export class OverlayPainter {
       else path.lineTo(x, y);
     });
     if (closed) path.closePath();
+    return path;
+  }
+
+  private runs(points: ArrayLike<number>, runs: readonly LineRun[], slice: PixelPlane): Path2D {
+    const { a, dx, dy } = sliceOnScreen(this.screen, slice);
+    const path = new Path2D();
+    for (const { first, count, closed } of runs) {
+      for (let i = first; i < first + count; ++i) {
+        const x = a * points[2 * i]! + dx, y = a * points[2 * i + 1]! + dy;
+        if (i === first) path.moveTo(x, y);
+        else path.lineTo(x, y);
+      }
+      if (closed) path.closePath();
+    }
     return path;
   }
 

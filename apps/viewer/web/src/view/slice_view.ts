@@ -173,9 +173,9 @@ export class SliceView {
   }
 
   /** Outlines that the server tells unasked. Of another plane than the one shown they are of no use. */
-  showOutlines(structure: number, revision: number, plane: PixelPlane, lines: number[][]): void {
+  showOutlines(structure: number, revision: number, plane: PixelPlane, lines: number[][], withoutImage?: number[][]): void {
     if (!this.slice || !isSamePlane(plane, this.slice.plane)) return;
-    this.slice.outlines.set(structure, toldOutline(structure, revision, lines));
+    this.slice.outlines.set(structure, toldOutline(structure, revision, lines, withoutImage));
     this.paintNow();
     this.tellState();
   }
@@ -278,6 +278,7 @@ export class SliceView {
   private tellState(): void {
     const { dataset } = this.element;
     dataset["revisions"] = [...(this.slice?.outlines.values() ?? [])].map((outline) => `${outline.structure}:${outline.revision}`).join(" ");
+    dataset["withoutImage"] = [...(this.slice?.outlines.values() ?? [])].flatMap(({ structure, without_image }) => (without_image ? [structure] : [])).join(" ");
     dataset["crossings"] = String(this.slice?.header.crossings.length ?? 0);
   }
 

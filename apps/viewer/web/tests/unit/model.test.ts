@@ -173,6 +173,33 @@ test("a preview keeps the figures of the last refined surface; no surface has no
   assert.equal(project.surfaces.get(1)!.volume_ml, undefined);
 });
 
+test("what is found while the image is asked counts until the image has answered", () => {
+  const project = new Project();
+  project.start(session());
+  const heard: string[] = [];
+  for (const topic of ["surfaces", "stages"] as const) project.on([topic], () => heard.push(topic));
+  project.setSurface({ structure: 1, revision: 1, stage: "asking", triangles: 9, volume_ml: 12 });
+  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 9, volume_ml: 12, image: { verdict: "no_help", text: "" } });
+  assert.deepEqual(heard, ["surfaces", "stages"], "the surface is the same, and no mesh is asked for");
+  project.setSurface({ structure: 1, revision: 2, stage: "asking", triangles: 9, volume_ml: 14 });
+  assert.equal(project.surfaces.get(1)!.image, undefined, "of the contours before");
+});
+
+test("whether the image is used changes by events alone, and stays unknown where the image tells no borders", () => {
+  const project = new Project();
+  project.start(session());
+  let heard = 0;
+  project.on(["image"], () => ++heard);
+  project.apply({ event: "changed", history, use_image: false });
+  assert.equal(project.useImage, false);
+  assert.equal(heard, 1);
+  project.apply({ event: "changed", history });
+  assert.equal(project.useImage, false);
+  project.start(session({ use_image: null }));
+  project.apply({ event: "changed", history, use_image: null });
+  assert.equal(project.useImage, null);
+});
+
 test("the active structure is that of the selected contour, wherever it goes", () => {
   const project = new Project();
   project.start(session({ structures: [1, 2].map((id) => ({ id, name: `S${id}`, color: "#e8b04a", visible: true })), contours: [square(5)] }));

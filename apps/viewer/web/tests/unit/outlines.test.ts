@@ -157,3 +157,11 @@ test("of several outlines the nearest is found", () => {
   assert.equal(nearestOutline(outlines, [270, 200])!.outline.structure, 0);
   assert.equal(nearestOutline([], [0, 0]), null);
 });
+
+test("an outline that the image has moved comes with what the contours alone make", () => {
+  const told = toldOutline(1, 7, [[0, 0, 4, 0, 4, 4]], [[1, 1, 3, 1, 3, 3, 1, 3]]);
+  assert.deepEqual(told.lines, [{ first: 0, count: 3, closed: true }]);
+  assert.deepEqual(told.without_image, [{ first: 3, count: 4, closed: true }]);
+  assert.deepEqual([...(told.points as number[])].slice(6), [1, 1, 3, 1, 3, 3, 1, 3]);
+  assert.ok(!("without_image" in toldOutline(1, 8, [[0, 0, 4, 0, 4, 4]])));
+});

@@ -38,7 +38,7 @@ export function session(changes: Partial<Session> = {}): Session {
     window: { center: 40, width: 400 }, presets: [],
     views: { axial: view(AXIAL, [-50, 50]), sagittal: view(SAGITTAL, [-100, 100]), coronal: view(CORONAL, [-80, 80]), oblique: view(SKEW, [-90, 90]) },
     structures: [{ id: 1, name: "Liver", color: "#e8b04a", visible: true }], contours: [], surfaces: [],
-    history: { undo: null, redo: null }, borders: { shared: false, rules: [] }, border_pairs: [], imports: { contours: [".mrk.json", ".json"], masks: [".nii.gz", ".nii", ".mgz"] }, page: null, opening: "1", can_close: true, ...changes,
+    history: { undo: null, redo: null }, borders: { shared: false, rules: [] }, border_pairs: [], use_image: true, imports: { contours: [".mrk.json", ".json"], masks: [".nii.gz", ".nii", ".mgz"] }, page: null, opening: "1", can_close: true, ...changes,
   };
 }
 

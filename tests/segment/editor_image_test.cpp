@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <mutex>
+#include <thread>
+
+#include "kontur/base/error.h"
+#include "kontur/live_editor.h"
+#include "kontur/segment.h"
+#include "refine/lobed_body.h"
+#include "support/expect_error.h"
+#include "support/random.h"
+
+// Editors that ask the image.
+
+namespace kontur {
+namespace {
+
+using namespace test;
+using Kind = EditorUpdate::Kind;
+
+std::shared_ptr<const Image> helpful_image() {
+    static const auto image = std::make_shared<const Image>(image_of(cube_grid(2), body_look, 8));
+    return image;
+}
+
+std::shared_ptr<const Image> noise_alone() {
+    static const auto image = std::make_shared<const Image>(image_of(
+        cube_grid(3), [](const Vec3&) { return 50.0; }, 20));
+    return image;
+}
+
+void expect_same_function(const ImplicitFunction& a, const ImplicitFunction& b) {
+    EXPECT_EQ(a.centers().x, b.centers().x);
+    EXPECT_EQ(a.centers().y, b.centers().y);
+    EXPECT_EQ(a.centers().z, b.centers().z);
+    EXPECT_TRUE(std::ranges::equal(a.weights(), b.weights()));
+    EXPECT_EQ(a.polynomial(), b.polynomial());
+}
+
+/// All that a live editor says but how far it is.
+class Listened {
+public:
+    explicit Listened(const EditorOptions& options = {})
+        : editor(options, [this](const EditorUpdate& update) { hear(update); }) {}
+
+    std::vector<EditorUpdate> updates() {
+        const std::lock_guard lock(mutex_);
+        return updates_;
+    }
+    std::vector<Kind> kinds() {
+        std::vector<Kind> kinds;
+        for (const EditorUpdate& update : updates()) kinds.push_back(update.kind);
+        return kinds;
+    }
+
+    /// Called on the editor's thread at each update, also of how far it is.
+    std::function<void(const EditorUpdate&)> at_update;
+
+private:
+    void hear(const EditorUpdate& update) {
+        if (at_update) at_update(update);
+        const std::lock_guard lock(mutex_);
+        if (update.kind != Kind::progress) updates_.push_back(update);
+    }
+
+    std::mutex mutex_;
+    std::vector<EditorUpdate> updates_;
+
+public:
+    LiveEditor editor;  ///< last: its thread uses all above
+};
+
+TEST(Editor, RefinesWithAnImageToTheFunctionOfSegment) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    const Image& image = *helpful_image();
+    EditedSurface alone;
+    const EditedSurface refined = Editor().refine(contours, &image, {}, [&](const EditedSurface& told) { alone = told; });
+    EXPECT_EQ(refined.image.verdict, ImageVerdict::used);
+    EXPECT_TRUE(refined.refined);
+    expect_same_function(refined.function, segment(contours, image.grid, &image).function);
+    expect_same_function(alone.function, segment(contours, image.grid).function);
+    EXPECT_NE(alone.mesh.points, refined.mesh.points);
+    EXPECT_EQ(alone.image.verdict, ImageVerdict::none);
+    EXPECT_LT(refined.residual.rms_mm, 0.3);
+}
+
+TEST(Editor, DoesNotAskTheImageWhereItIsToldNotTo) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    bool is_told = false;
+    const auto tell = [&](const EditedSurface&) { is_told = true; };
+    const Editor off({.segment = {.use_image = UseImage::off}});
+    const EditedSurface plain = off.refine(contours, helpful_image().get(), {}, tell);
+    EXPECT_EQ(plain.image.verdict, ImageVerdict::none);
+    expect_same_function(plain.function, Editor().refine(contours).function);
+    EXPECT_TRUE(Editor().refine({}, helpful_image().get(), {}, tell).mesh.points.empty());
+    EXPECT_FALSE(is_told) << "there is nothing to wait for";
+}
+
+TEST(LiveEditor, AsksTheImageWhenTheSurfaceIsRefined) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Listened live;
+    live.editor.edit(contours, helpful_image());
+    live.editor.wait();
+    const std::vector<EditorUpdate> updates = live.updates();
+    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::with_image}));
+    EXPECT_FALSE(updates[0].asks_image);
+    EXPECT_TRUE(updates[1].asks_image);
+    EXPECT_FALSE(updates[2].asks_image);
+    EXPECT_EQ(updates[2].surface.image.verdict, ImageVerdict::used);
+    const Image& image = *helpful_image();
+    const Segmentation made = segment(contours, image.grid, &image);
+    expect_same_function(updates[1].surface.function, segment(contours, image.grid).function);
+    expect_same_function(updates[2].surface.function, made.function);
+    EXPECT_EQ(sentence(updates[2].surface.image), sentence(made.report.image));
+}
+
+TEST(LiveEditor, KeepsTheRefinedSurfaceWhereTheImageDoesNotHelp) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Listened live;
+    live.editor.edit(contours, noise_alone());
+    live.editor.wait();
+    const std::vector<EditorUpdate> updates = live.updates();
+    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::with_image}));
+    EXPECT_EQ(updates[2].surface.image.verdict, ImageVerdict::no_help);
+    expect_same_function(updates[2].surface.function, updates[1].surface.function);
+    EXPECT_EQ(updates[2].surface.mesh.points, updates[1].surface.mesh.points);
+    live.editor.edit(contours);
+    live.editor.wait();
+    ASSERT_EQ(live.updates().size(), 5u) << "without an image nothing follows the refined surface";
+    EXPECT_EQ(live.updates().back().kind, Kind::refined);
+    EXPECT_FALSE(live.updates().back().asks_image);
+}
+
+TEST(LiveEditor, AnEditEndsTheQuestionToTheImage) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Listened live;
+    live.at_update = [&](const EditorUpdate& update) {
+        const bool is_asking = update.kind == Kind::progress && update.stage == "ask the image";
+        if (update.edit == 1 && is_asking) live.editor.edit(contours, helpful_image());
+    };
+    live.editor.edit(contours, helpful_image());
+    while (live.updates().empty() || live.updates().back().edit < 2) live.editor.wait();
+    EXPECT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::preview, Kind::refined, Kind::with_image}));
+}
+
+TEST(LiveEditor, TellsWhatIsWrongWithTheImage) {
+    auto broken = std::make_shared<Image>(*noise_alone());
+    broken->grid.size.i += 1;
+    Listened live;
+    live.editor.edit(drawn_on(orthogonal_planes()), broken);
+    live.editor.wait();
+    EXPECT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::problem}));
+    EXPECT_NE(live.updates().back().problem.find("the image has "), std::string::npos) << live.updates().back().problem;
+}
+
+/// Time counts only with KONTUR_TIMED=1, as in cancel_test.cpp.
+TEST(Cancellation, EndsTheQuestionToTheImageAtRandomMoments) {
+    using Clock = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
+    std::vector<Plane> planes = stacked_planes();
+    for (const Plane& plane : orthogonal_planes()) planes.push_back(plane);
+    const ContourSet contours = drawn_on(planes);
+    const Editor editor;
+    double all = 0, longest = 0, longest_processor = 0;
+    {
+        Clock::time_point asked{};
+        editor.refine(contours, helpful_image().get(), {}, [&](const EditedSurface&) { asked = Clock::now(); });
+        all = Seconds(Clock::now() - asked).count();
+    }
+    std::mt19937 random = test::random_of_this_test();
+    for (int round = 0; round < 5; ++round) {
+        std::stop_source source;
+        Clock::time_point stopped{};
+        std::clock_t processor_stopped{};
+        const Seconds delay{std::uniform_real_distribution(0.0, 0.9 * all)(random)};
+        std::jthread stopper;
+        const auto asking = [&](const EditedSurface&) {
+            stopper = std::jthread([&] {
+                std::this_thread::sleep_for(delay);
+                stopped = Clock::now();
+                processor_stopped = std::clock();
+                source.request_stop();
+            });
+        };
+        try {
+            editor.refine(contours, helpful_image().get(), {.stop = source.get_token()}, asking);
+        } catch (const Error& error) {
+            const Clock::time_point ended = Clock::now();
+            const std::clock_t processor_ended = std::clock();
+            EXPECT_EQ(name(error.kind()), name(ErrorKind::cancelled)) << error.what();
+            stopper.join();
+            longest = std::max(longest, Seconds(ended - stopped).count());
+            longest_processor = std::max(longest_processor, double(processor_ended - processor_stopped) / CLOCKS_PER_SEC);
+        }
+    }
+    std::printf("a question of %.2f s ended at most %.3f s, %.3f s of the processors, after it was asked to\n", all, longest,
+                longest_processor);
+    if (std::getenv("KONTUR_TIMED")) {
+        EXPECT_LT(longest_processor, 0.1);
+    }
+}
+
+}  // namespace
+}  // namespace kontur

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "kontur/io/image.h"
+#include "kontur/segment.h"
+#include "refine/lobed_body.h"
+#include "support/temporary_folder.h"
+#include "viewer/drawn_contours.h"
+#include "viewer/session.h"
+
+// Surfaces and exports that the image helps to make.
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+std::shared_ptr<const Image> image_of_body() {
+    static const auto image =
+        std::make_shared<const Image>(kontur::test::image_of(kontur::test::cube_grid(2.5), kontur::test::body_look, 8));
+    return image;
+}
+
+std::shared_ptr<const Image> image_of_noise() {
+    const auto nothing = [](const Vec3&) { return 50.0; };
+    return std::make_shared<const Image>(kontur::test::image_of(kontur::test::cube_grid(3), nothing, 20));
+}
+
+std::shared_ptr<const Image> label_map() {
+    const auto inside = [](const Vec3& p) { return kontur::test::lobed_depth(p) > 0 ? 1.0 : 0.0; };
+    return std::make_shared<const Image>(kontur::test::image_of(kontur::test::cube_grid(3), inside));
+}
+
+ContourSet drawing() {
+    ContourSet set = kontur::test::drawn_on(kontur::test::orthogonal_planes());
+    set.name = "Body";
+    return set;
+}
+
+/// A session with one structure, and all that it tells.
+class Visit {
+public:
+    explicit Visit(std::shared_ptr<const Image> on_image, const ContourSet& set = drawing())
+        : image(std::move(on_image)),
+          session({image, "body", {"/images/body.nii", "body"}, {}}, folder.path() / "a.kontur") {
+        session.on_event([this](const std::string& message) {
+            const std::scoped_lock lock(mutex_);
+            events_.push_back(json::parse(message));
+        });
+        structure = session.add_structures("Import", {set}).front();
+        session.wait_for_surfaces();
+    }
+    ~Visit() { session.on_event({}); }
+
+    json call(json message) {
+        message["seq"] = 1;
+        json reply = json::parse(session.call(message.dump()));
+        session.wait_for_surfaces();
+        return reply;
+    }
+    json greeting() { return json::parse(session.greeting()); }
+    json surface() { return greeting()["surfaces"][0]; }
+
+    /// All surfaces told since the last time.
+    std::vector<json> told_surfaces() {
+        const std::scoped_lock lock(mutex_);
+        std::vector<json> surfaces;
+        for (const json& event : events_)
+            if (event["event"] == "surface") surfaces.push_back(event);
+        events_.clear();
+        return surfaces;
+    }
+
+    std::vector<std::uint8_t> exported_mask() {
+        const Download file = session.exported("mask.nrrd", structure);
+        const auto path = folder.path() / "mask.nrrd";
+        std::ofstream(path, std::ios::binary) << file.bytes;
+        return read_mask(path).values;
+    }
+    Segmentation segmented(bool with_image) {
+        return segment(contour_set(session.state(), structure), image->grid, with_image ? image.get() : nullptr);
+    }
+
+    /// The JSON of a slice through the origin across z.
+    json slice() {
+        const json request{
+            {"view", "axial"},
+            {"plane",
+             {{"origin", {-40, -40, 14}}, {"u", {1, 0, 0}}, {"v", {0, 1, 0}}, {"normal", {0, 0, 1}}, {"mm_per_pixel", 1}}},
+            {"width", 80},
+            {"height", 80},
+            {"pixels", false}};
+        const std::string bytes = session.slice(request.dump());
+        std::uint32_t length = 0;
+        std::memcpy(&length, bytes.data(), sizeof length);
+        return json::parse(bytes.substr(sizeof length, length));
+    }
+
+    kontur::test::TemporaryFolder folder;
+    std::shared_ptr<const Image> image;
+    Session session;
+    Id structure = 0;
+
+private:
+    std::mutex mutex_;
+    std::vector<json> events_;
+};
+
+std::vector<std::string> stages(const std::vector<json>& surfaces) {
+    std::vector<std::string> names;
+    for (const json& surface : surfaces) names.push_back(surface["stage"]);
+    return names;
+}
+
+TEST(SessionImage, HelpsToMakeSurfaceAndExportsAsItDoesForSegment) {
+    Visit here(image_of_body());
+    const std::vector<json> told = here.told_surfaces();
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"preview", "asking", "refined"}));
+    EXPECT_FALSE(told[1].contains("image"));
+    EXPECT_NE(told[1]["volume_ml"], told[2]["volume_ml"]);
+    const Segmentation with = here.segmented(true), without = here.segmented(false);
+    EXPECT_EQ(told[2]["image"]["verdict"], "used");
+    EXPECT_EQ(told[2]["image"]["text"], sentence(with.report.image));
+    EXPECT_NE(with.mask.values, without.mask.values);
+    EXPECT_EQ(here.exported_mask(), with.mask.values);
+    // What the image adds to how sure the surface is counts, too.
+    const double expected = told[2]["uncertainty"]["expected_dice"]["value"],
+                 before = told[1]["uncertainty"]["expected_dice"]["value"];
+    EXPECT_GT(expected, before);
+    EXPECT_NEAR(expected, with.report.uncertainty.dice.value, 0.01);
+}
+
+TEST(SessionImage, IsUsedByASwitchThatCanBeTakenBack) {
+    Visit here(image_of_body());
+    EXPECT_EQ(here.greeting()["use_image"], true);
+    const double with_ml = here.surface()["volume_ml"];
+    EXPECT_TRUE(here.slice()["outlines"][0].contains("without_image"));
+    EXPECT_TRUE(here.call({{"call", "image.set"}, {"use", false}}).contains("result"));
+    EXPECT_EQ(here.greeting()["use_image"], false);
+    EXPECT_EQ(here.surface()["stage"], "refined");
+    EXPECT_FALSE(here.surface().contains("image"));
+    EXPECT_NE(here.surface()["volume_ml"], with_ml);
+    EXPECT_FALSE(here.slice()["outlines"][0].contains("without_image"));
+    EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);
+    EXPECT_EQ(here.call({{"call", "undo"}})["result"]["label"], "Do not use the image");
+    EXPECT_EQ(here.surface()["volume_ml"], with_ml);
+    EXPECT_EQ(here.exported_mask(), here.segmented(true).mask.values);
+    EXPECT_EQ(here.call({{"call", "redo"}})["result"]["label"], "Do not use the image");
+    EXPECT_FALSE(here.surface().contains("image"));
+    EXPECT_EQ(here.call({{"call", "image.set"}, {"use", 1}})["error"]["kind"], "invalid_input");
+}
+
+TEST(SessionImage, WhereItDoesNotHelpTheSurfaceStaysAndKeepsItsRevision) {
+    Visit here(image_of_noise());
+    const std::vector<json> told = here.told_surfaces();
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"preview", "asking", "refined"}));
+    EXPECT_EQ(told[2]["revision"], told[1]["revision"]);
+    EXPECT_EQ(told[2]["volume_ml"], told[1]["volume_ml"]);
+    EXPECT_EQ(told[2]["image"]["verdict"], "no_help");
+    EXPECT_FALSE(here.slice()["outlines"][0].contains("without_image"));
+    EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);
+}
+
+TEST(SessionImage, IsNotAskedWhereItCannotTellBorders) {
+    for (const auto& image : {label_map(), test::flat_image()}) {
+        Visit here(image);
+        EXPECT_EQ(here.greeting()["use_image"], nullptr);
+        EXPECT_EQ(stages(here.told_surfaces()), (std::vector<std::string>{"preview", "refined"}));
+        EXPECT_FALSE(here.surface().contains("image"));
+    }
+}
+
+TEST(SessionImage, IsAskedOfEachStructureOnceTheSwitchIsOn) {
+    Visit here(image_of_body());
+    const Id other = here.session.add_structures("Import", {drawing()}).front();
+    here.session.wait_for_surfaces();
+    here.call({{"call", "image.set"}, {"use", false}});
+    here.told_surfaces();
+    here.call({{"call", "undo"}});
+    std::map<Id, json> last;
+    for (const json& surface : here.told_surfaces()) last[surface["structure"]] = surface;
+    for (const Id id : {here.structure, other}) {
+        EXPECT_EQ(last[id]["stage"], "refined");
+        EXPECT_EQ(last[id]["image"]["verdict"], "used");
+    }
+}
+
+TEST(SessionImage, TheLatestOfManySwitchesCounts) {
+    Visit here(image_of_body());
+    const json first = here.surface();
+    for (int n = 0; n < 6; ++n) here.session.call(json{{"seq", n}, {"call", "image.set"}, {"use", n % 2 == 1}}.dump());
+    here.session.wait_for_surfaces();
+    EXPECT_EQ(here.surface()["volume_ml"], first["volume_ml"]);
+    EXPECT_EQ(here.surface()["image"], first["image"]);
+}
+
+}  // namespace
+}  // namespace kontur::viewer

@@ -15,6 +15,7 @@ import { Editor } from "./tools/editor";
 import type { SavedSketch, Sketch } from "./tools/sketch";
 import { Pointers } from "./tools/pointers";
 import { ViewInput } from "./tools/view_input";
+import type { InPlane } from "./ui/contour_names";
 import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
 import { el } from "./ui/dom";
@@ -398,7 +399,7 @@ export class App {
     this.navigation.goTo(p, this.screens());
   }
 
-  private show(contour: Contour): void {
+  private show(contour: InPlane): void {
     let view = viewAlong(contour, this.navigation);
     if (!view) {
       view = "oblique";

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Plane } from "../geometry/plane";
 import { dot } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
-import type { Contour, ViewName } from "../net/protocol";
+import type { ViewName } from "../net/protocol";
 import { VIEW_TITLES } from "../view/palette";
+
+/** A contour, or whatever else lies in a plane. */
+export interface InPlane {
+  plane: Plane;
+}
 
 /** The view whose unturned planes the contour is parallel to, on which of its slices and where along them it lies. */
 export interface ContourPlace {
@@ -11,7 +17,7 @@ export interface ContourPlace {
   position: string;
 }
 
-export function placeOf({ plane: { normal, origin } }: Contour, navigation: Navigation): ContourPlace {
+export function placeOf({ plane: { normal, origin } }: InPlane, navigation: Navigation): ContourPlace {
   const view = navigation.unturnedViewAlong(normal);
   const slice = view ? String(navigation.unturnedSliceOf(view, origin)) : "";
   const axis = [0, 1, 2].find((i) => Math.abs(normal[i]!) > 0.9999);
@@ -21,7 +27,7 @@ export function placeOf({ plane: { normal, origin } }: Contour, navigation: Navi
 }
 
 /** "Axial 51", as the list and the view's title have it; "Oblique 12.3" for planes of no view. */
-export function contourName(contour: Contour, navigation: Navigation): string {
+export function contourName(contour: InPlane, navigation: Navigation): string {
   const { view, slice, position } = placeOf(contour, navigation);
   return view ? `${VIEW_TITLES[view]} ${slice}` : `Oblique ${position}`;
 }

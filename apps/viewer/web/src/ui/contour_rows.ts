@@ -4,7 +4,7 @@ import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Contour, Structure, ViewName } from "../net/protocol";
 import { PLANE_COLORS, VIEW_TITLES } from "../view/palette";
-import { placeOf } from "./contour_names";
+import { placeOf, type InPlane } from "./contour_names";
 import { button, el, eye } from "./dom";
 import { ICONS } from "./icons";
 
@@ -13,7 +13,7 @@ export interface RowServices {
   project: Project;
   call(name: string, args?: Record<string, unknown>): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
-  show(contour: Contour): void;
+  show(contour: InPlane): void;
 }
 
 const KIND_LABELS: Record<Contour["kind"], string> = { freehand: "freehand", spline: "spline", livewire: "live-wire", mixed: "mixed" };

@@ -4,6 +4,7 @@ import type { Contour, Structure } from "../net/protocol";
 import { contourName } from "./contour_names";
 import { ContourRows, type RowServices } from "./contour_rows";
 import { button, el, eye, listen } from "./dom";
+import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "./icons";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye
@@ -100,7 +101,7 @@ export class StructureList {
     row!.setAttribute("title", isActive ? "New contours go into this structure" : "Click: new contours go into this structure");
     row!.querySelector(".name")!.setAttribute("aria-current", String(isActive));
     for (const old of contours) old.remove();
-    if (this.isOpen(structure)) entry.append(...this.rows.rowsOf(structure, this.contoursOf(structure)));
+    if (this.isOpen(structure)) entry.append(...this.rows.rowsOf(structure, this.contoursOf(structure)), ...emptyPlaneRows(structure, this.services));
   }
 
   private colorField(structure: Structure): HTMLInputElement {

@@ -24,6 +24,43 @@ const proposed = () => viewer.page.locator(".hint", { hasText: "A proposal" });
 /** What the views look at: the numbers of their slices. */
 const slices = () => viewer.page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map((pane) => pane.dataset["slice"]).join(" "));
 
+/** The slices of the views, and whether they are turned. */
+const looks = () => viewer.page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map(({ dataset }) => `${dataset["slice"]}${dataset["turned"]}`).join(" "));
+
+async function looksOtherThan(before: string): Promise<string> {
+  await viewer.page.waitForFunction((known) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map(({ dataset }) => `${dataset["slice"]}${dataset["turned"]}`).join(" ") !== known, before);
+  return looks();
+}
+
+/** From a surface without empty planes to one without them again. */
+async function emptyPlanesAreListed(): Promise<void> {
+  const { page } = viewer;
+  const rows = page.locator("[data-test=empty-plane]");
+  assert.equal(await rows.count(), 0);
+  await page.keyboard.press("g");
+  await proposed().waitFor();
+  await page.keyboard.press("e");
+  await rows.waitFor();
+  await viewer.surfaceShown();
+  const there = await looks();
+  await page.keyboard.press("Home");
+  const home = await looksOtherThan(there);
+  await rows.locator(".contour-plane").focus();
+  await page.keyboard.press("Enter");
+  await looksOtherThan(home);
+  await rows.hover();
+  await rows.locator("[data-part=forget-0]").click();
+  await viewer.waitForStep("undo", "Forget empty planes of");
+  assert.equal(await rows.count(), 0);
+  await viewer.surfaceShown();
+  await page.keyboard.press("Control+z");
+  await rows.waitFor();
+  await page.keyboard.press("Control+z");
+  await viewer.waitForStep("redo", "Nothing of");
+  assert.equal(await rows.count(), 0);
+  await viewer.surfaceShown();
+}
+
 describe("where to draw next", () => {
   test("is gone to by G with a proposal; G again goes on, Esc drops it, Enter makes it a contour that helps", async () => {
     const { page } = viewer;
@@ -49,6 +86,7 @@ describe("where to draw next", () => {
     await page.keyboard.press("Control+z");
     await viewer.waitForStep("redo", "Nothing of");
     await viewer.surfaceShown();
+    await emptyPlanesAreListed();
 
     await page.click(".quality >> text=Where to draw next");
     await proposed().waitFor();

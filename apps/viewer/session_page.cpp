@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "kontur/base/error.h"
+#include "kontur/refine/surface_uncertainty.h"
+#include "viewer/model_json.h"
+#include "viewer/session.h"
+#include "viewer/told.h"
+
+// What a page is told when it comes, and what it keeps here.
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kLargestPageState = 64 << 10;
+
+json view_json(const View& view) {
+    return {{"plane", to_json(view.plane)},
+            {"step_mm", view.step_mm},
+            {"width_mm", view.width_mm},
+            {"height_mm", view.height_mm},
+            {"range_mm", {view.from_mm, view.to_mm}}};
+}
+
+json views_json(const Grid& grid) {
+    return {{"axial", view_json(view_of(grid, SliceKind::axial))},
+            {"sagittal", view_json(view_of(grid, SliceKind::sagittal))},
+            {"coronal", view_json(view_of(grid, SliceKind::coronal))},
+            {"oblique", view_json(oblique_view(grid))}};
+}
+
+json corners_json(const Grid& grid) {
+    json corners = json::array();
+    for (const Vec3& corner : outer_corners(grid)) corners.push_back(to_json(corner));
+    return corners;
+}
+
+json identity_json(const DicomIdentity& identity) {
+    return {{"patient_name", identity.patient_name},
+            {"patient_id", identity.patient_id},
+            {"birth_date", identity.birth_date},
+            {"study_date", identity.study_date},
+            {"study_description", identity.study_description},
+            {"series_number", identity.series_number},
+            {"series_description", identity.series_description},
+            {"modality", identity.modality}};
+}
+
+}  // namespace
+
+std::string Session::greeting(const json& more) {
+    const std::scoped_lock lock(mutex_);
+    json structures = json::array(), contours = json::array(), surfaces = json::array(), presets = json::array();
+    Told told;
+    for (const auto& [id, structure] : project_.state().structures) structures.push_back(to_json(structure));
+    for (const auto& [id, contour] : project_.state().contours) contours.push_back(told(*contour));
+    for (const auto& [id, surface] : surfaces_.all())
+        if (project_.state().structures.contains(id)) surfaces.push_back(surface_event(*surface));
+    for (const WindowPreset& preset : presets_)
+        presets.push_back({{"name", preset.name}, {"center", preset.window.center}, {"width", preset.window.width}});
+    const Grid& grid = image_->grid;
+    json event{{"event", "session"},
+               {"version", KONTUR_VERSION},
+               {"title", title_},
+               {"project", project_.path().filename().string()},
+               {"image",
+                {{"size", {grid.size.i, grid.size.j, grid.size.k}},
+                 {"spacing_mm", to_json(grid.spacing_mm())},
+                 {"corners", corners_json(grid)},
+                 {"center", to_json(grid.bounds_mm().center())},
+                 {"unit", unit()},
+                 {"range", {range_.first, range_.second}},
+                 {"notes", notes_}}},
+               {"identity", identity_json(identity_)},
+               {"has_dicom", series_.has_value()},
+               {"window", {{"center", window_.center}, {"width", window_.width}}},
+               {"presets", presets},
+               {"views", views_json(grid)},
+               {"structures", structures},
+               {"contours", contours},
+               {"surfaces", surfaces},
+               {"borders", to_json(project_.state().borders)},
+               {"use_image", use_image()},
+               {"border_pairs", borders_found(surfaces_.border_pairs())},
+               {"history", history()},
+               {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
+               {"page", page_state()}};
+    event.update(more);
+    return to_text(event);
+}
+
+std::string Session::unit() const {
+    if (!identity_.modality.empty()) return identity_.unit;
+    return looks_like_ct(*image_) ? "HU" : "";
+}
+
+/// A project may come from anywhere: what `page.save` would have refused is not given back.
+json Session::page_state() {
+    const std::string stored = project_.page_state();
+    if (stored.size() > kLargestPageState) return nullptr;
+    try {
+        return parsed(stored);
+    } catch (const json::exception&) {
+        return nullptr;
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+json Session::save_page(const Members& m) {
+    const std::string state = to_text(m.at("state"));
+    if (state.size() > kLargestPageState)
+        throw Error(ErrorKind::too_large,
+                    fmt::format("'state' has {} bytes; the limit is {}", state.size(), kLargestPageState));
+    project_.save_page_state(state);
+    return json::object();
+}
+
+json Session::surface_event(const Surface& surface) const {
+    json event{{"event", "surface"},
+               {"structure", surface.structure},
+               {"revision", surface.revision},
+               {"stage", std::string(name(surface.stage))},
+               {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
+               {"warnings", surface.warnings}};
+    if (is_finished(surface.stage) || surface.stage == SurfaceStage::none) {
+        event["conflicts"] = json::array();
+        for (const Conflict& conflict : surface.conflicts)
+            event["conflicts"].push_back({{"at", to_json(conflict.at)},
+                                          {"distance_mm", conflict.disagreement_mm},
+                                          {"contours", {conflict.contour, conflict.other}}});
+    }
+    if (!is_finished(surface.stage)) return event;
+    if (surface.image.verdict != ImageVerdict::none)
+        event["image"] = {{"verdict", std::string(name(surface.image.verdict))}, {"text", sentence(surface.image)}};
+    event["volume_ml"] = surface.volume_ml;
+    event["residual"] = {{"max_mm", surface.residual.max_mm},
+                         {"rms_mm", surface.residual.rms_mm},
+                         {"contour", surface.worst_contour},
+                         {"at", to_json(surface.worst_at)}};
+    event["uncertainty"] = to_json(surface_uncertainty(evidence_of(surface)));
+    return event;
+}
+
+json Session::history() {
+    const auto label = [](const std::optional<std::string>& text) { return text ? json(*text) : json(nullptr); };
+    return {{"undo", label(project_.undo_label())}, {"redo", label(project_.redo_label())}};
+}
+
+}  // namespace kontur::viewer

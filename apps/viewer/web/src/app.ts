@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Vec3 } from "./geometry/vec";
 import type { Screen } from "./geometry/screen";
-import { Appearance, type SavedAppearance } from "./model/appearance";
-import type { Measurement } from "./model/measurements";
-import { Navigation, type PaneName, type SavedNavigation } from "./model/navigation";
+import { Appearance } from "./model/appearance";
+import { Navigation, type PaneName } from "./model/navigation";
 import { Project } from "./model/project";
-import { Http, ServerError } from "./net/http";
+import { Http } from "./net/http";
 import { Latest } from "./net/latest";
 import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
 import { Socket, type ConnectionState } from "./net/socket";
+import { PageKeeper, type SavedPage } from "./page/saved_page";
+import { Saving } from "./page/saving";
 import { StartPage } from "./start/start_page";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
-import type { SavedSketch, Sketch } from "./tools/sketch";
 import { Pointers } from "./tools/pointers";
 import { ViewInput } from "./tools/view_input";
 import type { InPlane } from "./ui/contour_names";
@@ -28,20 +28,6 @@ import { openStatistics } from "./ui/statistics";
 import { Notices, StatusBar } from "./ui/status";
 import { Toolbar } from "./ui/toolbar";
 import { SliceView } from "./view/slice_view";
-
-interface SavedPage {
-  navigation: SavedNavigation;
-  structure: number;
-  hintSeen: boolean;
-  appearance?: SavedAppearance;
-  measurements?: Measurement[];
-  sketch?: SavedSketch;
-  unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
-}
-
-const SAVE_PAGE_MS = 400;
-const LONGEST_SAVED_SKETCHES = 56_000; // characters: the server keeps 64 KiB for a page
-const REFUSALS = new Set(["invalid_input", "not_found"]); // by which no work is lost: it could not be done
 
 /** Puts the parts of the page together, and hands the server's events to them. */
 export class App {
@@ -65,26 +51,22 @@ export class App {
   private readonly pointers = new Pointers(() => void this.notices.show("info", "A pen draws here, so touches are taken for the hand that holds it, and ignored. To draw with a finger, load the page again."));
   private readonly values: Latest<Vec3>;
   private session: Session | null = null;
-  private connection: ConnectionState = "connecting";
-  private unsaved = 0;
-  private editWasLost = false; // the last one
-  private saidLost = false; // since the connection was open
-  private readonly closeWhenConnected: (() => void)[] = [];
-  private closeUnsavedNotice = () => {};
   private closeCrossingNotice = () => {};
   private hintSeen = false;
-  private saveTimer = 0;
+  private readonly saving: Saving;
+  private readonly keeper: PageKeeper;
 
-  constructor(private readonly token: string) {
+  constructor(token: string) {
     this.http = new Http(token);
     this.startPage = new StartPage(this.http);
+    this.saving = new Saving({ status: this.status, notices: this.notices, outbox: () => this.editor.drawing.outbox, project: () => this.session?.project, token });
     this.socket = new Socket(token, {
       event: (event) => this.receive(event),
       connection: (state) => this.connected(state),
-      unsaved: (count, acknowledged) => this.countUnsaved(count, acknowledged),
+      unsaved: (count, acknowledged) => this.saving.countUnsaved(count, acknowledged),
       knock: () => this.http.knock(),
     });
-    const failed = (error: unknown) => this.failed(error);
+    const failed = (error: unknown) => this.saving.failed(error);
     this.editor = new Editor(this.navigation, this.project, {
       call: (name, args) => this.socket.call(name, args),
       screenOf: (view) => this.views.get(view)?.screen() ?? null,
@@ -92,9 +74,15 @@ export class App {
       failed,
       tell: (text, remedy) => void this.notices.show("info", text, remedy),
       made: (contour) => this.tellCrossing(contour),
-      notSaved: (sketch, why) => this.tellNotSaved(sketch, why),
+      notSaved: (sketch, why) => this.saving.tellNotSaved(sketch, why),
     });
     const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, editor: this.editor, http: this.http, failed };
+    this.keeper = new PageKeeper({
+      ...shared,
+      isOpen: () => this.session !== null,
+      hintSeen: () => this.hintSeen,
+      save: (state) => void this.socket.call("page.save", { state }).catch(() => undefined), // the next change saves again
+    });
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
     this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p) });
     this.values = new Latest((p) => this.askValue(p));
@@ -147,7 +135,7 @@ export class App {
     navigation.on(["planes", "window"], each((view) => view.refresh(true)));
     navigation.on(["planes"], () => this.surface.planesChanged());
     navigation.on(["layout"], () => this.lay());
-    navigation.on(["planes", "window", "layout"], () => this.savePageSoon());
+    navigation.on(["planes", "window", "layout"], () => this.keeper.saveSoon());
     project.on(["contours", "structures"], each((view) => view.contoursChanged()));
     project.on(["surfaces"], each((view) => view.surfacesChanged()));
     project.on(["selection"], each((view) => view.paint()));
@@ -155,19 +143,19 @@ export class App {
     project.on(["contours", "structures", "selection"], () => this.surface.contoursChanged());
     project.on(["structures"], () => this.surface.restyle());
     project.on(["surfaces"], () => this.surface.surfacesChanged());
-    project.on(["structures"], () => this.savePageSoon());
+    project.on(["structures"], () => this.keeper.saveSoon());
     this.appearance.on(["changed"], each((view) => view.paint()));
-    this.appearance.on(["changed"], () => this.savePageSoon());
+    this.appearance.on(["changed"], () => this.keeper.saveSoon());
     editor.on(["tool", "hover"], each((view) => view.paint()));
     editor.on(["tool", "hover"], () => this.tellHint());
     editor.measuring.measurements.on(["changed"], each((view) => view.paint()));
-    editor.measuring.measurements.on(["changed"], () => this.savePageSoon());
+    editor.measuring.measurements.on(["changed"], () => this.keeper.saveSoon());
     editor.drawing.on(["sketch"], each((view) => view.paint()));
     editor.drawing.on(["sketch"], () => this.tellHint());
     editor.proposals.on(["proposal"], each((view) => view.paint()));
     editor.proposals.on(["proposal"], () => this.tellHint());
-    editor.drawing.on(["points"], () => this.savePageSoon());
-    editor.drawing.on(["points"], () => this.tellSaved());
+    editor.drawing.on(["points"], () => this.keeper.saveSoon());
+    editor.drawing.on(["points"], () => this.saving.tell());
     project.on(["selection"], () => this.tellHint());
     project.on(["contours"], () => this.closeCrossingNotice());
     for (const [name, view] of this.views) {
@@ -237,7 +225,7 @@ export class App {
     const page = session.page as SavedPage | null;
     document.title = `${session.title} · kontur`;
     this.status.start(session.project);
-    this.tellSaved();
+    this.saving.tell();
     this.identity.start(session);
     this.toolbar.start(session);
     // After a reconnect the user stays where he is.
@@ -245,10 +233,7 @@ export class App {
     this.views.forEach((view) => view.forgetOutlines());
     this.surface.forgetRevisions();
     this.project.start(session);
-    if (isFirst && page?.appearance) this.appearance.set(page.appearance);
-    if (isFirst && page?.measurements) this.editor.measuring.measurements.restore(page.measurements);
-    if (isFirst && page?.structure) this.project.activate(page.structure);
-    if (isFirst) this.editor.drawing.outbox.restore(page?.sketch, page?.unsaved ?? []);
+    if (isFirst) this.keeper.restore(page);
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
     this.hintSeen ||= page?.hintSeen ?? false;
@@ -258,61 +243,8 @@ export class App {
   }
 
   private connected(state: ConnectionState): void {
-    if (state === "lost" && !this.saidLost) this.tellLost();
-    if (state === "open") this.closeWhenConnected.splice(0).forEach((close) => close());
-    this.saidLost = state === "lost" || (this.saidLost && state !== "open");
-    this.connection = state;
-    document.body.dataset["connection"] = state;
+    this.saving.connected(state);
     this.startPage.connected(state);
-    this.tellSaved();
-  }
-
-  /** Whoever starts kontur again gets another port and another key, so that this page cannot find it. */
-  private tellLost(): void {
-    const project = this.session?.project;
-    const text = project
-      ? `The connection to kontur is lost. What was saved is in ${project}. While kontur runs this page connects again by itself; if kontur has ended, open ${project} with it again, at the address that it prints then.`
-      : "No kontur answers at this address. If it was started again, use the address that it printed last.";
-    this.closeWhenConnected.push(this.notices.show("error", text));
-    if (this.unsaved > 0 && !this.editor.drawing.outbox.isSending)
-      this.notices.show("error", "The connection was lost before kontur had confirmed your last edit: it may not be saved. Look for it when the page is connected again.");
-  }
-
-  private countUnsaved(count: number, acknowledged: boolean): void {
-    this.unsaved = count;
-    if (acknowledged) this.editWasLost = false;
-    this.tellSaved();
-  }
-
-  private tellSaved(): void {
-    const { hasUnsaved, isSending } = this.editor.drawing.outbox;
-    if (!hasUnsaved && !isSending) this.closeUnsavedNotice();
-    this.status.setSaved(this.connection, isSending ? Math.max(this.unsaved, 1) : this.unsaved, hasUnsaved || this.editWasLost);
-  }
-
-  private tellNotSaved(sketch: Sketch, why: string): void {
-    this.closeUnsavedNotice();
-    const stays = `${sketch.title} is not saved. It stays on its slice: Enter tries again, Esc gives it up.`;
-    this.closeUnsavedNotice = this.notices.show("error", [why.replace(/\.?$/, "."), stays, this.rescue()].join(" "));
-    this.tellSaved();
-  }
-
-  /** Only a kontur at this very address can take what this page alone still has. */
-  private rescue(): string {
-    if (this.connection === "open") return "";
-    return `If kontur has ended, start it for this page: kontur open ${this.session?.project} --port ${location.port} --token ${this.token}`;
-  }
-
-  /** While there is no connection only lost work is worth a word: that there is none has been said. */
-  private failed(error: unknown): void {
-    const isEdit = error instanceof ServerError && error.edits;
-    if (isEdit && !REFUSALS.has(error.kind)) this.editWasLost = true;
-    const isKnown = error instanceof ServerError && this.connection !== "open" && (!isEdit || error.kind === "lost");
-    if (!isKnown) {
-      const close = this.notices.show("error", error instanceof Error ? error.message : String(error));
-      if (!isEdit) this.closeWhenConnected.push(close); // then what was asked for is asked for again
-    }
-    this.tellSaved();
   }
 
   /** Said until the next edit, as long as undo takes back this one. */
@@ -344,20 +276,20 @@ export class App {
       this.project.select(null);
       this.project.activate(structure.id);
     } catch (error) {
-      this.failed(error);
+      this.saving.failed(error);
     }
   }
 
   /** The start page, for all pages of this project. Nothing is lost, so what is not saved yet is waited for. */
   private async openAnother(): Promise<void> {
-    if (this.unsaved > 0 || this.editor.drawing.outbox.hasUnsaved || this.editor.drawing.outbox.isSending)
+    if (!this.saving.isDone)
       return void this.notices.show("warning", "Not all is saved yet. Save it (Enter), or give it up (Esc), before another image is opened.");
-    if (this.saveTimer) this.savePage();
+    if (this.keeper.isWaiting) this.keeper.save();
     try {
       await this.socket.call("ping"); // after what was asked before: the page's own state, too
       await this.http.close();
     } catch (error) {
-      this.failed(error);
+      this.saving.failed(error);
     }
   }
 
@@ -421,7 +353,7 @@ export class App {
 
   private pointed(view: SliceView, event: PointerEvent): void {
     const at = view.worldAt(event);
-    if (at && this.connection === "open") this.values.send(at);
+    if (at && this.saving.connection === "open") this.values.send(at);
   }
 
   private async askValue(at: Vec3): Promise<void> {
@@ -450,7 +382,7 @@ export class App {
       hint.remove();
       this.hintSeen = true;
       this.editor.choose("wire");
-      this.savePageSoon();
+      this.keeper.saveSoon();
     });
     this.stage.append(hint);
   }
@@ -480,32 +412,11 @@ export class App {
   /** Asks before work is left that no next visit would bring back. */
   private guardClosing(): void {
     window.addEventListener("beforeunload", (event) => {
-      const { outbox, sketch } = this.editor.drawing;
-      if (this.unsaved > 0 || outbox.isSending || outbox.hasUnsaved || (sketch && this.connection !== "open")) event.preventDefault();
+      if (!this.saving.isDone || (this.editor.drawing.sketch && this.saving.connection !== "open")) event.preventDefault();
     });
     window.addEventListener("pagehide", () => {
-      if (this.saveTimer) this.savePage();
+      if (this.keeper.isWaiting) this.keeper.save();
     });
-  }
-
-  private savePageSoon(): void {
-    window.clearTimeout(this.saveTimer);
-    this.saveTimer = window.setTimeout(() => this.savePage(), SAVE_PAGE_MS);
-  }
-
-  private savePage(): void {
-    if (!this.session) return;
-    window.clearTimeout(this.saveTimer);
-    this.saveTimer = 0;
-    const state: SavedPage = { navigation: this.navigation.saved(), structure: this.project.activeStructure?.id ?? 0, hintSeen: this.hintSeen, appearance: this.appearance.saved(), measurements: this.editor.measuring.measurements.saved() };
-    let room = LONGEST_SAVED_SKETCHES;
-    const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
-    const { drawing } = this.editor;
-    const sketch = drawing.sketch?.saved();
-    if (sketch && fits(sketch)) state.sketch = sketch;
-    const unsaved = drawing.outbox.saved().filter(fits);
-    if (unsaved.length > 0) state.unsaved = unsaved;
-    this.socket.call("page.save", { state }).catch(() => undefined); // the next change saves again
   }
 }
 

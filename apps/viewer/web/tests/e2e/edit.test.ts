@@ -433,14 +433,17 @@ describe("files", () => {
     await drawBall("axial");
     await viewer.surfaceShown();
     const { page } = viewer;
+    let letGo = () => {};
+    const isCancelled = new Promise<void>((resolve) => (letGo = resolve));
     await page.route("**/api/export/**", async (route) => {
-      await new Promise((resolve) => setTimeout(resolve, 3000));
+      await isCancelled; // however long the click takes
       await route.continue().catch(() => undefined); // it was cancelled meanwhile
     });
     await page.click("[data-test=export]");
     await page.click('[data-test="export-mask.nrrd"]');
     await page.click("[data-test=export-cancel]");
     await page.waitForFunction(() => document.querySelector(".dialog-status")!.textContent === "Cancelled.");
+    letGo();
     await page.unroute("**/api/export/**");
     await page.keyboard.press("Escape");
     assert.equal((await viewer.export("mask.nrrd")).bytes.subarray(0, 4).toString(), "NRRD");

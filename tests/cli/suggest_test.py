@@ -66,14 +66,15 @@ def test_slices_of_the_image_are_whole_layers(drawn):
         assert suggested["expected_dice_with_it"]["value"] >= suggested["expected_dice"]["value"]
 
 
-def test_skipping_gives_other_planes_of_less_gain(drawn):
+def test_skipping_gives_other_planes_in_order(drawn):
     contours, mask = drawn(3)
 
     def suggested(*words):
         return json.loads(succeed("suggest", contours, "--image", mask, "--json", *words))["planes"]
 
     [best], [second], [third] = suggested(), suggested("--skip", 1), suggested("--skip", 2)
-    assert best["gain"] >= second["gain"] >= third["gain"] > 0
+    assert best["gain"] > 0  # after three planes by another rule than the gain
+    assert second["gain"] >= third["gain"] > 0
     for one, other in ((best, second), (best, third), (second, third)):
         is_parallel = abs(numpy.dot(one["normal"], other["normal"])) > 1 - 1e-9
         apart = abs(numpy.dot(one["normal"], numpy.subtract(one["origin_mm"], other["origin_mm"])))

@@ -174,36 +174,59 @@ TEST(SuggestPlane, AListLeavesLessAndLess) {
     }
 }
 
-TEST(SuggestPlane, TurnsMovesAndScalesWithTheDrawing) {
-    const Body body = kidney();
-    const ContourSet contours = drawn(body, test::three_planes(body.bounds().center()));
-    const Grid grid = grid_for(body);
-    const PlaneSuggestions here =
-        suggest_planes(fitted(contours, grid).evidence, contours, 4, {.grid = grid}, {.threads = 1});
+/// A drawing turned, moved and made three times as large.
+struct Motion {
+    static constexpr double kScale = 3;
+    Affine3 to = [] {
+        Affine3 motion = test::kOblique;
+        for (auto& row : motion.linear)
+            for (double& entry : row) entry *= kScale;
+        motion.translation = {500, -70, 1200};
+        return motion;
+    }();
+    Vec3 turned(const Vec3& direction) const { return to.apply_linear(direction) / kScale; }
+    ContourSet moved(ContourSet contours) const {
+        for (Contour& contour : contours.contours) {
+            contour.plane = make_plane(to.apply(contour.plane.origin), turned(contour.plane.normal));
+            for (Vec3& p : contour.points) p = to.apply(p);
+        }
+        return contours;
+    }
+    Grid moved(const Grid& grid) const { return {grid.size, compose(to, grid.index_to_mm)}; }
+};
 
-    Affine3 motion = test::kOblique;
-    const double scale = 3;
-    for (auto& row : motion.linear)
-        for (double& entry : row) entry *= scale;
-    motion.translation = {500, -70, 1200};
-    const auto turned = [&](const Vec3& direction) { return motion.apply_linear(direction) / scale; };
-    ContourSet moved = contours;
-    for (Contour& contour : moved.contours) {
-        contour.plane = make_plane(motion.apply(contour.plane.origin), turned(contour.plane.normal));
-        for (Vec3& p : contour.points) p = motion.apply(p);
-    }
-    const Grid moved_grid{grid.size, compose(motion, grid.index_to_mm)};
-    const test::Fitted there = fitted(moved, moved_grid);
-    const PlaneSuggestions found = suggest_planes(there.evidence, moved, 4, {.grid = moved_grid}, {.threads = 1});
-    ASSERT_EQ(found.planes.size(), here.planes.size());
+/// Samples lie elsewhere where rounding moves a crossing to the next edge of the lattice: one in a hundred here. Of planes
+/// that are worth the same, another one may then be chosen.
+TEST(SuggestPlane, TurnsMovesAndScalesWithTheDrawing) {
+    const Motion motion;
     int same = 0;
-    for (std::size_t n = 0; n < found.planes.size(); ++n) {
-        const Plane &plane = found.planes[n].plane, &expected = here.planes[n].plane;
-        same += std::abs(dot(plane.normal, turned(expected.normal))) > 1 - 1e-5 &&
-                std::abs(plane.distance_to(motion.apply(expected.origin))) < 1e-3 * there.evidence.diameter_mm;
-        EXPECT_NEAR(found.planes[n].after.value, here.planes[n].after.value, 1e-4) << n;
-    }
-    EXPECT_GE(same, 3) << "of two neighbours that are worth the same, rounding decides";
+    for (const Body& body : {liver(), kidney(), metastasis(), vertebra()})
+        for (const PlaneChoice choice : {PlaneChoice::any, PlaneChoice::image_slices}) {
+            const ContourSet contours = drawn(body, test::three_planes(body.bounds().center()));
+            const Grid grid = grid_for(body), moved_grid = motion.moved(grid);
+            const test::Fitted here = fitted(contours, grid), there = fitted(motion.moved(contours), moved_grid);
+            const SuggestedPlane expected = next_plane(here, contours, {choice, grid}),
+                                 found = next_plane(there, motion.moved(contours), {choice, moved_grid});
+            const double off_mm = std::abs(found.plane.distance_to(motion.to.apply(expected.plane.origin)));
+            same += std::abs(dot(found.plane.normal, motion.turned(expected.plane.normal))) > 1 - 1e-4 &&
+                    off_mm < 3e-3 * there.evidence.diameter_mm;
+            EXPECT_NEAR(found.gain / expected.gain, 1, 0.05) << body.name();
+            EXPECT_NEAR(found.after.value, expected.after.value, 1e-3) << body.name();
+            EXPECT_EQ(found.slice, expected.slice) << body.name();
+        }
+    EXPECT_GE(same, 7) << "of eight";
+}
+
+/// Candidates across the object are a seventh of it apart, gaps between ten drawn planes less than that.
+TEST(SuggestPlane, LiesInTheMiddleOfANarrowGap) {
+    const Body egg = test::ellipsoid({}, {20, 20, 40});
+    std::vector<Plane> planes = test::parallel_planes(egg, 12);
+    planes.erase(planes.begin() + 4);  // at z = -10
+    planes.push_back(make_plane({}, {0, 1, 0}));
+    const ContourSet contours = drawn(egg, planes);
+    const SuggestedPlane next = next_plane(fitted(contours, grid_for(egg)), contours);
+    EXPECT_GT(std::abs(next.plane.normal.z), 0.9) << next.plane.normal.x << " " << next.plane.normal.y;
+    EXPECT_NEAR(next.plane.origin.z, -10, 1.2);
 }
 
 TEST(SuggestPlane, SameBytesForAnyNumberOfThreads) {
@@ -230,7 +253,7 @@ TEST(SuggestPlane, CostsAtMostTwentyMillionDistances) {
     const test::Fitted made = fitted(all, grid_for(body));
     const PlaneSuggestions found = suggest_planes(made.evidence, all, 1, {.grid = grid_for(body)}, {.threads = 1});
     EXPECT_GT(found.candidates, 50);
-    EXPECT_LE(found.candidates, 3 * 24 + 49 * 7);
+    EXPECT_LE(found.candidates, 3 * 24 + 49 * 7 + 5 * 3 * 8);
     EXPECT_GT(found.distances, 0);
     EXPECT_LE(found.distances, 20'000'000);
 }

@@ -2,7 +2,6 @@
 #include "kontur/refine/candidate_planes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -35,15 +34,6 @@ LongAxis long_axis(const std::vector<std::array<double, 2>>& points, const std::
     }
     axis.angle = 0.5 * std::atan2(2 * uv, uu - vv);
     return axis;
-}
-
-std::array<Vec3, 3> principal_axes(const std::vector<Vec3>& points) {
-    const Plane flat = fit_plane(points).value_or(make_plane({}, {0, 0, 1}));
-    std::vector<std::array<double, 2>> projected;
-    for (const Vec3& p : points) projected.push_back(flat.to_uv(p));
-    const double angle = long_axis(projected, std::vector<double>(points.size(), 1.0)).angle;
-    const Vec3 along = std::cos(angle) * flat.u + std::sin(angle) * flat.v;
-    return {along, cross(flat.normal, along), flat.normal};
 }
 
 /// One of each pair of opposite ones, and with each its mirror images: whichever way the axes point, the set is the same.
@@ -121,6 +111,15 @@ Plane slice_plane(const Grid& grid, const Slice& slice) {
 Slice nearest_slice(const Grid& grid, int axis, const Vec3& p) {
     const double index = std::round(grid.index_to_mm.inverse().apply(p)[axis]);
     return {axis, static_cast<std::int64_t>(std::clamp(index, 0.0, static_cast<double>(grid.size[axis] - 1)))};
+}
+
+std::array<Vec3, 3> principal_axes(const std::vector<Vec3>& points) {
+    const Plane flat = fit_plane(points).value_or(make_plane({}, {0, 0, 1}));
+    std::vector<std::array<double, 2>> projected;
+    for (const Vec3& p : points) projected.push_back(flat.to_uv(p));
+    const double angle = long_axis(projected, std::vector<double>(points.size(), 1.0)).angle;
+    const Vec3 along = std::cos(angle) * flat.u + std::sin(angle) * flat.v;
+    return {along, cross(flat.normal, along), flat.normal};
 }
 
 std::vector<PlaneStack> candidate_planes(const std::vector<Vec3>& points, PlaneChoice choice,

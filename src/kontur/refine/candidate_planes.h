@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -40,6 +41,9 @@ struct PlaneStack {
     std::vector<double> offsets_mm;  ///< from 0 of the frame along the normal
     std::vector<Slice> slices{};     ///< one for each offset where they are an image's
 };
+
+/// Directions of largest, middle and least extent, unit; their signs carry no meaning.
+std::array<Vec3, 3> principal_axes(const std::vector<Vec3>& points);
 
 /// Stacks of planes that cut the points: across the image's axes, its own slices, at most 24 of each; and, if any plane will
 /// do, seven across each of 49 directions that lie evenly around the points' principal axes.

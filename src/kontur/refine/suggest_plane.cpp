@@ -2,11 +2,13 @@
 #include "kontur/refine/suggest_plane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
+#include "kontur/refine/far_places.h"
 #include "kontur/refine/uncertainty_model.h"
 
 namespace kontur {
@@ -20,12 +22,27 @@ constexpr double kAlikeCosine = 0.94;     // 20 degrees
 constexpr double kParallelCosine = 0.94;  // drawn planes that tell nothing of the direction across them
 constexpr std::size_t kLeastInCut = 12;   // samples, 1 %; fewer are a tip that a contour could hardly be drawn around
 
+// After two planes: as many through clusters of far places, which were worth more than the greedy choice (docs/accuracy.md).
+constexpr std::size_t kFirstByClusters = 2, kByClusters = 2;
+constexpr double kClusterReach = 0.06;  // of the diameter: from one place of a cluster to the next
+
+// The best candidate is shifted and tilted by steps that halve from round to round. Candidates are apart by twice the first
+// ones, which is more than the gaps are once eight planes are drawn.
+constexpr double kFirstShift = 0.04;  // of the diameter
+constexpr double kFirstTilt = 0.16;   // radians
+constexpr int kRounds = 5, kStepsPerRound = 3;
+
 /// A candidate and the surface in it.
 struct Cut {
     Plane plane;
     std::optional<Slice> slice{};
     std::vector<Vec3> line;  ///< points of the surface on the plane, in no order
+    double gain = 0;
 };
+
+Vec3 middle_of(const std::vector<Vec3>& line) {
+    return std::accumulate(line.begin(), line.end(), Vec3{}) / static_cast<double>(line.size());
+}
 
 class Chooser {
 public:
@@ -46,18 +63,16 @@ public:
 
     /// The best plane, which counts as drawn from now on; nullopt when all are too near to drawn ones or miss the object.
     std::optional<SuggestedPlane> next(PlaneSuggestions& cost) {
-        std::vector<Cut> cuts = candidates();
-        cost.candidates += static_cast<std::int64_t>(cuts.size());
-        std::vector<double> gains(cuts.size());
-        std::vector<std::int64_t> counts(cuts.size());
-        parallel_for(static_cast<std::int64_t>(cuts.size()), 1, work_.threads, [&](std::int64_t begin, std::int64_t end) {
-            for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-                gains[n] = gain(distances_with(cuts[n], counts[n]));
-        });
-        cost.distances += std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-        const auto best = std::max_element(gains.begin(), gains.end());  // the first of equals
-        if (best == gains.end() || !(*best > 0)) return std::nullopt;
-        return take(cuts[static_cast<std::size_t>(best - gains.begin())]);
+        if (options_.planes == PlaneChoice::any && planes_ >= kFirstByClusters && planes_ < kFirstByClusters + kByClusters)
+            if (const auto plane =
+                    plane_through_far_places(evidence_.samples.points, distances_, kClusterReach * evidence_.diameter_mm)) {
+                const Cut cut = cut_by(*plane, {});
+                if (cut.line.size() >= kLeastInCut && !is_copy(cut)) return take(cut);
+            }
+        std::optional<Cut> best = best_of(candidates(), cost);
+        if (!best) return std::nullopt;
+        if (options_.planes == PlaneChoice::any) settle(*best, cost);
+        return take(*best);
     }
 
     /// A plane chosen by another rule.
@@ -73,18 +88,15 @@ public:
             taken.before = expected_dice(evidence_, distances_);
             taken.after = expected_dice(evidence_, after);
         }
-        if (!cut.line.empty()) {
-            Vec3 sum;
-            for (const Vec3& p : cut.line) sum += p;
-            taken.plane.origin = sum / static_cast<double>(cut.line.size());
-        }
+        if (!cut.line.empty()) taken.plane.origin = middle_of(cut.line);
         distances_ = std::move(after);
         drawn_.push_back(cut.plane);
+        ++planes_;
         return taken;
     }
 
     Cut cut_by(const Plane& plane, const std::optional<Slice>& slice) const {
-        Cut cut{plane, slice, {}};
+        Cut cut{.plane = plane, .slice = slice, .line = {}};
         for (const Vec3& p : evidence_.samples.points) {
             const double distance = plane.distance_to(p);
             if (std::abs(distance) < kSlab * evidence_.diameter_mm) cut.line.push_back(p - distance * plane.normal);
@@ -103,10 +115,48 @@ private:
             for (std::size_t n = 0; n < stack.offsets_mm.size(); ++n) {
                 const Plane plane = stack.slices.empty() ? make_plane(stack.offsets_mm[n] * stack.normal, stack.normal)
                                                          : slice_plane(*options_.grid, stack.slices[n]);
-                Cut cut = cut_by(plane, stack.slices.empty() ? std::optional<Slice>() : stack.slices[n]);
-                if (cut.line.size() >= kLeastInCut && !is_copy(cut)) cuts.push_back(std::move(cut));
+                add(cuts, cut_by(plane, stack.slices.empty() ? std::optional<Slice>() : stack.slices[n]));
             }
         return cuts;
+    }
+
+    /// Unless nothing new would be seen in it.
+    void add(std::vector<Cut>& cuts, Cut cut) const {
+        if (cut.line.size() >= kLeastInCut && !is_copy(cut)) cuts.push_back(std::move(cut));
+    }
+
+    /// The first of equals; none where nothing is gained.
+    std::optional<Cut> best_of(std::vector<Cut> cuts, PlaneSuggestions& cost) const {
+        cost.candidates += static_cast<std::int64_t>(cuts.size());
+        std::vector<std::int64_t> counts(cuts.size());
+        parallel_for(static_cast<std::int64_t>(cuts.size()), 1, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+            for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+                cuts[n].gain = gain(distances_with(cuts[n], counts[n]));
+        });
+        cost.distances += std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+        const auto best =
+            std::max_element(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.gain < b.gain; });
+        if (best == cuts.end() || !(best->gain > 0)) return std::nullopt;
+        return std::move(*best);
+    }
+
+    /// Shifts and tilts a plane as long as that gains.
+    void settle(Cut& best, PlaneSuggestions& cost) const {
+        const std::array<Vec3, 3> axes = principal_axes(evidence_.samples.points);
+        double shift = kFirstShift * evidence_.diameter_mm, tilt = kFirstTilt;
+        for (int round = 0; round < kRounds; ++round, shift /= 2, tilt /= 2)
+            for (int step = 0; step < kStepsPerRound; ++step) {
+                const Vec3 middle = middle_of(best.line), normal = best.plane.normal;
+                std::vector<Cut> beside;
+                for (const double sign : {1.0, -1.0}) {
+                    add(beside, cut_by(make_plane(middle + sign * shift * normal, normal), {}));
+                    for (const Vec3& axis : axes)
+                        add(beside, cut_by(make_plane(middle, normalized(normal + sign * tilt * axis)), {}));
+                }
+                std::optional<Cut> better = best_of(std::move(beside), cost);
+                if (!better || !(better->gain > best.gain)) break;
+                best = std::move(*better);
+            }
     }
 
     bool copies(const Cut& cut, const Plane& drawn) const {
@@ -147,6 +197,7 @@ private:
     const Work& work_;
     std::vector<Plane> drawn_;
     std::vector<double> distances_, weights_;
+    std::size_t planes_ = evidence_.plane_count();  ///< drawn or taken
 };
 
 bool all_parallel(const std::vector<Plane>& planes) {

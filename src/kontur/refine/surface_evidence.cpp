@@ -2,6 +2,7 @@
 #include "kontur/refine/surface_evidence.h"
 
 #include "kontur/base/smallest_ball.h"
+#include "kontur/refine/hand_error.h"
 
 namespace kontur {
 
@@ -16,6 +17,7 @@ SurfaceEvidence gather_evidence(SurfaceSamples samples, const ContourSet& contou
     evidence.voxel_mm = facts.voxel_mm;
     evidence.residual_mm = facts.residual_mm;
     evidence.disagreement_mm = facts.disagreement_mm;
+    if (!(facts.disagreement_mm > 0)) evidence.hand_mm = parallel_hand_mm(contours);
     return evidence;
 }
 

@@ -25,6 +25,7 @@ struct SurfaceEvidence {
     double voxel_mm = 0;         ///< smallest spacing of the image that was drawn on; 0: not known
     double residual_mm = 0;      ///< rms distance of the surface from the drawn points
     double disagreement_mm = 0;  ///< rms of contours where they cross; 0 where fewer than four cross
+    double hand_mm = 0;          ///< of a drawn line, where fewer than four cross: what parallel ones tell (hand_error.h)
 
     std::size_t plane_count() const { return lines.planes().size(); }
 };

@@ -43,6 +43,21 @@ STRUCTURE_SETS = {
 # Short-axis contours of a left ventricle: (phase, kind) of the contours, and their mask.
 CINE = "10_cine_mr_SC-HF-I-1"
 CINE_CONTOURS = {"ventricle_ED_endo": (18, "endo"), "ventricle_ES_endo": (7, "endo"), "ventricle_ED_epi": (18, "epi")}
+# What structures were drawn on, by the beginning of their names, and its frame where it has several.
+IMAGES = {
+    "abdomen_": ("01_ct_abdomen_totalseg_3mm/example_ct_sm.nii.gz", None),
+    "vertebrae_": ("01_ct_abdomen_totalseg_3mm/example_ct.nii.gz", None),
+    "bodies_": ("01_ct_abdomen_totalseg_3mm/example_ct.nii.gz", None),
+    "brain_": ("06_mr_brain_MRIcrop/MRIcrop-orig.nii.gz", None),
+    "tumour_0": ("07_mr_brain_tumour_brain1/brain1_image.nrrd", None),
+    "cord": ("13_mr_spinal_cord_t2/t2.nii.gz", None),
+    "levels": ("13_mr_spinal_cord_t2/t2.nii.gz", None),
+    "sarcoma_STS_002": ("03_sarcoma_STS_002/CT/image", None),
+    "sarcoma_STS_040": ("04_sarcoma_STS_040/CT/image", None),
+    "sarcoma_STS_008": ("05_sarcoma_STS_008/CT/image", None),
+    "ventricle_ED": (CINE + "/cine4d_crop.nii.gz", 18),
+    "ventricle_ES": (CINE + "/cine4d_crop.nii.gz", 7),
+}
 
 
 def present(path):
@@ -56,6 +71,14 @@ def label_maps(data, kontur):
     maps = [f"{name}={data / file}" for name, file in LABEL_MAPS.items() if present(data / file)]
     found = structures.collect(maps, [], kontur)
     return {name: entry for name, entry in found.items() if name not in WITHOUT}
+
+
+def image_of(structure, data):
+    """(file, frame or None) of what a structure was drawn on; None where there is no such image."""
+    for beginning, (file, frame) in IMAGES.items():
+        if structure.startswith(beginning) and present(data / file):
+            return data / file, frame
+    return None
 
 
 def read_planes(file, roi, kontur):

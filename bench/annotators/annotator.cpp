@@ -52,7 +52,8 @@ void Annotator::draw(const Plane& plane, bool is_shown, bool and_fit) {
 void Annotator::fit() {
     segmentation_.reset();
     try {
-        segmentation_ = segment(contours_, truth_.grid(), {}, {.threads = 1});
+        const Image* image = truth_.image() ? &*truth_.image() : nullptr;
+        segmentation_ = segment(contours_, truth_.grid(), image, {.use_image = use_image_}, {.threads = 1});
         evidence_ = gather_evidence(*segmentation_, contours_, {.threads = 1});
     } catch (const Error&) {  // counts as nothing drawn
     }
@@ -67,6 +68,7 @@ nlohmann::ordered_json Annotator::facts(std::size_t sample_step) const {
     }
     const SurfaceEvidence& e = evidence_;
     facts["dice"] = rounded(truth_.dice(segmentation_->mask), 1e-5);
+    facts["verdict"] = name(segmentation_->report.image.verdict);
     facts["different_planes"] = e.plane_count();
     facts["diameter_mm"] = e.diameter_mm;
     facts["area_mm2"] = e.samples.area_mm2();
@@ -75,6 +77,7 @@ nlohmann::ordered_json Annotator::facts(std::size_t sample_step) const {
     facts["voxel_mm"] = truth_.drawing_voxel_mm();
     facts["residual_mm"] = e.residual_mm;
     facts["disagreement_mm"] = e.disagreement_mm;
+    facts["hand_mm"] = e.hand_mm;
     facts["expected_dice"] = expected_dice(e).value;
     if (sample_step == 0) return facts;
     nlohmann::ordered_json samples = nlohmann::ordered_json::array();

@@ -14,7 +14,9 @@ namespace kontur {
 /// What an annotator has drawn, what kontur makes of it, and how long the drawing took.
 class Annotator {
 public:
-    explicit Annotator(const Truth& truth) : truth_(truth) { contours_.name = truth.name(); }
+    Annotator(const Truth& truth, UseImage use_image) : truth_(truth), use_image_(use_image) {
+        contours_.name = truth.name();
+    }
 
     const Truth& truth() const { return truth_; }
     const ContourSet& contours() const { return contours_; }
@@ -33,6 +35,7 @@ private:
     void add_seconds(const std::vector<Contour>& drawn, bool is_shown);
 
     const Truth& truth_;
+    UseImage use_image_;  ///< where the truth has one
     ContourSet contours_;
     std::vector<Plane> planes_;
     std::optional<Segmentation> segmentation_;

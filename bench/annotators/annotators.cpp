@@ -15,18 +15,21 @@ namespace {
 struct Words {
     std::vector<std::filesystem::path> folders;
     std::vector<std::string> ways;
-    bool by_hand = false;
+    bool by_hand = false, with_image = false;
     std::size_t sample_step = 0;
     kontur::WayLimits limits;
 };
 
 void run(const Words& words) {
+    kontur::WayLimits limits = words.limits;
+    if (words.with_image) limits.use_image = kontur::UseImage::automatic;
     for (const std::filesystem::path& folder : words.folders) {
         const kontur::Truth truth(folder, words.by_hand ? kontur::Truth::Hand::unsteady : kontur::Truth::Hand::exact);
         for (const std::string& way : words.ways) {
-            kontur::ways().at(way)(truth, words.limits, [&](const kontur::Annotator& annotator) {
-                nlohmann::ordered_json line{
-                    {"structure", truth.name()}, {"way", way}, {"hand", words.by_hand ? "unsteady" : "exact"}};
+            kontur::ways().at(way)(truth, limits, [&](const kontur::Annotator& annotator) {
+                nlohmann::ordered_json line{{"structure", truth.name()},
+                                            {"way", words.with_image ? way + ", image" : way},
+                                            {"hand", words.by_hand ? "unsteady" : "exact"}};
                 line.update(annotator.facts(words.sample_step));
                 fmt::print("{}\n", line.dump());
                 std::fflush(stdout);
@@ -43,6 +46,7 @@ int main(int argc, char** argv) {
     app.add_option("FOLDERS", words.folders, "What truths.py wrote, one for each structure")->required();
     app.add_option("--way", words.ways, "How planes are chosen; again for more [all]")->allow_extra_args(false);
     app.add_flag("--by-hand", words.by_hand, "Contours waver by 0.55 mm");
+    app.add_flag("--with-image", words.with_image, "The image is asked between the contours, where there is one");
     app.add_option("--sample-step", words.sample_step, "Every so many samples of the surface, with their errors; 0: none");
     app.add_option("--most-planes", words.limits.most_planes, "Planes after which an annotator gives up")
         ->check(CLI::Range(1, 15))

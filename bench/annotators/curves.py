@@ -20,7 +20,8 @@ from growth import line, text  # noqa: E402
 
 TARGETS, MOST = (0.95, 0.98), 13
 COLOURS = {"suggestion": "#1b6ca8", "suggested slices": "#56b4e9", "axial": "#c4552d", "axial, re-spaced": "#e69f00",
-           "orthogonal": "#4a8f3c", "random oblique": "#777777", "MITK's rule": "#cc79a7", "rule, then random": "#000000"}
+           "orthogonal": "#4a8f3c", "random oblique": "#777777", "MITK's rule": "#cc79a7", "rule, then random": "#000000",
+           "suggestion, image": "#0b3a5b"}
 TICKS, WIDTH, HEIGHT, LEFT, TOP, ACROSS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5), 250, 180, 46, 30, 310
 
 

@@ -52,6 +52,7 @@ Truth::Truth(const std::filesystem::path& folder, Hand hand)
       fine_(read_mask(folder / "fine.nii.gz")),
       distance_(read_image(folder / "distance.nii.gz")),
       to_index_(distance_.grid.index_to_mm.inverse()) {
+    if (const std::filesystem::path image = folder / "image.nii.gz"; exists(image)) image_ = read_image(image);
     std::vector<Vec3> border;
     Vec3 sum;
     const Grid& g = grid();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -22,6 +23,8 @@ public:
     const Grid& grid() const { return distance_.grid; }
     double cube_mm() const { return grid().spacing_mm().x; }
     double drawing_voxel_mm() const { return cube_mm() / 2; }
+    /// What was drawn on, where there is one.
+    const std::optional<Image>& image() const { return image_; }
     double diameter_mm() const { return diameter_mm_; }
     double volume_mm3() const { return volume_mm3_; }
     const Box3& box() const { return box_; }
@@ -41,6 +44,7 @@ private:
     Hand hand_;
     Mask fine_;
     Image distance_;
+    std::optional<Image> image_;
     Affine3 to_index_;
     double diameter_mm_ = 0, volume_mm3_ = 0;
     Box3 box_;

@@ -8,10 +8,14 @@ Each structure becomes OUTPUT/SET/NAME: `fine.nii.gz`, a mask of cubes of which 
 a margin of 24, for the annotator to cut; `distance.nii.gz`, on every second of its voxels the signed distance in mm to the mask's
 border, positive inside. Voxel steps are no anatomy: masks are smoothed by half a coarse cube, and layers more than 1.8 times as
 thick as wide are interpolated by shape. SET is `tune` and `report` in turn, by name. Parts below 5 % of the largest are left out.
+Where there is an image, `image.nii.gz` is what of it lies within half of the longest side around the structure.
 """
 import argparse
+import functools
 import pathlib
+import subprocess
 import sys
+import tempfile
 
 import nibabel
 import numpy as np
@@ -93,6 +97,31 @@ def write(folder, mask, affine):
     save(folder / "distance.nii.gz", distance[::2, ::2, ::2].astype(np.float32), grid)
 
 
+@functools.cache
+def read_image(file, frame, kontur):
+    """Values along (x, y, z) and the affine to LPS mm."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder, "image.nii.gz")
+        subprocess.run([kontur, "convert", file, copy, "--quiet", *([] if frame is None else ["--frame", str(frame)])], check=True)
+        image = nibabel.load(copy)
+        return np.asarray(image.dataobj), LPS @ image.affine
+
+
+def write_image(folder, values, affine):
+    """What lies around the body."""
+    coarse = nibabel.load(folder / "distance.nii.gz")
+    shape, grid = np.array(coarse.shape), LPS @ coarse.affine
+    spare = CELLS // 2 - MARGIN
+    corners = np.array(np.meshgrid(*[(-spare, n - 1 + spare) for n in shape])).reshape(3, -1)
+    to_index = np.linalg.inv(affine) @ grid
+    index = to_index[:3, :3] @ corners + to_index[:3, 3:]
+    low = np.clip(np.floor(index.min(axis=1)).astype(int), 0, np.array(values.shape) - 2)
+    high = np.clip(np.ceil(index.max(axis=1)).astype(int) + 1, low + 2, values.shape)
+    shift = np.eye(4)
+    shift[:3, 3] = low
+    save(folder / "image.nii.gz", values[tuple(slice(a, b) for a, b in zip(low, high))], affine @ shift)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("data", type=pathlib.Path)
@@ -105,6 +134,9 @@ def main():
         folder = options.output / ("report" if number % 2 else "tune") / name
         if not folder.exists():
             write(folder, mask, affine)
+        image = organ_sources.image_of(name, options.data)
+        if image and not (folder / "image.nii.gz").exists():
+            write_image(folder, *read_image(*image, options.kontur))
         print(folder, file=sys.stderr)
 
 

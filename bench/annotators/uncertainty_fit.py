@@ -33,7 +33,7 @@ class State:
         self.mean_g = (self.g * self.share).sum()
         self.shape = np.log(line["area_mm2"] ** 1.5 / line["volume_mm3"])
         self.area_per_volume = line["area_mm2"] * size / line["volume_mm3"]
-        by_hand = NINETY * max(line["residual_mm"], line["disagreement_mm"] / np.sqrt(2))
+        by_hand = NINETY * max(line["residual_mm"], line["disagreement_mm"] / np.sqrt(2), line["hand_mm"])
         self.drawing = np.hypot(line["voxel_mm"] / 2, by_hand) / size
         self.hand_odds = line["area_mm2"] * line["disagreement_mm"] / (np.sqrt(8) * line["volume_mm3"])
         self.dice = line["dice"]

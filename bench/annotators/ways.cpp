@@ -63,7 +63,7 @@ private:
 /// Plane after plane; the next one is chosen with what is known then.
 template <class Next>
 void one_by_one(const Truth& truth, const WayLimits& limits, const Report& report, bool is_shown, const Next& next) {
-    Annotator annotator(truth);
+    Annotator annotator(truth, limits.use_image);
     Ending ending(limits);
     annotator.draw(first_plane(truth), false);
     report(annotator);
@@ -80,7 +80,7 @@ template <class Set>
 void all_anew(const Truth& truth, const WayLimits& limits, const Report& report, const Set& set) {
     Ending ending(limits);
     for (std::size_t count = 1; count <= limits.most_planes; ++count) {
-        Annotator annotator(truth);
+        Annotator annotator(truth, limits.use_image);
         for (const Plane& plane : set(count)) annotator.draw(plane, false, false);
         annotator.fit();
         report(annotator);

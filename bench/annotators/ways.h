@@ -14,7 +14,8 @@ using Report = std::function<void(const Annotator&)>;
 
 struct WayLimits {
     std::size_t most_planes = 13;
-    double enough_dice = 0.98;  ///< twice in a row ends the drawing
+    double enough_dice = 0.98;           ///< twice in a row ends the drawing
+    UseImage use_image = UseImage::off;  ///< between the contours, where the truth has one
 };
 
 /// Ways to choose planes, by name. `suggestion`, `suggested slices`, `MITK's rule` and `rule, then random` ask after every

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "kontur/base/error.h"
@@ -14,7 +15,8 @@ std::optional<Image> readable_image(const ImageInput& input, const Work& work, s
     try {
         return read_image(input.path, input.options, work);
     } catch (const Error& error) {
-        if (error.kind() == ErrorKind::cancelled || !std::filesystem::exists(input.path)) throw;
+        std::error_code unreachable;
+        if (error.kind() == ErrorKind::cancelled || !std::filesystem::exists(input.path, unreachable)) throw;
         sentence = fmt::format("the image was not used between the contours: {}", error.what());
         return {};
     }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
+#include "kontur/refine/far_places.h"
 #include "kontur/refine/suggest_plane.h"
 
 namespace kontur {
@@ -111,44 +111,17 @@ std::optional<Plane> suggested(const Annotator& annotator, PlaneChoice choice) {
     return found.planes.front().plane;
 }
 
-/// Clusters of samples that are near to each other, the largest first.
-std::vector<std::vector<Vec3>> clusters(std::vector<Vec3> points, double reach) {
-    std::vector<std::vector<Vec3>> found;
-    while (!points.empty()) {
-        std::vector<Vec3> cluster{points.back()};
-        points.pop_back();
-        for (std::size_t n = 0; n < cluster.size(); ++n) {
-            const Vec3 from = cluster[n];
-            const auto near =
-                std::partition(points.begin(), points.end(), [&](const Vec3& p) { return distance(p, from) > reach; });
-            cluster.insert(cluster.end(), near, points.end());
-            points.erase(near, points.end());
-        }
-        found.push_back(std::move(cluster));
-    }
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
-    return found;
-}
-
-Vec3 mean(const std::vector<Vec3>& points) {
-    return std::accumulate(points.begin(), points.end(), Vec3{}) / static_cast<double>(points.size());
-}
-
 /// As MITK's plane proposer: through the middles of the three largest clusters of points far from all contours, or the best
 /// plane through all of these points.
 std::optional<Plane> by_clusters(const Annotator& annotator) {
     if (!annotator.segmentation()) return std::nullopt;
     const SurfaceEvidence& e = annotator.evidence();
     if (e.samples.points.empty()) return std::nullopt;
+    if (const auto plane = plane_through_far_places(e.samples.points, e.distances_mm, 0.06 * e.diameter_mm)) return plane;
     const double most = *std::max_element(e.distances_mm.begin(), e.distances_mm.end());
     std::vector<Vec3> far;
     for (std::size_t n = 0; n < e.samples.points.size(); ++n)
         if (e.distances_mm[n] > most / 2) far.push_back(e.samples.points[n]);
-    const auto found = clusters(far, 0.06 * e.diameter_mm);
-    if (found.size() >= 3) {
-        const Vec3 a = mean(found[0]), normal = cross(mean(found[1]) - a, mean(found[2]) - a);
-        if (norm(normal) > 1e-6 * e.diameter_mm * e.diameter_mm) return make_plane(a, normal);
-    }
     return fit_plane(far);
 }
 

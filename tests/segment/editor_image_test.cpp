@@ -13,6 +13,7 @@
 #include "kontur/live_editor.h"
 #include "kontur/segment.h"
 #include "refine/lobed_body.h"
+#include "segment/same_function.h"
 #include "support/expect_error.h"
 #include "support/random.h"
 
@@ -20,6 +21,8 @@
 
 namespace kontur {
 namespace {
+
+using test::expect_same_function;
 
 using namespace test;
 using Kind = EditorUpdate::Kind;
@@ -33,14 +36,6 @@ std::shared_ptr<const Image> noise_alone() {
     static const auto image = std::make_shared<const Image>(image_of(
         cube_grid(3), [](const Vec3&) { return 50.0; }, 20));
     return image;
-}
-
-void expect_same_function(const ImplicitFunction& a, const ImplicitFunction& b) {
-    EXPECT_EQ(a.centers().x, b.centers().x);
-    EXPECT_EQ(a.centers().y, b.centers().y);
-    EXPECT_EQ(a.centers().z, b.centers().z);
-    EXPECT_TRUE(std::ranges::equal(a.weights(), b.weights()));
-    EXPECT_EQ(a.polynomial(), b.polynomial());
 }
 
 /// All that a live editor says but how far it is.

@@ -8,6 +8,7 @@
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/drawing.h"
 #include "kontur/segment.h"
+#include "segment/same_function.h"
 #include "support/coarse_grid.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
@@ -16,13 +17,7 @@
 namespace kontur {
 namespace {
 
-void expect_same_function(const ImplicitFunction& a, const ImplicitFunction& b) {
-    EXPECT_EQ(a.centers().x, b.centers().x);
-    EXPECT_EQ(a.centers().y, b.centers().y);
-    EXPECT_EQ(a.centers().z, b.centers().z);
-    EXPECT_TRUE(std::ranges::equal(a.weights(), b.weights()));
-    EXPECT_EQ(a.polynomial(), b.polynomial());
-}
+using test::expect_same_function;
 
 /// Distances of the mesh's points from the zero level of the function, to first order.
 std::vector<double> distances(const TriangleMesh& mesh, const ImplicitFunction& function) {

@@ -67,7 +67,7 @@ public:
             if (const auto plane =
                     plane_through_far_places(evidence_.samples.points, distances_, kClusterReach * evidence_.diameter_mm)) {
                 const Cut cut = cut_by(*plane, {});
-                if (cut.line.size() >= kLeastInCut && !is_copy(cut)) return take(cut);
+                if (shows_more(cut)) return take(cut);
             }
         std::optional<Cut> best = best_of(candidates(), cost);
         if (!best) return std::nullopt;
@@ -120,9 +120,11 @@ private:
         return cuts;
     }
 
-    /// Unless nothing new would be seen in it.
+    /// Whether the object would be seen in it, and not as it was seen already.
+    bool shows_more(const Cut& cut) const { return cut.line.size() >= kLeastInCut && !is_copy(cut); }
+
     void add(std::vector<Cut>& cuts, Cut cut) const {
-        if (cut.line.size() >= kLeastInCut && !is_copy(cut)) cuts.push_back(std::move(cut));
+        if (shows_more(cut)) cuts.push_back(std::move(cut));
     }
 
     /// The first of equals; none where nothing is gained.

@@ -409,14 +409,16 @@ export class App {
     });
   }
 
-  /** Asks before work is left that no next visit would bring back. */
+  /** Asks before work is left that no next visit would bring back. What is saved as late as "pagehide" Firefox no longer sends. */
   private guardClosing(): void {
+    const save = () => {
+      if (this.keeper.isWaiting) this.keeper.save();
+    };
     window.addEventListener("beforeunload", (event) => {
+      save();
       if (!this.saving.isDone || (this.editor.drawing.sketch && this.saving.connection !== "open")) event.preventDefault();
     });
-    window.addEventListener("pagehide", () => {
-      if (this.keeper.isWaiting) this.keeper.save();
-    });
+    window.addEventListener("pagehide", save);
   }
 }
 

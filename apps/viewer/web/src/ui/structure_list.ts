@@ -8,6 +8,7 @@ import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "./icons";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye
+const DOUBLE_CLICK_MS = 500; // what desktops begin with
 
 /** Structures with their contours. */
 export class StructureList {
@@ -16,6 +17,7 @@ export class StructureList {
   /** What the user wants otherwise than `isOpenByItself` has it. */
   private readonly opened = new Map<number, boolean>();
   private readonly rows: ContourRows;
+  private clicked = { structure: 0, at: -Infinity };
 
   constructor(
     private readonly services: RowServices,
@@ -119,9 +121,8 @@ export class StructureList {
       title: "Double click or F2: rename",
       class: "name",
       part: "name",
-      // The list is made anew between the clicks of a double click, so no element gets a "dblclick".
-      click: ({ detail }) => {
-        if (detail >= 2) this.rename(structure.id);
+      click: (event) => {
+        if (this.isDouble(event, structure.id)) this.rename(structure.id);
       },
     });
     label.setAttribute("aria-label", structure.name);
@@ -133,6 +134,13 @@ export class StructureList {
       },
     });
     return label;
+  }
+
+  /** The list is made anew between the clicks of a double click: no element gets a "dblclick", and Firefox counts only those on one element. */
+  private isDouble({ detail, timeStamp }: MouseEvent, structure: number): boolean {
+    const isSoon = this.clicked.structure === structure && timeStamp - this.clicked.at < DOUBLE_CLICK_MS;
+    this.clicked = { structure, at: timeStamp };
+    return isSoon || detail >= 2;
   }
 
   /** Lets the user type another name. */

@@ -84,13 +84,14 @@ def test_what_is_missing_is_said_and_fails_nothing(test, path, kind, name, owner
     assert re.search(rf"^SKIPPED .*\b({re.escape(name)}|{path.name})\b", result.stdout, re.MULTILINE), result.stdout[-3000:]
 
 
-def test_without_a_browser_the_pages_tests_are_skipped(tmp_path):
-    [test] = [test for test in listed_tests() if test["name"] == "web.page"]
+@pytest.mark.parametrize("name, browser", [("web.page", "KONTUR_CHROMIUM"), ("web.firefox", "KONTUR_FIREFOX")])
+def test_without_a_browser_the_pages_tests_are_skipped(name, browser, tmp_path):
+    [test] = [test for test in listed_tests() if test["name"] == name]
     properties = {entry["name"]: entry["value"] for entry in test["properties"]}
     if "SKIP_RETURN_CODE" not in properties:
         pytest.skip("this build has no page")
     result = subprocess.run(test["command"], cwd=properties["WORKING_DIRECTORY"], capture_output=True, text=True, timeout=120,
-                            env={**environment_of(test), "KONTUR_CHROMIUM": str(tmp_path / "none")})
+                            env={**environment_of(test), browser: str(tmp_path / "none")})
     assert result.returncode == properties["SKIP_RETURN_CODE"] and result.stdout.startswith("skipped: ")
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the TypeScript under tests/<what>/ and runs it: `node tests/run.mjs unit`, or only some of its files:
-// `node tests/run.mjs e2e edit`.
+// `node tests/run.mjs e2e edit`. KONTUR_BROWSER=firefox runs e2e and bench in Firefox instead of Chromium.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -9,13 +9,19 @@ import { build } from "esbuild";
 
 const [what = "unit", ...rest] = process.argv.slice(2);
 
-if (what === "e2e" && !existsSync(process.env.KONTUR_CHROMIUM ?? "/usr/bin/chromium")) {
-  console.log("skipped: there is no Chromium to open the page in (tools/setup installs it)");
+const browsers = {
+  chromium: [process.env.KONTUR_CHROMIUM ?? "/usr/bin/chromium"],
+  firefox: [process.env.KONTUR_FIREFOX ?? "/usr/bin/firefox-esr", "/usr/bin/Xvfb"],
+};
+const browser = process.env.KONTUR_BROWSER ?? "chromium";
+const missing = browsers[browser].find((path) => !existsSync(path));
+if (what === "e2e" && missing) {
+  console.log(`skipped: there is no ${missing} to open the page in (tools/setup installs it)`);
   process.exit(77);
 }
 
 const tests = dirname(fileURLToPath(import.meta.url));
-const output = join(tests, "..", "node_modules", ".tests", what);
+const output = join(tests, "..", "node_modules", ".tests", browser, what); // the two may run at once
 const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(what === "bench" ? ".ts" : ".test.ts")).filter((name) => what === "bench" || rest.length === 0 || rest.some((word) => name.startsWith(word)));
 
 mkdirSync(output, { recursive: true });

@@ -3,7 +3,8 @@
 import { closeSync, openSync, readFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { launch, run, Server, temporaryFolder, Viewer } from "../e2e/support";
+import { launch } from "../e2e/browsers";
+import { run, Server, temporaryFolder, Viewer } from "../e2e/support";
 
 const EDITS = 8;
 const SCROLLS = 30;

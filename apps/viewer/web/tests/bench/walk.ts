@@ -5,7 +5,8 @@ import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
-import { KONTUR, launch, run, Server, temporaryFolder, Viewer } from "../e2e/support";
+import { launch } from "../e2e/browsers";
+import { KONTUR, run, Server, temporaryFolder, Viewer } from "../e2e/support";
 
 const READ_HINT_MS = 8000;
 const CLICK_MS = 1300; // to aim and to click

@@ -6,7 +6,8 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { cleanUp, KONTUR, launch, run, Server, temporaryFolder, Viewer } from "./support";
+import { launch } from "./browsers";
+import { cleanUp, KONTUR, run, Server, temporaryFolder, Viewer } from "./support";
 
 /** Change the steps below with the guide, and what is done for them. */
 const STEPS = [

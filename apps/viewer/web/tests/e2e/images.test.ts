@@ -6,7 +6,8 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, launch, run, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { launch } from "./browsers";
+import { BALL_ML, BALL_RADIUS_MM, circle, cleanUp, run, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 let browser: Browser;

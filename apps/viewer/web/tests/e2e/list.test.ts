@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
-import { BallVisits, NO_WEBGL, Viewer, writeBallImage } from "./support";
+import { NO_WEBGL } from "./browsers";
+import { BallVisits, Viewer, writeBallImage } from "./support";
 
 const STRUCTURES = 30;
 /** Thirty surfaces drawn without a graphics processor would keep the page busy for minutes. */

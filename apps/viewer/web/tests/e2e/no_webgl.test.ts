@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
-import { BALL_RADIUS_MM, circle, launch, NO_WEBGL, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { launch, NO_WEBGL } from "./browsers";
+import { BALL_RADIUS_MM, circle, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 test("without WebGL slices and drawing work, and the 3D view says why it is missing", async () => {
   const folder = temporaryFolder();

@@ -6,7 +6,8 @@ import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_RADIUS_MM, circle, cleanUp, launch, run, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { launch } from "./browsers";
+import { BALL_RADIUS_MM, circle, cleanUp, run, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 const image = join(folder.path, "ball.nii");

@@ -7,7 +7,8 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { circle, cleanUp, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { launch } from "./browsers";
+import { circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const folder = temporaryFolder();

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { spawn, spawnSync, type ChildProcess } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before } from "node:test";
-import { chromium, type Browser, type Locator, type Page } from "playwright-core";
+import type { Browser, Locator, Page } from "playwright-core";
+import { downloaded, launch, PATIENCE_MS, type Wish } from "./browsers";
 
 export const KONTUR = process.env["KONTUR_CLI"] ?? "kontur";
-const CHROMIUM = process.env["KONTUR_CHROMIUM"] ?? "/usr/bin/chromium";
-/** As Chromium does where there is no graphics processor: WebGL in software, and the page itself without it. */
-const SOFTWARE_WEBGL = ["--enable-unsafe-swiftshader"];
-export const NO_WEBGL = ["--disable-gpu", "--disable-software-rasterizer"];
-/** Long, because other programs may keep the machine busy, and sanitizers the program; every wait is for a state. */
-const PATIENCE_MS = process.env["KONTUR_SANITIZED"] ? 240_000 : 60_000;
+
+/** Of the empty style that Playwright adds to a page for a screenshot, where the page's policy forbids it and Firefox says so. */
+const SCREENSHOT_STYLE = "sha256-YjaKGiklmzC6wjXA513HAMmzus8VE61XCOT+SmwNZWA=";
 
 interface Folder {
   path: string;
@@ -89,6 +87,7 @@ export class Server {
     child.stderr.on("data", (data: Buffer) => (complaint += data.toString()));
     const address = await new Promise<string>((resolve, reject) => {
       createInterface(child.stdout).once("line", resolve);
+      child.once("error", reject);
       child.once("exit", () => reject(new Error(`kontur open ended: ${complaint}`)));
     });
     return new Server(child, address);
@@ -124,10 +123,6 @@ export class Server {
   }
 }
 
-export function launch(flags: string[] = SOFTWARE_WEBGL): Promise<Browser> {
-  return chromium.launch({ executablePath: CHROMIUM, args: flags });
-}
-
 /** After the last test of a file: ends what was opened, then removes the folder. */
 export function cleanUp(folder: Folder, opened: () => (Browser | Server | undefined)[]): void {
   after(async () => {
@@ -145,10 +140,10 @@ export class BallVisits {
   private count = 0;
   private readonly image = join(this.folder.path, "ball.nii");
 
-  constructor(flags?: string[]) {
+  constructor(wish?: Wish) {
     before(async () => {
       writeBallImage(this.image);
-      this.browser = await launch(flags);
+      this.browser = await launch(wish);
     });
     cleanUp(this.folder, () => [this.browser, this.server]);
   }
@@ -170,8 +165,9 @@ export class Viewer {
 
   private constructor(readonly page: Page) {
     page.setDefaultTimeout(PATIENCE_MS);
-    page.on("pageerror", (error) => this.complaints.push(String(error.stack)));
-    page.on("console", (message) => message.type() === "error" && this.complaints.push(message.text()));
+    const hear = (text: string) => void (text.includes(SCREENSHOT_STYLE) || this.complaints.push(text));
+    page.on("pageerror", (error) => hear(String(error.stack)));
+    page.on("console", (message) => message.type() === "error" && hear(message.text()));
   }
 
   static async open(browser: Browser, address: string): Promise<Viewer> {
@@ -314,12 +310,9 @@ export class Viewer {
   /** Exports by the dialog. */
   async export(name: string): Promise<{ name: string; bytes: Buffer }> {
     await this.page.click("[data-test=export]");
-    const download = this.page.waitForEvent("download");
-    await this.page.click(`[data-test="export-${name}"]`);
-    const file = await download;
-    const bytes = readFileSync(await file.path());
+    const file = await downloaded(this.page, () => this.page.click(`[data-test="export-${name}"]`));
     await this.page.keyboard.press("Escape");
-    return { name: file.suggestedFilename(), bytes };
+    return file;
   }
 
   /** Pixels of a pane whose colour the test accepts. */

@@ -6,7 +6,8 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, beforeEach, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_RADIUS_MM, circle, cleanUp, launch, NO_WEBGL, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { launch, NO_WEBGL } from "./browsers";
+import { BALL_RADIUS_MM, circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 const image = join(folder.path, "ball.nii");

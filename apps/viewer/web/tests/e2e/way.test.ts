@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { BALL_RADIUS_MM, circle, launch, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+import { launch } from "./browsers";
+import { BALL_RADIUS_MM, circle, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const folder = temporaryFolder();
 const image = join(folder.path, "ball.nii");

@@ -167,6 +167,7 @@ export class App {
           isPanning: () => this.keyboard.isPanning,
           pointed: (_, event) => this.pointed(view, event),
           jump: (_, event) => this.jump(view, event),
+          hint: (text) => (text === null ? this.tellHint() : this.status.setHint(text)),
         }),
       );
       const activate = (event: PointerEvent) => {

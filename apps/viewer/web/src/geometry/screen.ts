@@ -12,6 +12,8 @@ export interface Screen {
   readonly mm_per_pixel: number; // CSS pixel
   readonly width: number;
   readonly height: number;
+  /** How many times as far from a line or a point as by a mouse it is still taken: a finger hides what it touches. */
+  readonly reach?: number;
 }
 
 export const planeOf = (screen: Screen): Plane => ({ ...screen.axes, origin: screen.center });

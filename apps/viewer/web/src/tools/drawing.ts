@@ -13,6 +13,7 @@ import { isHidden } from "./sight";
 import { Sketch } from "./sketch";
 
 const CLOSE_PIXELS = 11;
+const SAME_PIXELS = 3; // of two clicks on one point
 const HAND_STEP_PIXELS = 1.5;
 const LEAST_WIDTH_PIXELS = 5; // of a contour drawn in one go: what is narrower is a slip of the hand
 
@@ -140,7 +141,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   private click(screen: Screen, at: Point2, kind: StretchKind): void {
     const sketch = this.begun(screen, kind);
-    const onLast = sketch.last && gap(toScreen(screen, sketch.last.at), at) < 3;
+    const onLast = sketch.last && gap(toScreen(screen, sketch.last.at), at) < SAME_PIXELS * (screen.reach ?? 1);
     if ((this.isNearStart(screen, at) && sketch.canClose) || (onLast && sketch.canClose)) return this.close();
     if (onLast) return;
     sketch.place(toWorld(screen, at));
@@ -157,7 +158,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   private isNearStart(screen: Screen, at: Point2): boolean {
     const first = this.sketch?.first;
-    return first !== undefined && this.sketch!.points.length > 1 && gap(toScreen(screen, first), at) < CLOSE_PIXELS;
+    return first !== undefined && this.sketch!.points.length > 1 && gap(toScreen(screen, first), at) < CLOSE_PIXELS * (screen.reach ?? 1);
   }
 
   // Lines, which the server makes

@@ -43,7 +43,7 @@ export function hitContour(
 
 function hitPoint(contour: Contour, screen: Screen, pointer: Point2): ContourHit | null {
   if (!hasHandles(contour)) return null;
-  let nearest = POINT_PIXELS;
+  let nearest = POINT_PIXELS * (screen.reach ?? 1);
   let hit: ContourHit | null = null;
   contour.control.forEach(({ at }, index) => {
     const distance = gap(toScreen(screen, at), pointer);
@@ -56,7 +56,7 @@ function hitPoint(contour: Contour, screen: Screen, pointer: Point2): ContourHit
 
 function hitLine(contour: Contour, screen: Screen, pointer: Point2): ContourHit | null {
   const { at, distance } = nearestOnLoop(contour.points.map((p) => toScreen(screen, p)), pointer);
-  return distance > LINE_PIXELS ? null : { on: "line", contour: contour.id, at: toWorld(screen, at) };
+  return distance > LINE_PIXELS * (screen.reach ?? 1) ? null : { on: "line", contour: contour.id, at: toWorld(screen, at) };
 }
 
 /** The line in which another view's plane cuts this one, with the handles that turn it. */
@@ -81,11 +81,11 @@ export function planeLine(screen: Screen, crosshair: Vec3, view: ViewName, other
 
 export type LineHit = { on: "turn" | "move"; view: ViewName } | { on: "crosshair" };
 
-export function hitPlaneLines(lines: readonly PlaneLine[], crosshair: Point2, pointer: Point2): LineHit | null {
-  if (gap(crosshair, pointer) < 9) return { on: "crosshair" };
+export function hitPlaneLines(lines: readonly PlaneLine[], crosshair: Point2, pointer: Point2, reach = 1): LineHit | null {
+  if (gap(crosshair, pointer) < 9 * reach) return { on: "crosshair" };
   for (const { view, handles } of lines)
-    if (handles.some((handle) => gap(handle, pointer) < POINT_PIXELS)) return { on: "turn", view };
+    if (handles.some((handle) => gap(handle, pointer) < POINT_PIXELS * reach)) return { on: "turn", view };
   for (const { view, ends } of lines)
-    if (nearestOnLine(pointer, ends[0], ends[1]).distance < LINE_PIXELS) return { on: "move", view };
+    if (nearestOnLine(pointer, ends[0], ends[1]).distance < LINE_PIXELS * reach) return { on: "move", view };
   return null;
 }

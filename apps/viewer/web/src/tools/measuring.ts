@@ -50,7 +50,7 @@ export class Measuring {
 
   pointAt(screen: Screen, step_mm: number, pointer: Point2): { measurement: Measurement; index: number } | null {
     for (const measurement of this.measurements.lyingIn(planeOf(screen), step_mm)) {
-      const index = measurement.points.findIndex((p) => gap(toScreen(screen, p), pointer) < POINT_PIXELS);
+      const index = measurement.points.findIndex((p) => gap(toScreen(screen, p), pointer) < POINT_PIXELS * (screen.reach ?? 1));
       if (index >= 0) return { measurement, index };
     }
     return null;

@@ -95,6 +95,6 @@ export class OutlineEdits extends Edits {
 
   private below(view: ViewName, screen: Screen, pointer: Point2): ReturnType<typeof nearestOutline> {
     const found = nearestOutline(this.free(view, screen), pointer);
-    return found && found.place.distance <= LINE_PIXELS ? found : null;
+    return found && found.place.distance <= LINE_PIXELS * (screen.reach ?? 1) ? found : null;
   }
 }

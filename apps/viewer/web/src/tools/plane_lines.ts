@@ -25,7 +25,7 @@ export class PlaneLines {
   }
 
   at(view: ViewName, screen: Screen, pointer: Point2): LineHit | null {
-    return hitPlaneLines(this.seenIn(view, screen), toScreen(screen, this.navigation.crosshair), pointer);
+    return hitPlaneLines(this.seenIn(view, screen), toScreen(screen, this.navigation.crosshair), pointer, screen.reach);
   }
 
   press(view: ViewName, screen: Screen, pointer: Point2): Gesture {
@@ -34,8 +34,9 @@ export class PlaneLines {
     if (hit?.on === "move") return this.slide(screen, hit.view, pointer);
     const go = (at: Point2) => this.navigation.setCrosshair(toWorld(screen, at));
     if (hit?.on !== "crosshair") this.project.select(null);
+    const before = this.navigation.crosshair;
     go(pointer);
-    return { move: go, end: () => undefined };
+    return { move: go, end: () => undefined, cancel: () => this.navigation.setCrosshair(before) };
   }
 
   private turn(view: ViewName, turned: ViewName, pointer: Point2): Gesture {
@@ -43,6 +44,7 @@ export class PlaneLines {
       const [x, y] = toScreen(this.screenOf(view)!, this.navigation.crosshair);
       return Math.atan2(at[1] - y, at[0] - x);
     };
+    const before = this.navigation.cameras[turned].axes;
     let last = angleAt(pointer);
     return {
       move: (at) => {
@@ -51,6 +53,7 @@ export class PlaneLines {
         last = angle;
       },
       end: () => undefined,
+      cancel: () => this.navigation.turnTo(turned, before),
     };
   }
 
@@ -59,6 +62,7 @@ export class PlaneLines {
     const { normal } = this.navigation.cameras[slid].axes;
     const { u, v } = screen.axes;
     const across = add(scale(u, dot(normal, u)), scale(v, dot(normal, v)));
+    const before = this.navigation.crosshair;
     let last = pointer;
     return {
       move: (at) => {
@@ -69,6 +73,7 @@ export class PlaneLines {
       end: (at) => {
         if (gap(at, pointer) <= DRAG_PIXELS) this.navigation.setCrosshair(toWorld(screen, at)); // a click, not a drag
       },
+      cancel: () => this.navigation.setCrosshair(before),
     };
   }
 }

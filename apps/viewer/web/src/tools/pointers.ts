@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
-type Pointer = Pick<PointerEvent, "pointerId" | "pointerType">;
+type Pointer = Pick<PointerEvent, "pointerId" | "pointerType"> & { isPrimary?: boolean };
 
-/** Which pointer works on the views: one at a time, so that a second finger neither ends nor bends the line of the first, and no hand that rests beside a pen. */
+/** Which pointer works on the views: one at a time, so that nothing else that touches the screen ends or bends a line, and no hand that rests beside a pen. */
 export class Pointers {
   private holder: { pointer: Pointer; leave: () => void } | null = null;
   private knowsPen = false;
@@ -19,7 +19,7 @@ export class Pointers {
       return false;
     }
     const isPalmBelow = pointer.pointerType === "pen" && this.holder?.pointer.pointerType === "touch";
-    if (this.isOther(pointer) && !isPalmBelow) return false;
+    if (this.isOther(pointer) && !isPalmBelow && !this.isStale(pointer)) return false;
     this.holder?.leave();
     this.holder = { pointer, leave };
     return true;
@@ -38,12 +38,17 @@ export class Pointers {
     return this.isPalm(pointer) || this.isOther(pointer);
   }
 
+  /** A first finger says that no other one touches any more, whatever was told of the one before. */
+  private isStale({ pointerType, isPrimary }: Pointer): boolean {
+    return pointerType === "touch" && isPrimary === true && this.holder?.pointer.pointerType === "touch";
+  }
+
   private isOther({ pointerId }: Pointer): boolean {
     return this.holder !== null && this.holder.pointer.pointerId !== pointerId;
   }
 
   /** Who has a pen rests his hand on the screen: for good, since it touches at any time, and often before the pen does. */
-  private isPalm({ pointerType }: Pointer): boolean {
+  isPalm({ pointerType }: Pointer): boolean {
     this.knowsPen ||= pointerType === "pen";
     return pointerType === "touch" && this.knowsPen;
   }

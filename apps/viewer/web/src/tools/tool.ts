@@ -30,7 +30,7 @@ export interface ToolContext {
 /** What the pointer would take. */
 export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { brush: Point2; view: ViewName } | { measure: boolean; at: Point2; view: ViewName } | null;
 
-export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D"] as const;
+export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D", "Touch"] as const;
 export type HelpSection = (typeof HELP_SECTIONS)[number];
 export type HelpRow = readonly [keys: string, what: string];
 export type Help = Partial<Record<HelpSection, readonly HelpRow[]>>;

@@ -4,6 +4,8 @@ import { sub } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { SliceView } from "../view/slice_view";
 import type { Editor } from "./editor";
+import { fingerPair } from "./finger_pair";
+import { Fingers } from "./fingers";
 import type { Gesture } from "./gesture";
 import type { Pointers } from "./pointers";
 
@@ -14,21 +16,34 @@ export interface InputServices {
   isPanning(): boolean; // space is held
   pointed(view: SliceView, event: PointerEvent): void;
   jump(view: SliceView, event: PointerEvent): void;
+  /** What can be done by what has begun, until it ends. */
+  hint(text: string | null): void;
 }
 
 const WHEEL_STEP = 60; // of deltaY in pixels, for touchpads that send many small ones
+const FINGER_REACH = 2.2;
 
-/** Lets the mouse scroll, zoom, pan and window a view, and hands the left button to the editor. */
+/** Lets mouse and fingers scroll, zoom, pan and window a view, and hands the left button, the pen and one finger to the editor. */
 export class ViewInput {
   private gesture: Gesture | null = null;
   private tookPress = false; // the last one
   private wheelRest = 0;
+  private readonly fingers: Fingers;
 
   constructor(
     private readonly view: SliceView,
     private readonly services: InputServices,
   ) {
     const canvas = view.overlay;
+    this.fingers = new Fingers({
+      press: (at) => this.pressByFinger(at),
+      rest: (at) => this.windowAfterRest(at),
+      pair: (a, b) => fingerPair(view.name, services.navigation, () => view.screen(), a, b),
+      later: (act, ms) => {
+        const timer = window.setTimeout(act, ms);
+        return () => window.clearTimeout(timer);
+      },
+    });
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event));
@@ -36,6 +51,9 @@ export class ViewInput {
       canvas.addEventListener(type, (event) => {
         if (services.pointers.holds(event)) this.cancel();
       });
+    canvas.addEventListener("pointercancel", (event) => {
+      if (isTouch(event) && this.fingers.drop(event.pointerId)) services.pointers.release();
+    });
     canvas.addEventListener("pointerleave", (event) => {
       if (this.gesture === null && !services.pointers.ignores(event)) services.editor.left();
     });
@@ -48,6 +66,10 @@ export class ViewInput {
 
   /** Leaves what the pointer is doing; false when it is doing nothing. */
   cancel(): boolean {
+    if (this.fingers.cancel()) {
+      this.services.pointers.release();
+      return true;
+    }
     const gesture = this.release();
     gesture?.cancel?.();
     return gesture !== null;
@@ -56,21 +78,24 @@ export class ViewInput {
   private down(event: PointerEvent): void {
     const screen = this.view.screen();
     const { editor, pointers } = this.services;
+    if (isTouch(event) && !pointers.isPalm(event) && this.fingers.join(event.pointerId, this.view.pointOf(event))) return;
     this.tookPress = screen !== null && pointers.take(event, () => void this.cancel());
     if (!screen || !this.tookPress) return;
     this.view.overlay.focus({ preventScroll: true });
     this.view.overlay.setPointerCapture(event.pointerId);
     const at = this.view.pointOf(event);
+    event.preventDefault();
+    if (isTouch(event)) return this.fingers.begin(event.pointerId, at);
     const modifiers = { ctrl: event.ctrlKey || event.metaKey, shift: event.shiftKey };
     if (event.button === 2) this.gesture = this.windowGesture(at);
     else if (event.button === 1 || (event.button === 0 && this.services.isPanning())) this.gesture = this.panGesture(at);
     else if (event.button === 0) this.gesture = editor.press(this.view.name, screen, at, modifiers);
     if (!this.gesture) pointers.release();
-    event.preventDefault();
   }
 
   private move(event: PointerEvent): void {
     const screen = this.view.screen();
+    if (isTouch(event)) return this.moveFinger(event);
     if (!screen || this.services.pointers.ignores(event)) return;
     const at = this.view.pointOf(event);
     this.services.pointed(this.view, event);
@@ -79,15 +104,44 @@ export class ViewInput {
     this.services.editor.moved(this.view.name, screen, at);
   }
 
-  /** A busy page gets one event for several places of the pointer. */
+  private moveFinger(event: PointerEvent): void {
+    const { pointers } = this.services;
+    if (pointers.holds(event)) this.services.pointed(this.view, event);
+    if (!pointers.isPalm(event)) this.fingers.move(event.pointerId, this.placesOf(event));
+  }
+
   private follow(gesture: Gesture, event: PointerEvent): void {
-    const places = gesture.isStroke ? (event.getCoalescedEvents?.() ?? []) : []; // older browsers have none
-    for (const place of places.length > 0 ? places : [event]) gesture.move(this.view.pointOf(place));
+    for (const place of gesture.isStroke ? this.placesOf(event) : [this.view.pointOf(event)]) gesture.move(place);
+  }
+
+  /** A busy page gets one event for several places of the pointer. */
+  private placesOf(event: PointerEvent): Point2[] {
+    const places = event.getCoalescedEvents?.() ?? []; // older browsers have none
+    return (places.length > 0 ? places : [event]).map((place) => this.view.pointOf(place));
   }
 
   private up(event: PointerEvent): void {
+    if (isTouch(event)) return this.liftFinger(event);
     if (!this.services.pointers.holds(event)) return;
     this.release()?.end(this.view.pointOf(event));
+  }
+
+  private liftFinger(event: PointerEvent): void {
+    const { pointers, hint } = this.services;
+    if (pointers.isPalm(event) || !this.fingers.lift(event.pointerId, this.view.pointOf(event))) return;
+    pointers.release();
+    hint(null);
+  }
+
+  private pressByFinger(at: Point2): Gesture | null {
+    const screen = this.view.screen();
+    return screen && this.services.editor.press(this.view.name, { ...screen, reach: FINGER_REACH }, at, { ctrl: false, shift: false });
+  }
+
+  private windowAfterRest(at: Point2): Gesture {
+    this.services.hint("Drag for the window: width to the right, centre up and down");
+    navigator.vibrate?.(15); // Firefox and Safari have none
+    return this.windowGesture(at);
   }
 
   private release(): Gesture | null {
@@ -137,3 +191,5 @@ export class ViewInput {
     };
   }
 }
+
+const isTouch = ({ pointerType }: PointerEvent): boolean => pointerType === "touch";

@@ -18,6 +18,12 @@ const GESTURES: Help = {
     ["Left, middle, right drag", "turn, zoom, shift"],
     ["Double click on the surface", "show that place in the slices"],
   ],
+  Touch: [
+    ["One finger", "what the mouse does with the tool; a tap is a click"],
+    ["Two fingers up, down", "scroll through slices"],
+    ["Two fingers apart, together, sideways", "zoom, shift; a line that one of them has just begun is dropped"],
+    ["One finger rests, then drags", "window: width to the right, centre up and down"],
+  ],
 };
 
 /** The rows of a section of the sheet: of the mouse, of tools, of keys. */

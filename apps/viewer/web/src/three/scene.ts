@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
 import { boxSection } from "../geometry/plane";
 import type { Plane } from "../geometry/plane";
-import { add, distance, mix, scale, type Vec3 } from "../geometry/vec";
+import { add, distance, scale, type Vec3 } from "../geometry/vec";
 import { tinted } from "../view/palette";
 import { coarseTriangles } from "./coarse";
 import { isSoftwareRenderer, Pace } from "./pace";
@@ -24,7 +24,7 @@ interface Shown {
   style: string;
 }
 
-const LETTER_PIXELS = 26;
+const MARK_PIXELS = 4.5; // their radius
 const LOOK_MS = 3; // how often to look whether a frame is finished
 
 const vector = (p: Vec3): THREE.Vector3 => new THREE.Vector3(p[0], p[1], p[2]);
@@ -41,7 +41,7 @@ export class Scene {
   private readonly lines = new THREE.Group();
   private readonly planes = new THREE.Group();
   private readonly marks = new THREE.Group();
-  private readonly letters = new THREE.Group();
+  private readonly box: THREE.LineSegments; // the image's edges, while there is no surface
   private readonly extent_mm: number;
   private readonly center: Vec3;
   private readonly pace: Pace;
@@ -68,8 +68,8 @@ export class Scene {
     });
     this.center = scale(corners.reduce(add), 1 / corners.length);
     this.extent_mm = Math.max(...corners.map((corner) => distance(corner, this.center)));
-    this.scene.add(new THREE.HemisphereLight(0xdfe8f5, 0x2a2f38, 1.5), this.light, this.lines, this.planes, this.marks, this.letters);
-    this.scene.add(this.imageBox());
+    this.scene.add(new THREE.HemisphereLight(0xdfe8f5, 0x2a2f38, 1.5), this.light, this.lines, this.planes, this.marks);
+    this.scene.add((this.box = this.imageBox()));
     this.controls = new TrackballControls(this.camera, canvas);
     Object.assign(this.controls, { rotateSpeed: 3, zoomSpeed: 1.2, panSpeed: 0.9, staticMoving: true });
     this.controls.addEventListener("change", () => this.pace.changed());
@@ -173,7 +173,7 @@ export class Scene {
       const fan = outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]);
       const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
       const rim = new THREE.BufferGeometry().setFromPoints(points);
-      this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(color, 0.6)));
+      this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(color, 0.4)));
     }
     this.pace.changed(true);
   }
@@ -182,7 +182,7 @@ export class Scene {
     if (places.length === 0 && this.marks.children.length === 0) return;
     this.clear(this.marks);
     for (const place of places) {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(this.extent_mm / 90, 16, 12), this.markMaterial());
+      const ball = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), this.markMaterial());
       ball.position.copy(vector(place));
       this.marks.add(ball);
     }
@@ -198,16 +198,19 @@ export class Scene {
   }
 
   private surfaceSphere(): THREE.Sphere | null {
-    const box = new THREE.Box3();
-    for (const { mesh } of this.surfaces.values()) if (mesh.visible) box.expandByObject(mesh);
-    return box.isEmpty() ? null : box.getBoundingSphere(new THREE.Sphere());
+    const all = new THREE.Sphere().makeEmpty();
+    for (const { mesh, fine } of this.surfaces.values()) {
+      if (!fine.boundingSphere) fine.computeBoundingSphere();
+      if (mesh.visible && fine.boundingSphere) all.union(fine.boundingSphere);
+    }
+    return all.isEmpty() ? null : all;
   }
 
-  /** Whether the surfaces lie within the view and fill a good part of it. */
+  /** Whether the surfaces lie within the view and fill most of it. */
   private isInSight(): boolean {
     const sphere = this.surfaceSphere();
     if (!sphere) return true;
-    return sphere.center.distanceTo(this.controls.target) + sphere.radius <= 1.1 * this.radius && sphere.radius > 0.3 * this.radius;
+    return sphere.center.distanceTo(this.controls.target) + sphere.radius <= 1.1 * this.radius && sphere.radius > 0.75 * this.radius;
   }
 
   /** Looks from this direction (LPS), head up. */
@@ -250,7 +253,9 @@ export class Scene {
     this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
     this.light.target.position.copy(this.controls.target);
     this.light.target.updateMatrixWorld();
-    this.sizeLetters();
+    this.camera.updateMatrixWorld(); // who is told that the frame begins asks which way it looks
+    this.sizeMarks();
+    this.box.visible = this.surfaces.size === 0;
     const drawn = this.begin();
     this.renderer.render(this.scene, this.camera);
     await this.finished();
@@ -273,10 +278,35 @@ export class Scene {
     });
   }
 
-  /** Letters keep their size on the screen. */
-  private sizeLetters(): void {
-    const mm_per_pixel = (this.camera.top - this.camera.bottom) / this.camera.zoom / Math.max(this.canvas.clientHeight, 1);
-    for (const letter of this.letters.children) letter.scale.setScalar(LETTER_PIXELS * mm_per_pixel);
+  /** Of a CSS pixel, everywhere alike: there is no perspective. */
+  get mm_per_pixel(): number {
+    return (this.camera.top - this.camera.bottom) / this.camera.zoom / Math.max(this.canvas.clientHeight, 1);
+  }
+
+  /** Which way (LPS) is right and up on the screen, and towards the viewer. */
+  get axes(): { right: Vec3; up: Vec3; back: Vec3 } {
+    const [right, up, back] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+    this.camera.matrixWorld.extractBasis(right, up, back);
+    return { right: right.toArray(), up: up.toArray(), back: back.toArray() };
+  }
+
+  /** Marks keep their size on the screen. */
+  private sizeMarks(): void {
+    for (const mark of this.marks.children) mark.scale.setScalar(MARK_PIXELS * this.mm_per_pixel);
+  }
+
+  /** The mark that is nearest to this place of the canvas, in pixels, if that is within `reach`. */
+  markAt(x: number, y: number, reach: number): Vec3 | null {
+    const seen = new THREE.Vector3();
+    let nearest = reach, found: Vec3 | null = null;
+    for (const { position } of this.marks.children) {
+      seen.copy(position).project(this.camera);
+      const distance = Math.hypot(((seen.x + 1) / 2) * this.canvas.clientWidth - x, ((1 - seen.y) / 2) * this.canvas.clientHeight - y);
+      if (distance > nearest) continue;
+      nearest = distance;
+      found = position.toArray();
+    }
+    return found;
   }
 
   private clear(group: THREE.Group): void {
@@ -303,25 +333,11 @@ export class Scene {
     return this.material("mark", () => new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
   }
 
-  /** The image's edges, and letters at its faces. */
   private imageBox(): THREE.LineSegments {
     const ends: THREE.Vector3[] = [];
     for (let a = 0; a < 8; ++a)
       for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
-    for (const bit of [1, 2, 4]) this.addFaceLetters(bit);
     return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.lineMaterial("#56606c", 0.5));
-  }
-
-  private addFaceLetters(bit: number): void {
-    const faces = [0, bit].map((side) => {
-      const corners = this.corners.filter((_, k) => (k & bit) === side);
-      return scale(corners.reduce(add), 1 / corners.length);
-    }) as [Vec3, Vec3];
-    for (const [at, other] of [faces, [faces[1], faces[0]] as const]) {
-      const sprite = letterSprite(directionLetter(at, other));
-      sprite.position.copy(vector(mix(other, at, 1.06)));
-      this.letters.add(sprite);
-    }
   }
 }
 
@@ -342,22 +358,4 @@ function drawsInSoftware(): boolean {
   const renderer = String(gl?.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));
   gl?.getExtension("WEBGL_lose_context")?.loseContext();
   return isSoftwareRenderer(renderer);
-}
-
-function directionLetter(at: Vec3, from: Vec3): string {
-  const d = [0, 1, 2].map((i) => at[i]! - from[i]!);
-  const axis = d.reduce((best, value, i) => (Math.abs(value) > Math.abs(d[best]!) ? i : best), 0);
-  return (["RL", "AP", "IS"] as const)[axis]![d[axis]! > 0 ? 1 : 0]!;
-}
-
-function letterSprite(letter: string): THREE.Sprite {
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = 64;
-  const context = canvas.getContext("2d")!;
-  context.font = "600 40px system-ui, sans-serif";
-  context.textAlign = "center";
-  context.textBaseline = "middle";
-  context.fillStyle = "#9aa5b1";
-  context.fillText(letter, 32, 34);
-  return new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false }));
 }

@@ -6,11 +6,14 @@ import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
 import { normalsOf, positionsOf, trianglesOf, widthsOf } from "../net/mesh_code";
 import { VIEW_NAMES, type ImageInfo } from "../net/protocol";
+import { scaleBar } from "../geometry/scale_bar";
 import type { Vec3 } from "../geometry/vec";
 import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
 import { PLANE_COLORS } from "../view/palette";
+import { CLICK_PIXELS } from "../tools/gesture";
 import { BAND_STOPS, bandColors, bandScale } from "./band";
+import { OrientationCube, SIDES } from "./cube";
 import type { Scene } from "./scene";
 
 export interface SurfaceViewServices {
@@ -21,13 +24,7 @@ export interface SurfaceViewServices {
   goTo(p: Vec3): void;
 }
 
-const DIRECTIONS: [string, string, Vec3][] = [
-  ["A", "From the front", [0, -1, 0]],
-  ["P", "From the back", [0, 1, 0]],
-  ["L", "From the patient's left", [1, 0, 0]],
-  ["R", "From the patient's right", [-1, 0, 0]],
-  ["S", "From above", [0, 0, 1]],
-];
+const MARK_REACH_PIXELS = { finger: 22, other: 9 };
 
 /** The pane of the 3D view. Without WebGL it says so, and the rest of the page works on. */
 export class SurfaceView {
@@ -42,15 +39,15 @@ export class SurfaceView {
   private readonly band = button({ icon: ICONS.statistics, title: "Colour the surface by how sure it is", class: "icon-button small", test: "band", click: () => this.toggleBand() });
   private readonly ramp = el("span", { class: "band-ramp" });
   private readonly scale = el("div", { class: "band-scale", hidden: true, "data-test": "band-scale" });
+  private readonly cube = new OrientationCube(({ from }) => this.scene?.viewFrom(from));
+  private readonly bar = el("div", { class: "surface-scale", hidden: true });
   private opacity = 1;
 
   constructor(private readonly services: SurfaceViewServices) {
     const look = el(
       "div",
       { class: "look-from" },
-      ...DIRECTIONS.map(([letter, title, direction]) =>
-        button({ label: letter, title, class: "letter-button", click: () => this.scene?.viewFrom(direction) }),
-      ),
+      ...SIDES.map(({ letter, title, from }) => button({ label: letter, title, class: "letter-button", click: () => this.scene?.viewFrom(from) })),
     );
     const glass = button({ icon: ICONS.surface, title: "See through the surface", class: "icon-button small", click: () => this.toggleGlass() });
     const frame = button({ icon: ICONS.reset, title: "Show the whole surface", class: "icon-button small", click: () => this.scene?.frame() });
@@ -64,7 +61,9 @@ export class SurfaceView {
     this.band.setAttribute("aria-pressed", "false");
     this.band.hidden = true;
     this.ramp.style.background = `linear-gradient(to right, ${BAND_STOPS.join()})`;
-    this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.scale);
+    this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.bar, this.scale, this.cube.element);
+    this.cube.element.hidden = true;
+    this.watchMarks();
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
@@ -180,8 +179,40 @@ export class SurfaceView {
 
   /** Tests and measurements wait for what the finished frame shows. */
   private frameBegins(): () => void {
+    this.showBearings();
     const revisions = [...this.shownRevisions].map(([id, revision]) => `${id}:${revision}`).join(" ");
     return () => void (this.element.dataset["revisions"] = revisions);
+  }
+
+  /** Which way the camera looks, and how large things are. */
+  private showBearings(): void {
+    if (!this.scene) return;
+    this.cube.element.hidden = this.bar.hidden = false;
+    this.cube.turn(this.scene.axes);
+    const { label, pixels } = scaleBar(this.scene.mm_per_pixel, Math.min(120, this.canvas.clientWidth / 3));
+    this.bar.textContent = label;
+    this.bar.style.width = `${pixels}px`;
+  }
+
+  /** A click on a mark goes to the place. */
+  private watchMarks(): void {
+    let pressed: PointerEvent | null = null;
+    const markBelow = (event: PointerEvent): Vec3 | null => {
+      const box = this.canvas.getBoundingClientRect();
+      const reach = event.pointerType === "touch" ? MARK_REACH_PIXELS.finger : MARK_REACH_PIXELS.other;
+      return this.scene?.markAt(event.clientX - box.left, event.clientY - box.top, reach) ?? null;
+    };
+    this.canvas.addEventListener("pointerdown", (event) => {
+      pressed = event.isPrimary ? event : null;
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      if (event.buttons === 0) this.canvas.style.cursor = markBelow(event) ? "pointer" : "";
+    });
+    this.canvas.addEventListener("pointerup", (event) => {
+      const isClick = pressed?.pointerId === event.pointerId && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < CLICK_PIXELS;
+      const mark = isClick ? markBelow(event) : null;
+      if (mark) this.services.goTo(mark);
+    });
   }
 
   private showHint(): void {

@@ -89,7 +89,7 @@ viewer::Workspace::Services services(const Words& words) {
     std::error_code ignored;
     if (fs::is_directory(words.image, ignored)) places.insert(places.begin(), {words.title(), fs::absolute(words.image)});
     return {[](const viewer::OpenRequest& request, const Work& work) { return open_project(request, work); },
-            viewer::Places(places), recent_projects_file()};
+            viewer::Places(places), viewer_file("recent.json"), viewer_file("arrangements.json")};
 }
 
 /// The command's own image, read in the background of the workspace, which must not outlive it.

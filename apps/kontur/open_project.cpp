@@ -224,9 +224,9 @@ std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request
     return open_project(command, sorted_words(command), work).session;
 }
 
-fs::path recent_projects_file() {
+fs::path viewer_file(std::string_view name) {
     try {
-        return data_folder() / "recent.json";
+        return data_folder() / name;
     } catch (const Error&) {
         return {};
     }

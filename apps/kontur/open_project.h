@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "commands.h"
@@ -40,7 +41,7 @@ Opened open_project(const OpenCommand& command, const Words& words, const Work& 
 /// The same for a page.
 std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work);
 
-/// Where the list of recent projects is kept; "" without a home folder.
-std::filesystem::path recent_projects_file();
+/// Where the viewer keeps a file of its own, such as the list of recent projects; "" without a home folder.
+std::filesystem::path viewer_file(std::string_view name);
 
 }  // namespace kontur::app

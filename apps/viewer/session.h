@@ -99,6 +99,8 @@ public:
     const std::string& title() const { return title_; }
     /// Where the image was, or "phantom".
     std::string image_path() const;
+    /// As DICOM has it; "CT" of other files whose values look like it; else "".
+    std::string modality() const;
 
     /// Something that the user should know.
     void notice(std::string_view level, const std::string& text);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
@@ -19,19 +20,24 @@ using nlohmann::json;
 
 constexpr std::size_t kLargestPageState = 64 << 10;
 
-json view_json(const View& view) {
-    return {{"plane", to_json(view.plane)},
+json view_json(const View& view, const std::string& title) {
+    return {{"title", title},
+            {"plane", to_json(view.plane)},
             {"step_mm", view.step_mm},
             {"width_mm", view.width_mm},
             {"height_mm", view.height_mm},
             {"range_mm", {view.from_mm, view.to_mm}}};
 }
 
-json views_json(const Grid& grid) {
-    return {{"axial", view_json(view_of(grid, SliceKind::axial))},
-            {"sagittal", view_json(view_of(grid, SliceKind::sagittal))},
-            {"coronal", view_json(view_of(grid, SliceKind::coronal))},
-            {"oblique", view_json(oblique_view(grid))}};
+constexpr std::array<const char*, 3> kViews{"axial", "sagittal", "coronal"};  // by SliceKind
+
+json views_json(const Grid& grid, const ViewNames& names) {
+    json views{{"oblique", view_json(oblique_view(grid), "Oblique")}};
+    for (const SliceKind kind : {SliceKind::axial, SliceKind::sagittal, SliceKind::coronal}) {
+        const auto at = static_cast<std::size_t>(kind);
+        views[kViews[at]] = view_json(view_of(grid, kind), names.titles[at]);
+    }
+    return views;
 }
 
 json corners_json(const Grid& grid) {
@@ -64,6 +70,7 @@ std::string Session::greeting(const json& more) {
     for (const WindowPreset& preset : presets_)
         presets.push_back({{"name", preset.name}, {"center", preset.window.center}, {"width", preset.window.width}});
     const Grid& grid = image_->grid;
+    const ViewNames names = view_names(grid);
     json event{{"event", "session"},
                {"version", KONTUR_VERSION},
                {"title", title_},
@@ -80,7 +87,8 @@ std::string Session::greeting(const json& more) {
                {"has_dicom", series_.has_value()},
                {"window", {{"center", window_.center}, {"width", window_.width}}},
                {"presets", presets},
-               {"views", views_json(grid)},
+               {"views", views_json(grid, names)},
+               {"first_view", kViews[static_cast<std::size_t>(names.first)]},
                {"structures", structures},
                {"contours", contours},
                {"surfaces", surfaces},
@@ -92,6 +100,11 @@ std::string Session::greeting(const json& more) {
                {"page", page_state()}};
     event.update(more);
     return to_text(event);
+}
+
+std::string Session::modality() const {
+    if (identity_.modality.empty() && looks_like_ct(*image_)) return "CT";
+    return identity_.modality;
 }
 
 std::string Session::unit() const {

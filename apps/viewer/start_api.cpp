@@ -45,6 +45,12 @@ OpenRequest request_from(const std::string& body) {
     return request;
 }
 
+void keep_arrangement(Workspace& workspace, const std::string& body) {
+    const json document = parsed(body);
+    const Members m(document);
+    workspace.arrangements().keep(m.text("modality", kLongestUid), m.at("state"));
+}
+
 /// Says in all pages how far the search is, as long as it lives.
 class SearchStatus {
 public:
@@ -85,6 +91,7 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
     if (target.path == "/api/open") workspace.open(request_from(body));
     else if (target.path == "/api/cancel") workspace.cancel();
     else if (target.path == "/api/close") workspace.close();
+    else if (target.path == "/api/arrangement") keep_arrangement(workspace, body);
     else return std::nullopt;
     return json_reply(json::object());
 }

@@ -24,6 +24,15 @@ std::array<int, 3> axes_by_kind(const Grid& grid) {
     return best;
 }
 
+/// Across which axis the image was taken slice by slice.
+int slice_axis(const Grid& grid) {
+    constexpr double kByFar = 1.2;
+    const Vec3 spacing = grid.spacing_mm();
+    for (int axis = 0; axis < 2; ++axis)
+        if (spacing[axis] > kByFar * std::max(spacing[(axis + 1) % 3], spacing[(axis + 2) % 3])) return axis;
+    return 2;
+}
+
 Vec3 aligned(const Vec3& direction, const Vec3& like) { return dot(direction, like) < 0 ? -direction : direction; }
 
 /// Extent and scroll range of the grid seen on the plane.
@@ -75,6 +84,25 @@ View view_of(const Grid& grid, SliceKind kind) {
     plane.u = normalized(aligned(column_u, screen.u));
     plane.v = aligned(cross(plane.normal, plane.u), screen.v);
     return measured(grid, plane);
+}
+
+ViewNames view_names(const Grid& grid) {
+    constexpr double kCosine = 0.9397;  // 20 degrees
+    const auto is_straight = [&](SliceKind kind) {
+        return std::abs(dot(view_of(grid, kind).plane.normal, screen_plane(kind, {}).normal)) > kCosine;
+    };
+    ViewNames names;
+    if (is_straight(SliceKind::axial) && is_straight(SliceKind::sagittal) && is_straight(SliceKind::coronal)) return names;
+    constexpr std::array kAcross{SliceKind::sagittal, SliceKind::coronal, SliceKind::axial};  // the patient's axes
+    const std::array<int, 3> axes = axes_by_kind(grid);
+    const int slices = slice_axis(grid), rows = slices == 0 ? 1 : 0;
+    for (int patient = 0; patient < 3; ++patient) {
+        const SliceKind kind = kAcross[patient];
+        std::string& title = names.titles[static_cast<std::size_t>(kind)];
+        title = axes[patient] == slices ? "Acquisition" : axes[patient] == rows ? "Column" : "Row";
+        if (axes[patient] == slices) names.first = kind;
+    }
+    return names;
 }
 
 View oblique_view(const Grid& grid) {

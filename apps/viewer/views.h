@@ -26,6 +26,18 @@ struct View {
 /// scan the slices as they were acquired.
 View view_of(const Grid& grid, SliceKind kind);
 
+/// What the views along the image's axes are called, by SliceKind, and which one of them comes first.
+struct ViewNames {
+    std::array<std::string, 3> titles{"Axial", "Sagittal", "Coronal"};
+    SliceKind first = SliceKind::axial;
+};
+
+/// Where an axis of the image runs more than 20 degrees off the patient's, anatomical names would be wrong: then they are
+/// "Acquisition", the slices as they were taken and the first ones to look at, "Row", which is spanned by their rows and the
+/// way from slice to slice, and "Column". Slices lie across the third axis, unless another one's spacing is the largest by
+/// far: files of other formats than DICOM may have their axes in any order.
+ViewNames view_names(const Grid& grid);
+
 /// One that is parallel to none of the image's axes: the coronal view turned by 45 degrees about its vertical axis.
 View oblique_view(const Grid& grid);
 

@@ -46,7 +46,7 @@ constexpr const char* kAnotherOpen = "another image was opened since; load the p
 
 }  // namespace
 
-Workspace::Workspace(Services services) : services_(std::move(services)), recent_(services_.recent) {}
+Workspace::Workspace(Services services) : services_(std::move(services)), recent_(services_.recent), arrangements_(services_.arrangements) {}
 
 Workspace::Workspace(std::shared_ptr<Session> session) { adopt(std::move(session)); }
 
@@ -97,7 +97,10 @@ std::string Workspace::greeting(PageId page) {
         session = session_;
         opened = opened_;
     }
-    return session->greeting({{"opening", std::to_string(opened)}, {"can_close", services_.open != nullptr}});
+    const std::string modality = session->modality();
+    return session->greeting({{"opening", std::to_string(opened)},
+                              {"can_close", services_.open != nullptr},
+                              {"arrangement", {{"modality", modality}, {"state", arrangements_.of(modality)}}}});
 }
 
 std::string Workspace::call(std::string_view message, PageId page) {

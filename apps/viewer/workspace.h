@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "kontur/base/work.h"
+#include "viewer/arrangements.h"
 #include "viewer/places.h"
 #include "viewer/recent.h"
 #include "viewer/session.h"
@@ -43,7 +44,8 @@ public:
         /// Makes the session for what a page asks for. Errors are exceptions.
         std::function<std::shared_ptr<Session>(const OpenRequest&, const Work&)> open{};
         Places places{};
-        std::filesystem::path recent{};  ///< the file that lists projects; empty: none is kept
+        std::filesystem::path recent{};        ///< the file that lists projects; empty: none is kept
+        std::filesystem::path arrangements{};  ///< the file of how the page was arranged; empty: that is not kept
     };
 
     explicit Workspace(Services services);
@@ -84,6 +86,8 @@ public:
     void suggest(const std::filesystem::path& folder, const std::string& sentence);
 
     const Places& places() const { return services_.places; }
+    /// How the page is arranged for images of each modality.
+    Arrangements& arrangements() { return arrangements_; }
     /// Tells pages' status lines what is being done; "": nothing.
     void tell_status(const std::string& text, std::optional<double> fraction);
 
@@ -105,6 +109,7 @@ private:
 
     const Services services_;
     RecentProjects recent_;
+    Arrangements arrangements_;
 
     std::mutex listener_mutex_;
     std::function<void(const std::string&)> listener_;

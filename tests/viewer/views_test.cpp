@@ -5,6 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+
+#include "kontur/io/nifti.h"
+#include "support/test_data.h"
 
 namespace kontur::viewer {
 namespace {
@@ -51,6 +56,47 @@ TEST(ViewOf, StepsThroughEverySliceOfTheImage) {
     EXPECT_NEAR((coronal.to_mm - coronal.from_mm) / coronal.step_mm, 29, 1e-9);
     EXPECT_NEAR(axial.width_mm, 16, 1e-9);
     EXPECT_NEAR(axial.height_mm, 33, 1e-9);
+}
+
+/// Turned about the patient's first axis.
+Grid turned(double degrees, const Vec3& spacing) {
+    const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+    Grid grid{{20, 30, 12}, {}};
+    grid.index_to_mm.set_column(0, {spacing.x, 0, 0});
+    grid.index_to_mm.set_column(1, Vec3{0, c, s} * spacing.y);
+    grid.index_to_mm.set_column(2, Vec3{0, -s, c} * spacing.z);
+    return grid;
+}
+
+TEST(ViewNames, AreAnatomicalWithin20DegreesOfThePatientsAxes) {
+    for (const double degrees : {-19.5, 0.0, 19.5, 70.5, 90.0, 180.0}) {
+        const ViewNames names = view_names(turned(degrees, {1, 1, 3}));
+        EXPECT_EQ(names.titles, (std::array<std::string, 3>{"Axial", "Sagittal", "Coronal"})) << degrees;
+        EXPECT_EQ(names.first, SliceKind::axial);
+    }
+}
+
+TEST(ViewNames, OfObliqueImagesAreTheAcquisitions) {
+    const ViewNames low = view_names(turned(30, {1, 1, 3}));  // the slices are nearer to axial than to coronal ones
+    EXPECT_EQ(low.first, SliceKind::axial);
+    EXPECT_EQ(low.titles, (std::array<std::string, 3>{"Acquisition", "Column", "Row"}));
+    const ViewNames steep = view_names(turned(60, {1, 1, 3}));
+    EXPECT_EQ(steep.first, SliceKind::coronal);
+    EXPECT_EQ(steep.titles, (std::array<std::string, 3>{"Row", "Column", "Acquisition"}));
+}
+
+TEST(ViewNames, TakeTheAxisWithTheLargestSpacingForThatOfTheSlices) {
+    EXPECT_EQ(view_names(turned(30, {3, 1, 1})).first, SliceKind::sagittal);
+    EXPECT_EQ(view_names(turned(30, {1, 3, 1})).first, SliceKind::coronal);
+    EXPECT_EQ(view_names(turned(30, {1, 1.1, 1})).first, SliceKind::axial);
+}
+
+TEST(ViewNames, OfACineInShortAxisBeginWithItsSlices) {
+    KONTUR_REQUIRE_DATA("10_cine_mr_SC-HF-I-1/cine4d_crop.nii.gz");
+    const Image cine = read_nifti(test::data_dir() / "10_cine_mr_SC-HF-I-1/cine4d_crop.nii.gz", {.frame = 0, .prefer = {}});
+    const ViewNames names = view_names(cine.grid);
+    EXPECT_EQ(names.titles[static_cast<std::size_t>(names.first)], "Acquisition");
+    EXPECT_NEAR(view_of(cine.grid, names.first).step_mm, 10, 1e-3);
 }
 
 TEST(ViewOf, AShearedGridIsShownInItsOwnSlices) {

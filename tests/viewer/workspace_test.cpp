@@ -66,7 +66,7 @@ private:
 public:
     std::function<std::shared_ptr<Session>(const Work&)> opener;
     Workspace workspace{{[this](const OpenRequest&, const Work& work) { return made(work); },
-                         Places(std::vector<Place>{{"Here", root_}}), root_ / "recent.json"}};
+                         Places(std::vector<Place>{{"Here", root_}}), root_ / "recent.json", root_ / "arrangements.json"}};
 };
 
 TEST(Workspace, BeginsWithTheStartPageAndOpensWhatAPageAsksFor) {
@@ -149,6 +149,40 @@ TEST(Workspace, OpensRecentProjectsAndWhatLiesInItsPlacesOnly) {
     desk.workspace.close();
     desk.workspace.open({kExample, {}});
     EXPECT_TRUE(desk.workspace.wait_for(10s));
+}
+
+TEST(Workspace, GreetsWithHowThePageWasArrangedLastForTheModality) {
+    Desk desk;
+    desk.open();
+    EXPECT_EQ(desk.greeting()["arrangement"], json({{"modality", ""}, {"state", nullptr}}));
+    desk.workspace.arrangements().keep("CT", {{"layout", "single"}});
+    EXPECT_EQ(desk.greeting()["arrangement"]["state"], nullptr);
+    desk.workspace.arrangements().keep("", {{"layout", "overview"}});
+    desk.workspace.arrangements().keep("", {{"layout", "big-slice"}});
+    EXPECT_EQ(desk.greeting()["arrangement"]["state"]["layout"], "big-slice");
+}
+
+TEST(Arrangements, StayInTheFileAndADamagedOneIsNone) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "arrangements.json";
+    Arrangements(file).keep("MR", {{"layout", "single"}});
+    EXPECT_EQ(Arrangements(file).of("MR")["layout"], "single");
+    EXPECT_EQ(Arrangements(file).of("US"), nullptr);
+    for (const char* damaged : {"", "{", "[1]", "null", "{\"CT\": 1}"}) {
+        std::ofstream(file) << damaged;
+        EXPECT_EQ(Arrangements(file).of("MR"), nullptr) << damaged;
+    }
+    Arrangements(file).keep("MR", 3);
+    EXPECT_EQ(Arrangements(file).of("MR"), 3);
+}
+
+TEST(Arrangements, RefusesWhatIsTooLargeOrNoModality) {
+    const TemporaryFolder folder;
+    Arrangements these(folder.path() / "arrangements.json");
+    EXPECT_KONTUR_ERROR(these.keep("CT", std::string(5000, 'x')), ErrorKind::too_large, "the limit is 4096");
+    for (const char* wrong : {"ct", "C/T", "SEVENTEEN_LETTERS"})
+        EXPECT_KONTUR_ERROR(these.keep(wrong, 1), ErrorKind::invalid_input, "is no modality");
+    EXPECT_EQ(these.of("CT"), nullptr);
 }
 
 TEST(Workspace, OfOneSessionAloneIsNotClosed) {

@@ -3,11 +3,13 @@ import { type Vec3 } from "./geometry/vec";
 import type { Screen } from "./geometry/screen";
 import { Appearance } from "./model/appearance";
 import { Navigation, type PaneName } from "./model/navigation";
+import { PaneSizes } from "./model/pane_sizes";
 import { Project } from "./model/project";
 import { Http } from "./net/http";
 import { Latest } from "./net/latest";
 import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
 import { Socket, type ConnectionState } from "./net/socket";
+import { ArrangementKeeper } from "./page/arrangement";
 import { PageKeeper, type SavedPage } from "./page/saved_page";
 import { Saving } from "./page/saving";
 import { StartPage } from "./start/start_page";
@@ -20,6 +22,7 @@ import { Keyboard } from "./ui/keyboard";
 import { hintFor } from "./ui/hints";
 import { el } from "./ui/dom";
 import { firstHint, openExport } from "./ui/dialogs";
+import { Dividers } from "./ui/dividers";
 import { openHelp } from "./ui/help";
 import { IdentityCard } from "./ui/identity";
 import { importFile, openImport } from "./ui/imports";
@@ -34,6 +37,7 @@ export class App {
   private readonly navigation = new Navigation();
   private readonly project = new Project();
   private readonly appearance = new Appearance();
+  private readonly sizes = new PaneSizes();
   private readonly views = new Map<ViewName, SliceView>();
   private readonly editor: Editor;
   private active: ViewName = "axial";
@@ -55,6 +59,7 @@ export class App {
   private hintSeen = false;
   private readonly saving: Saving;
   private readonly keeper: PageKeeper;
+  private readonly arrangement: ArrangementKeeper;
 
   constructor(token: string) {
     this.http = new Http(token);
@@ -76,12 +81,16 @@ export class App {
       made: (contour) => this.tellCrossing(contour),
       notSaved: (sketch, why) => this.saving.tellNotSaved(sketch, why),
     });
-    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, editor: this.editor, http: this.http, failed };
+    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, sizes: this.sizes, editor: this.editor, http: this.http, failed };
     this.keeper = new PageKeeper({
       ...shared,
       isOpen: () => this.session !== null,
       hintSeen: () => this.hintSeen,
       save: (state) => void this.socket.call("page.save", { state }).catch(() => undefined), // the next change saves again
+    });
+    this.arrangement = new ArrangementKeeper({
+      ...shared,
+      keep: (modality, state) => void this.http.keepArrangement(modality, state).catch(() => undefined), // a convenience
     });
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
     this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p) });
@@ -120,6 +129,7 @@ export class App {
     });
     this.stage.append(...[...this.views.values()].map((view) => view.element), this.surface.element, this.notices.element);
     document.body.append(this.toolbar.element, this.stage, panel.element, this.status.element, this.startPage.element);
+    new Dividers(this.stage, this.sizes);
     this.connectParts();
     this.acceptDrops();
     this.guardClosing();
@@ -135,6 +145,9 @@ export class App {
     navigation.on(["planes", "window"], each((view) => view.refresh(true)));
     navigation.on(["planes"], () => this.surface.planesChanged());
     navigation.on(["layout"], () => this.lay());
+    navigation.on(["layout"], () => this.arrangement.keepSoon());
+    this.sizes.on(["changed"], () => this.arrangement.keepSoon());
+    this.sizes.on(["changed"], () => this.keeper.saveSoon());
     navigation.on(["planes", "window", "layout"], () => this.keeper.saveSoon());
     project.on(["contours", "structures"], each((view) => view.contoursChanged()));
     project.on(["surfaces"], each((view) => view.surfacesChanged()));
@@ -231,10 +244,13 @@ export class App {
     this.toolbar.start(session);
     // After a reconnect the user stays where he is.
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
+    this.views.forEach((view) => view.showTitle());
+    if (isFirst) this.activate(this.views.has(this.navigation.big as ViewName) ? (this.navigation.big as ViewName) : session.first_view);
     this.views.forEach((view) => view.forgetOutlines());
     this.surface.forgetRevisions();
     this.project.start(session);
     if (isFirst) this.keeper.restore(page);
+    if (isFirst) this.arrangement.start(session, page);
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
     this.hintSeen ||= page?.hintSeen ?? false;
@@ -304,6 +320,7 @@ export class App {
     for (const [name, element] of panes) {
       element.classList.toggle("big", name === bigPane);
       element.hidden = layout === "single" && name !== bigPane;
+      element.dataset["place"] = String(this.navigation.order.indexOf(name as ViewName) + 1); // 0: the 3D view
     }
   }
 

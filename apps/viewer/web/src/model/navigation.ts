@@ -6,7 +6,8 @@ import { VIEW_NAMES, type ImageInfo, type Session, type ViewGeometry, type ViewN
 import { Emitter } from "./emitter";
 
 export type PaneName = ViewName | "surface";
-export type LayoutName = "overview" | "big-slice" | "big-surface" | "single";
+const LAYOUT_NAMES = ["overview", "big-slice", "big-surface", "single"] as const;
+export type LayoutName = (typeof LAYOUT_NAMES)[number];
 
 /** Which way a view looks, and what part of its plane it shows. */
 export interface Camera {
@@ -25,6 +26,7 @@ export interface SavedNavigation {
   linked?: boolean;
 }
 
+const PANES: readonly PaneName[] = [...VIEW_NAMES, "surface"];
 const ZOOM_LIMITS: [number, number] = [0.25, 40];
 const FIT_MARGIN = 1.06;
 
@@ -36,17 +38,21 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
   layout: LayoutName = "overview";
   linked = false; // all slices zoom and shift together
   big: PaneName = "axial"; // the pane that is big in "big-slice", or alone in "single"
+  /** As they are shown, the slices as they were taken first. */
+  order: readonly ViewName[] = VIEW_NAMES;
   private image: ImageInfo | null = null;
   private views!: Record<ViewName, ViewGeometry>;
 
   start(session: Session, saved: SavedNavigation | null): void {
     this.image = session.image;
     this.views = session.views;
+    this.order = [session.first_view, ...VIEW_NAMES.filter((view) => view !== session.first_view)];
     this.window = saved?.window ?? { ...session.window };
-    this.crosshair = saved?.crosshair ?? this.onGrid("axial", session.image.center);
+    this.crosshair = saved?.crosshair ?? this.onGrid(session.first_view, session.image.center);
     for (const view of VIEW_NAMES) this.cameras[view] = saved?.cameras[view] ?? this.initialCamera(view);
-    this.layout = saved?.layout ?? "overview";
-    this.big = saved?.big ?? "axial";
+    const { state } = session.arrangement; // of a project that is new
+    this.layout = saved?.layout ?? LAYOUT_NAMES.find((name) => name === state?.layout) ?? "overview";
+    this.big = saved?.big ?? PANES.find((name) => name === state?.big) ?? session.first_view;
     this.linked = saved?.linked ?? false;
     this.emit("planes", "window", "layout");
   }
@@ -59,6 +65,11 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
   saved(): SavedNavigation {
     const { crosshair, cameras, window, layout, big, linked } = this;
     return { crosshair, cameras, window, layout, big, linked };
+  }
+
+  /** What the view is called: of an image that lies obliquely not by the patient's axes. */
+  title(view: ViewName): string {
+    return this.views[view].title;
   }
 
   plane(view: ViewName): Plane {
@@ -204,7 +215,7 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
 
   resetAll(): void {
     for (const view of VIEW_NAMES) this.cameras[view] = this.initialCamera(view);
-    this.crosshair = this.onGrid("axial", this.image!.center);
+    this.crosshair = this.onGrid(this.order[0]!, this.image!.center);
     this.emit("planes");
   }
 

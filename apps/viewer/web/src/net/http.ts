@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BinaryReply } from "./binary";
 import type { CodedMesh } from "./mesh_code";
-import type { Comparison, Folder, OpenRequest, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
+import type { Comparison, Folder, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
@@ -70,6 +70,11 @@ export class Http {
   /** Goes back to the start page, in all pages. */
   async close(): Promise<void> {
     await this.post("close", "");
+  }
+
+  /** How the page is arranged, for later images of the modality. */
+  async keepArrangement(modality: string, state: SavedArrangement): Promise<void> {
+    await this.post("arrangement", JSON.stringify({ modality, state }));
   }
 
   async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {

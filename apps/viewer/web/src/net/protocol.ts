@@ -18,6 +18,7 @@ export interface Preset extends Window {
 }
 
 export interface ViewGeometry {
+  title: string;
   plane: Plane;
   step_mm: number;
   width_mm: number;
@@ -161,6 +162,13 @@ export interface Comparison {
   largest_mm: number | null;
 }
 
+/** How pages for images of one modality were arranged last: the server keeps it, and knows nothing of it. */
+export interface SavedArrangement {
+  layout?: string;
+  big?: string;
+  sizes?: Partial<Record<string, number>>;
+}
+
 export interface Session {
   event: "session";
   version: string;
@@ -172,6 +180,7 @@ export interface Session {
   window: Window;
   presets: Preset[];
   views: Record<ViewName, ViewGeometry>;
+  first_view: ViewName;
   structures: Structure[];
   contours: Contour[];
   surfaces: Surface[];
@@ -183,6 +192,7 @@ export interface Session {
   page: unknown;
   opening: string; // names this session among those that the server has had
   can_close: boolean; // whether there is a start page to go back to
+  arrangement: { modality: string; state: SavedArrangement | null };
 }
 
 /** What the names of files end with that can be imported, in small letters. */

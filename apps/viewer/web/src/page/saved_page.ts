@@ -2,6 +2,7 @@
 import type { Appearance, SavedAppearance } from "../model/appearance";
 import type { Measurement } from "../model/measurements";
 import type { Navigation, SavedNavigation } from "../model/navigation";
+import type { PaneSizes, SavedSizes } from "../model/pane_sizes";
 import type { Project } from "../model/project";
 import type { Editor } from "../tools/editor";
 import type { SavedSketch } from "../tools/sketch";
@@ -15,6 +16,7 @@ export interface SavedPage {
   structure: number;
   hintSeen: boolean;
   appearance?: SavedAppearance;
+  sizes?: SavedSizes;
   measurements?: Measurement[];
   sketch?: SavedSketch;
   unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
@@ -24,6 +26,7 @@ export interface SavedPageServices {
   navigation: Navigation;
   project: Project;
   appearance: Appearance;
+  sizes: PaneSizes;
   editor: Editor;
   isOpen(): boolean;
   hintSeen(): boolean;
@@ -62,9 +65,9 @@ export class PageKeeper {
   }
 
   private state(): SavedPage {
-    const { navigation, project, appearance, editor } = this.services;
+    const { navigation, project, appearance, sizes, editor } = this.services;
     const { drawing, measuring } = editor;
-    const state: SavedPage = { navigation: navigation.saved(), structure: project.activeStructure?.id ?? 0, hintSeen: this.services.hintSeen(), appearance: appearance.saved(), measurements: measuring.measurements.saved() };
+    const state: SavedPage = { navigation: navigation.saved(), structure: project.activeStructure?.id ?? 0, hintSeen: this.services.hintSeen(), appearance: appearance.saved(), sizes: sizes.saved(), measurements: measuring.measurements.saved() };
     let room = LONGEST_SAVED_SKETCHES;
     const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
     const sketch = drawing.sketch?.saved();

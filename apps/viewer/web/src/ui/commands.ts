@@ -47,7 +47,6 @@ export const HELD_KEYS: readonly HeldKey[] = [
 ];
 
 const KEY_ZOOM = 1.2;
-const PANES: readonly PaneName[] = ["axial", "sagittal", "coronal", "oblique", "surface"];
 
 const scroll = (steps: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.scroll(focused(), steps) });
 const zoom = (factor: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.zoomAt(focused(), navigation.crosshair, factor) });
@@ -61,7 +60,8 @@ export const COMMANDS: readonly Command[] = [
   scroll(10, "PageDown"),
   zoom(KEY_ZOOM, "+", "="),
   zoom(1 / KEY_ZOOM, "-"),
-  ...PANES.map((pane, i): Command => ({ keys: [String(i + 1)], run: ({ toggleSingle }) => toggleSingle(pane) })),
+  ...[0, 1, 2, 3].map((i): Command => ({ keys: [String(i + 1)], run: ({ navigation, toggleSingle }) => toggleSingle(navigation.order[i]!) })),
+  { keys: ["5"], run: ({ toggleSingle }) => toggleSingle("surface") },
   {
     keys: ["0"],
     help: ["Look around", "1 2 3 4 5", "axial, sagittal, coronal, oblique, 3D alone; 0 all"],
@@ -117,7 +117,7 @@ export const COMMANDS: readonly Command[] = [
 function goToDrawnSlice({ navigation, project, focused, tell }: CommandServices, direction: 1 | -1): void {
   const slice = nextDrawnSlice(focused(), direction, navigation, project);
   if (slice) navigation.scrollTo(focused(), slice.depth_mm);
-  else tell(`No slice with a contour lies ${direction > 0 ? "beyond" : "before"} this one in the ${focused()} view.`);
+  else tell(`No slice with a contour lies ${direction > 0 ? "beyond" : "before"} this one in the ${navigation.title(focused())} view.`);
 }
 
 function toggleHole({ editor, project }: CommandServices): void {

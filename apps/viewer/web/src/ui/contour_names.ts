@@ -3,7 +3,6 @@ import type { Plane } from "../geometry/plane";
 import { dot } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { ViewName } from "../net/protocol";
-import { VIEW_TITLES } from "../view/palette";
 
 /** A contour, or whatever else lies in a plane. */
 export interface InPlane {
@@ -29,5 +28,5 @@ export function placeOf({ plane: { normal, origin } }: InPlane, navigation: Navi
 /** "Axial 51", as the list and the view's title have it; "Oblique 12.3" for planes of no view. */
 export function contourName(contour: InPlane, navigation: Navigation): string {
   const { view, slice, position } = placeOf(contour, navigation);
-  return view ? `${VIEW_TITLES[view]} ${slice}` : `Oblique ${position}`;
+  return view ? `${navigation.title(view)} ${slice}` : `Oblique ${position}`;
 }

@@ -3,7 +3,7 @@ import { between, groupsOf, isGrouped } from "../model/contour_list";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Contour, Structure, ViewName } from "../net/protocol";
-import { PLANE_COLORS, VIEW_TITLES } from "../view/palette";
+import { PLANE_COLORS } from "../view/palette";
 import { placeOf, type InPlane } from "./contour_names";
 import { button, el, eye } from "./dom";
 import { ICONS } from "./icons";
@@ -48,7 +48,7 @@ export class ContourRows {
       if (!this.folded.delete(key)) this.folded.add(key);
       this.refresh();
     };
-    const title = view ? VIEW_TITLES[view] : "Other planes";
+    const title = view ? this.services.navigation.title(view) : "Other planes";
     const heading = button({ label: title, title: isFolded ? "List these contours" : "Hide these contours", class: "group-title", part: `group-${key}`, click: fold });
     heading.setAttribute("aria-expanded", String(!isFolded));
     const all = button({ label: String(members.length), title: `Mark the ${members.length} contours of ${title}`, class: "count", part: `mark-${key}`, click: () => this.services.project.mark(members.map(({ id }) => id)) });
@@ -75,7 +75,7 @@ export class ContourRows {
       "div",
       { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it, Ctrl + click or Shift + click to mark several`, on: { click: choose } },
       dot,
-      el("button", { type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" }, el("span", { class: "contour-view" }, name ? VIEW_TITLES[name] : "Oblique"), " ", el("span", { class: "contour-slice", title: "Slice" }, slice), " ", el("span", { class: "contour-position" }, position)),
+      el("button", { type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" }, el("span", { class: "contour-view" }, name ? this.services.navigation.title(name) : "Oblique"), " ", el("span", { class: "contour-slice", title: "Slice" }, slice), " ", el("span", { class: "contour-position" }, position)),
       contour.hole ? el("span", { class: "flag", title: "A hole" }, "hole") : null,
       contour.self_crossings.length > 0 ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself") : null,
       el("span", { class: "contour-points" }, points),

@@ -8,6 +8,7 @@ import { TOOLS, type ToolName } from "../tools/registry";
 import { appearanceButton } from "./appearance";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
+import { Overflow } from "./overflow";
 
 export interface ToolbarServices {
   navigation: Navigation;
@@ -42,6 +43,7 @@ export class Toolbar {
   private readonly center = this.windowField("Window: centre (drag with the right button over a slice)");
   private readonly width = this.windowField("Window: width");
   private readonly title = el("span", { class: "file-title" });
+  private readonly overflow: Overflow;
   private presetList: Preset[] = [];
 
   constructor(private readonly services: ToolbarServices) {
@@ -54,6 +56,18 @@ export class Toolbar {
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", click: services.redo });
     this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", click: () => navigation.toggleLinked() });
     this.another = button({ icon: ICONS.open, title: "Open another image or project; this one is kept as it is", class: "icon-button", test: "another", click: services.openAnother });
+    const windows = group(el("label", { class: "window-label" }, "Window"), this.presets, this.center, this.width);
+    const layouts = group(...this.layouts.values());
+    const looks = group(
+      button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", click: () => editor.toggleLines() }),
+      this.link,
+      ...appearanceButton(services.appearance),
+    );
+    const files = group(
+      button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", click: services.openImport }),
+      button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool minor", test: "export", click: services.openExport }),
+      button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", click: services.openHelp }),
+    );
     this.element.append(
       el("span", { class: "brand" }, "kontur"),
       this.another,
@@ -61,19 +75,12 @@ export class Toolbar {
       group(...this.tools.values()),
       group(this.undo, this.redo),
       el("span", { class: "spring" }),
-      group(el("label", { class: "window-label" }, "Window"), this.presets, this.center, this.width),
-      group(...this.layouts.values()),
-      group(
-        button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", click: () => editor.toggleLines() }),
-        this.link,
-        ...appearanceButton(services.appearance),
-      ),
-      group(
-        button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", click: services.openImport }),
-        button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool minor", test: "export", click: services.openExport }),
-        button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", click: services.openHelp }),
-      ),
+      windows,
+      layouts,
+      looks,
+      files,
     );
+    this.overflow = new Overflow(this.element, [looks, layouts, files, windows]);
     editor.on(["tool"], () => this.update());
     editor.drawing.on(["points"], () => this.update());
     navigation.on(["layout", "window"], () => this.update());
@@ -90,6 +97,7 @@ export class Toolbar {
       el("option", { value: "", hidden: true }, "Custom"),
     );
     this.update();
+    this.overflow.fit(true);
   }
 
   private update(): void {

@@ -9,13 +9,6 @@ export const PLANE_COLORS: Record<ViewName, string> = {
   oblique: "#e3a6f0",
 };
 
-export const VIEW_TITLES: Record<ViewName, string> = {
-  axial: "Axial",
-  sagittal: "Sagittal",
-  coronal: "Coronal",
-  oblique: "Oblique",
-};
-
 /** `#rrggbb` towards white (t > 0) or black (t < 0). */
 export function tinted(color: string, t: number): string {
   const towards = t > 0 ? 255 : 0;

@@ -19,7 +19,7 @@ import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
 import { OverlayPainter } from "./overlay";
 import { newestOutlines, toldOutline } from "./outlines";
-import { PLANE_COLORS, VIEW_TITLES } from "./palette";
+import { PLANE_COLORS } from "./palette";
 import { SliceImage } from "./slice_image";
 import { SliceSlider } from "./slice_slider";
 import { canShow } from "./windowing";
@@ -45,6 +45,7 @@ export class SliceView {
   readonly header: HTMLElement;
   private readonly image = new SliceImage();
   private readonly slider: SliceSlider;
+  private readonly title = el("span", { class: "pane-title" });
   private readonly position = el("span", { class: "slice-number" });
   private slice: ShownSlice | null = null;
   private readonly vectors: SliceVectors;
@@ -87,13 +88,20 @@ export class SliceView {
       click: () => void this.header.dispatchEvent(new MouseEvent("dblclick")),
     });
     this.overlay.setAttribute("role", "img");
-    this.overlay.setAttribute("aria-label", `${VIEW_TITLES[name]} slice`);
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[name];
-    this.header.append(dot, el("span", { class: "pane-title" }, VIEW_TITLES[name]), this.position, el("span", { class: "spring" }), reset, enlarge);
-    this.element = el("section", { class: "pane slice", "data-view": name, "aria-label": `${VIEW_TITLES[name]} view` }, this.image.canvas, this.overlay, this.header, this.slider.element);
+    this.header.append(dot, this.title, this.position, el("span", { class: "spring" }), reset, enlarge);
+    this.element = el("section", { class: "pane slice", "data-view": name }, this.image.canvas, this.overlay, this.header, this.slider.element);
     this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
     new ResizeObserver(() => this.resized()).observe(this.element);
+  }
+
+  /** Says what the view is called. */
+  showTitle(): void {
+    const title = this.services.navigation.title(this.name);
+    this.title.textContent = title;
+    this.element.setAttribute("aria-label", `${title} view`);
+    this.overlay.setAttribute("aria-label", `${title} slice`);
   }
 
   /** Null while the pane is not shown. */
@@ -316,7 +324,7 @@ export class SliceView {
     const texts = editor.measuring.measurements.lyingIn(planeOf(screen), navigation.step(this.name)).map(measured).join("; ");
     if (this.element.dataset["measured"] === texts) return;
     this.element.dataset["measured"] = texts;
-    this.overlay.setAttribute("aria-label", [`${VIEW_TITLES[this.name]} slice`, texts].filter(Boolean).join(": "));
+    this.overlay.setAttribute("aria-label", [`${navigation.title(this.name)} slice`, texts].filter(Boolean).join(": "));
   }
 
   /** The point of the plane under the pointer. */

@@ -148,10 +148,11 @@ export class BallVisits {
     cleanUp(this.folder, () => [this.browser, this.server]);
   }
 
-  /** Ends the visit before. */
+  /** Ends the visit before, and forgets how its page was arranged. */
   async next(): Promise<Viewer> {
     await this.viewer?.page.close();
     await (this.server as Server | undefined)?.end();
+    rmSync(join(this.folder.path, "kontur", "arrangements.json"), { force: true });
     this.server = await Server.start(this.folder.path, this.image, "--project", join(this.folder.path, `visit${++this.count}.kontur`));
     this.viewer = await Viewer.open(this.browser, this.server.address);
     await this.viewer.closeHint();

@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { toScreen, toWorld } from "../../src/geometry/screen";
 import { dot } from "../../src/geometry/vec";
+import { Navigation } from "../../src/model/navigation";
 import { Project } from "../../src/model/project";
+import { contourName } from "../../src/ui/contour_names";
 import { near, session, SKEW, square, started } from "./support";
 
 const history = { undo: null, redo: null };
@@ -209,4 +211,15 @@ test("the active structure is that of the selected contour, wherever it goes", (
   project.activate(1);
   project.apply({ event: "changed", contours: { set: [square(5, { structure: 2, hole: true })] }, history });
   assert.equal(project.activeStructure?.id, 1, "chosen by the user meanwhile");
+});
+
+test("of an oblique image the slices as they were taken come first, and begin on one of them", () => {
+  const usual = session();
+  const views = { ...usual.views, coronal: { ...usual.views.coronal, title: "Acquisition", step_mm: 10 } };
+  const navigation = new Navigation();
+  navigation.start({ ...usual, views, first_view: "coronal", image: { ...usual.image, center: [0, 3, 0] } }, null);
+  assert.deepEqual(navigation.order, ["coronal", "axial", "sagittal", "oblique"]);
+  assert.equal(navigation.big, "coronal");
+  near(navigation.crosshair, [0, 0, 0]);
+  assert.equal(contourName(square(1, { plane: { ...usual.views.coronal.plane, origin: [0, 20, 0] } }), navigation), "Acquisition 11");
 });

@@ -24,8 +24,8 @@ export const SKEW = ((): Axes => {
   return { u, v: cross(normal, u), normal };
 })();
 
-const view = (frame: Axes, range_mm: [number, number]): ViewGeometry => ({
-  plane: { ...frame, origin: [0, 0, 0] }, step_mm: 2, width_mm: 200, height_mm: 100, range_mm,
+const view = (title: string, frame: Axes, range_mm: [number, number]): ViewGeometry => ({
+  title, plane: { ...frame, origin: [0, 0, 0] }, step_mm: 2, width_mm: 200, height_mm: 100, range_mm,
 });
 
 /** An image of 200 x 160 x 101 mm around the origin. */
@@ -36,9 +36,10 @@ export function session(changes: Partial<Session> = {}): Session {
     image: { size: [100, 80, 51], spacing_mm: [2, 2, 2], corners, center: [0, 0, 0], unit: "HU", range: [-1000, 1000], notes: [] },
     identity: { patient_name: "", patient_id: "", birth_date: "", study_date: "", study_description: "", series_number: "", series_description: "", modality: "" }, has_dicom: false,
     window: { center: 40, width: 400 }, presets: [],
-    views: { axial: view(AXIAL, [-50, 50]), sagittal: view(SAGITTAL, [-100, 100]), coronal: view(CORONAL, [-80, 80]), oblique: view(SKEW, [-90, 90]) },
+    views: { axial: view("Axial", AXIAL, [-50, 50]), sagittal: view("Sagittal", SAGITTAL, [-100, 100]), coronal: view("Coronal", CORONAL, [-80, 80]), oblique: view("Oblique", SKEW, [-90, 90]) },
+    first_view: "axial",
     structures: [{ id: 1, name: "Liver", color: "#e8b04a", visible: true }], contours: [], surfaces: [],
-    history: { undo: null, redo: null }, borders: { shared: false, rules: [] }, border_pairs: [], use_image: true, imports: { contours: [".mrk.json", ".json"], masks: [".nii.gz", ".nii", ".mgz"] }, page: null, opening: "1", can_close: true, ...changes,
+    history: { undo: null, redo: null }, borders: { shared: false, rules: [] }, border_pairs: [], use_image: true, imports: { contours: [".mrk.json", ".json"], masks: [".nii.gz", ".nii", ".mgz"] }, page: null, opening: "1", can_close: true, arrangement: { modality: "CT", state: null }, ...changes,
   };
 }
 

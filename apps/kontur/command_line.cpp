@@ -422,6 +422,20 @@ void add_phantom(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+/// Shown beside the image of `kontur open`.
+void add_second_image(CLI::App& sub, ImageInput& second) {
+    CLI::Option* image =
+        sub.add_option("--second-image", second.path,
+                       "Image or DICOM folder to show over the first, as a PET over its CT; kept in the project");
+    image->type_name("FILE");
+    ReadImageOptions& options = second.options;
+    sub.add_option("--second-series", options.dicom.series_uid, "Which series of the second image's folder")
+        ->type_name("UID");
+    sub.add_option("--second-volume", options.dicom.volume, "Which volume of that series, from 1")->type_name("N");
+    sub.add_option("--second-frame", options.frame, "Which frame of a 4D second image, from 0")->type_name("N");
+    for (const char* name : {"--second-series", "--second-volume", "--second-frame"}) sub.get_option(name)->needs(image);
+}
+
 void add_open(CLI::App& app, Invocation& invocation) {
     Binder<OpenCommand> bind(app, invocation, "open", "Draw and see the surface follow, in the browser",
                              "kontur open ct.nii.gz contours.json");
@@ -442,6 +456,7 @@ void add_open(CLI::App& app, Invocation& invocation) {
     bind.flag("--no-browser", c.no_browser, "Only print the address");
     add_read_options(*bind.sub, c.image.options);
     add_series_options(*bind.sub, c.image.options.dicom);
+    add_second_image(*bind.sub, c.second_image);
 }
 
 }  // namespace

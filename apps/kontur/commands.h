@@ -167,6 +167,7 @@ void run(const ConvertCommand& command, Console& console);
 struct OpenCommand {
     std::vector<std::filesystem::path> files;  ///< an image, contours, a project; none: the page chooses
     ImageInput image;                          ///< how to read it; the path comes from `files`
+    ImageInput second_image;                   ///< shown beside it; without a path the one that the project keeps
     ReadContoursOptions read;
     std::filesystem::path project;  ///< empty: the one among `files`, beside the contours, or in the user's data folder
     viewer::ServerOptions server;

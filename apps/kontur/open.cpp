@@ -89,6 +89,7 @@ viewer::Workspace::Services services(const Words& words) {
     std::error_code ignored;
     if (fs::is_directory(words.image, ignored)) places.insert(places.begin(), {words.title(), fs::absolute(words.image)});
     return {[](const viewer::OpenRequest& request, const Work& work) { return open_project(request, work); },
+            [](const viewer::OpenRequest& request, const Work& work) { return read_second_image(request, work); },
             viewer::Places(places), viewer_file("recent.json"), viewer_file("arrangements.json")};
 }
 
@@ -159,6 +160,8 @@ private:
         const bool is_folder = fs::is_directory(words_.image, ignored) && !dicom.series_uid && !dicom.volume;
         try {
             std::rethrow_exception(failure);
+        } catch (const SecondImageError&) {
+            return false;
         } catch (const Error& error) {
             // Cancelled in the page, not by Ctrl+C.
             if (error.kind() == ErrorKind::cancelled) return !console_.stop_token().stop_requested();

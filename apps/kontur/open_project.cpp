@@ -15,6 +15,7 @@
 #include "kontur/io/dicom_seg.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
+#include "viewer/same_space.h"
 
 namespace kontur::app {
 namespace {
@@ -80,13 +81,27 @@ viewer::ImageChoice choice_of(const ReadImageOptions& options) {
     return {options.dicom.series_uid, options.dicom.volume, options.frame};
 }
 
+void choose(ReadImageOptions& options, const viewer::ImageChoice& choice) {
+    options.dicom.series_uid = choice.series_uid;
+    options.dicom.volume = choice.volume;
+    options.frame = choice.frame;
+}
+
+ImageInput input_of(const fs::path& path, const viewer::ImageChoice& choice) {
+    ImageInput input{path, {}};
+    choose(input.options, choice);
+    return input;
+}
+
 void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& opened, Opened& result) {
     ReadImageOptions options = input.options;
-    options.on_note = [&](std::string_view note) { result.notes.emplace_back(note); };
-    options.on_warning = [&](std::string_view warning) { result.warnings.emplace_back(warning); };
+    std::vector<std::string> warnings;
+    options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
+    options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
     opened.image = std::make_shared<const Image>(read_image(input.path, options, work));
-    opened.notes = result.notes;
-    opened.notes.insert(opened.notes.end(), result.warnings.begin(), result.warnings.end());
+    result.notes.insert(result.notes.end(), opened.notes.begin(), opened.notes.end());
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+    opened.notes.insert(opened.notes.end(), warnings.begin(), warnings.end());
     opened.title = fs::absolute(input.path).lexically_normal().filename().string();
     opened.reference.path = fs::absolute(input.path).lexically_normal().string();
     opened.reference.choice = choice_of(input.options);
@@ -167,14 +182,42 @@ ImageInput image_input(const OpenCommand& command, const Words& words) {
     if (input.path.empty() && !words.project.empty()) {
         const viewer::ImageReference drawn_on = viewer::image_of_project(words.project);
         input.path = drawn_on.path;
-        if (choice_of(input.options) == viewer::ImageChoice{}) {
-            input.options.dicom.series_uid = drawn_on.choice.series_uid;
-            input.options.dicom.volume = drawn_on.choice.volume;
-            input.options.frame = drawn_on.choice.frame;
-        }
+        if (choice_of(input.options) == viewer::ImageChoice{}) choose(input.options, drawn_on.choice);
     }
     if (input.path.empty()) input.path = viewer::kExample;
     return input;
+}
+
+/// The one that the command names, if it does and it fits: read before there is a project.
+std::optional<viewer::OpenedImage> named_second_image(const ImageInput& input, const viewer::OpenedImage& first,
+                                                      const Work& work, Opened& result) {
+    if (input.path.empty()) return std::nullopt;
+    try {
+        viewer::OpenedImage second = open_image(input, work, result);
+        for (const std::string& sentence : viewer::assumptions_of_one_space(first, second))
+            result.warnings.push_back(sentence);
+        return second;
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::cancelled) throw;
+        throw SecondImageError(error);
+    }
+}
+
+/// The one that the project keeps. What is wrong with it keeps nobody from work on the first.
+void show_kept_second_image(viewer::Session& session, const Work& work, Opened& result) {
+    const std::optional<viewer::ImageReference> kept = session.kept_second_image();
+    if (!kept) return;
+    try {
+        viewer::OpenedImage second = open_image(input_of(kept->path, kept->choice), work, result);
+        if (second.reference.fingerprint != kept->fingerprint)
+            session.add_note(
+                fmt::format("The second image, {}, has changed since it was added to this project.", second.title));
+        session.put_second_image(std::move(second));
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::cancelled) throw;
+        result.warnings.push_back(fmt::format("the second image is not shown: {}", error.what()));
+        session.add_note(fmt::format("The second image is not shown: {}", error.what()));
+    }
 }
 
 }  // namespace
@@ -204,6 +247,7 @@ Opened open_project(const OpenCommand& command, const Words& words, const Work& 
     std::optional<ReadContours> first;
     if (!fs::exists(project)) first = first_contours(command, words, result);
     if (first) tell_doubts(*first, image, result);
+    auto second = named_second_image(command.second_image, image, work, result);
     work.check();
     result.session = std::make_shared<viewer::Session>(std::move(image), project);
     if (result.session->is_new()) {
@@ -212,16 +256,21 @@ Opened open_project(const OpenCommand& command, const Words& words, const Work& 
         result.warnings.push_back(fmt::format("{} holds the work on these contours from before; they were not read again",
                                               result.session->project_path().string()));
     }
+    if (second) result.session->put_second_image(std::move(*second));
+    else show_kept_second_image(*result.session, work, result);
     return result;
 }
 
 std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request, const Work& work) {
     OpenCommand command;
     command.files = {request.path};
-    command.image.options.dicom.series_uid = request.choice.series_uid;
-    command.image.options.dicom.volume = request.choice.volume;
-    command.image.options.frame = request.choice.frame;
+    choose(command.image.options, request.choice);
     return open_project(command, sorted_words(command), work).session;
+}
+
+viewer::OpenedImage read_second_image(const viewer::OpenRequest& request, const Work& work) {
+    Opened told;  // what there is to say is in the image's own notes
+    return open_image(input_of(request.path, request.choice), work, told);
 }
 
 fs::path viewer_file(std::string_view name) {

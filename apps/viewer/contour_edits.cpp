@@ -72,7 +72,7 @@ std::size_t split_at(DrawnContour& contour, std::size_t point) {
     const std::size_t stretch = stretch_of(contour, point);
     if (contour.control[stretch].index == point) return stretch;
     contour.control.insert(contour.control.begin() + static_cast<std::ptrdiff_t>(stretch) + 1,
-                           {contour.points[point], contour.control[stretch].kind, point});
+                           {contour.points[point], contour.control[stretch].kind, point, contour.control[stretch].image});
     return stretch + 1;
 }
 
@@ -129,7 +129,8 @@ DrawnContour move_point(const DrawnContour& contour, std::size_t index, const Ve
     SketchOptions snapping = options;
     snapping.snap = options.snap && (point.kind == Stretch::wire || before.kind == Stretch::wire);
     // Only the moved point may jump to an edge; its neighbours lie where the user left them.
-    if (snapping.snap) sketch[index].at = edges.snap(contour.plane, to, options.snap_radius_mm);
+    const int image = point.kind == Stretch::wire ? point.image : before.image;
+    if (snapping.snap) sketch[index].at = edges.snap(contour.plane, to, options.snap_radius_mm, image);
     snapping.snap = false;
     return redrawn(contour, sketch, edges, snapping);
 }

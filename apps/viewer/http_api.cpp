@@ -12,6 +12,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
+#include "kontur/io/frame_needed.h"
 #include "viewer/gzip.h"
 #include "viewer/model_json.h"
 #include "viewer/page.h"
@@ -54,6 +55,11 @@ HttpReply guarded(Make make) {
         return make();
     } catch (const json::exception&) {
         return error_reply(400, "invalid_input", "the request is no JSON that kontur understands");
+    } catch (const FrameNeeded& error) {
+        HttpReply reply{status_of(error.kind()), "application/json", "", {}};
+        reply.body =
+            to_text({{"error", {{"kind", name(error.kind())}, {"message", error.what()}, {"frames", error.frames()}}}});
+        return reply;
     } catch (const Error& error) {
         return error_reply(status_of(error.kind()), std::string(name(error.kind())), error.what());
     } catch (const std::bad_alloc&) {
@@ -131,7 +137,8 @@ HttpApi::View HttpApi::view_of(const std::string& slice) {
         const bool is_text = request.is_object() && request.contains(key) && request[key].is_string();
         return is_text ? request[key].get<std::string>().substr(0, 64) : std::string();
     };
-    return {text("page"), text("view")};
+    const bool is_numbered = request.is_object() && request.contains("image") && request["image"].is_number_integer();
+    return {text("page"), text("view"), is_numbered ? request["image"].get<std::int64_t>() : 0};
 }
 
 std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest request) {
@@ -183,9 +190,17 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     if (get && target.path == "/api/compare") return compared(request, stop);
     if (get && below("/api/export/")) return exported(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
+    if (!get && target.path == "/api/image") return put_image(request, stop);
     if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
         return {200, std::move(reply->content_type), std::move(reply->body), {}};
     return not_found();
+}
+
+HttpReply HttpApi::put_image(const HttpRequest& request, const std::stop_token& stop) {
+    const json document = parsed(request.body);
+    Members(document).integer("image", 1, 1);
+    workspace_.put_second_image(open_request_from(document), request.opening, stop);
+    return {200, "application/json", "{}", {}};
 }
 
 HttpReply HttpApi::compared(const HttpRequest& request, const std::stop_token& stop) {

@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,11 +49,13 @@ public:
 private:
     HttpReply handle(const HttpRequest& request, const std::stop_token& stop);
     HttpReply api(const HttpRequest& request, const std::stop_token& stop);
-    /// A page's own name and its view's: two pages have views of the same names.
-    using View = std::pair<std::string, std::string>;
+    /// A page's own name, its view's, and the image's number: two pages have views of the same names, and a view shows
+    /// several images.
+    using View = std::tuple<std::string, std::string, std::int64_t>;
     static View view_of(const std::string& slice);
 
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
+    HttpReply put_image(const HttpRequest& request, const std::stop_token& stop);
     HttpReply compared(const HttpRequest& request, const std::stop_token& stop);
     HttpReply exported(const HttpRequest& request, const std::stop_token& stop);
     HttpReply import(const HttpRequest& request, const std::stop_token& stop);
@@ -63,7 +66,7 @@ private:
     std::uint64_t next_ticket_ = 0;
 };
 
-/// `{"error": {"kind", "message"}}` with the kind's status.
+/// `{"error": {"kind", "message"}}` with its status.
 HttpReply error_reply(int status, const std::string& kind, const std::string& message);
 
 /// Headers of every reply that the browser enforces (docs/viewer-protocol.md).

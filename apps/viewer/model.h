@@ -24,6 +24,7 @@ struct ControlPoint {
     Vec3 at;
     Stretch kind = Stretch::free;  ///< of the line to the next control point; the last one's leads to the first
     std::size_t index = 0;         ///< where that line starts in the contour's points; `points[index] == at`
+    int image = 0;                 ///< number of the image whose edges it follows, where it is a wire
 
     friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
 };

@@ -106,7 +106,11 @@ json to_json(const Structure& s) {
     return told;
 }
 
-json to_json(const ControlPoint& c) { return {{"at", to_json(c.at)}, {"kind", name(c.kind)}, {"index", c.index}}; }
+json to_json(const ControlPoint& c) {
+    json told{{"at", to_json(c.at)}, {"kind", name(c.kind)}, {"index", c.index}};
+    if (c.image != 0) told["image"] = c.image;
+    return told;
+}
 
 json to_json(const DrawnContour& c) {
     json control = json::array();
@@ -188,6 +192,8 @@ Plane Members::plane(const char* key) const {
     return plane;
 }
 
+int Members::image(const char* key) const { return has(key) ? static_cast<int>(integer(key, 0, kMostImages - 1)) : 0; }
+
 std::vector<Plane> Members::planes(const char* key, std::size_t most) const {
     const json& array = at(key);
     if (!array.is_array() || array.size() > most) refuse(fmt::format("'{}' is no array of at most {} planes", key, most));
@@ -236,7 +242,8 @@ DrawnContour contour_from_json(const json& value, const Limits& limits) {
         const auto last = static_cast<std::int64_t>(c.points.size()) - 1;
         const std::int64_t least = c.control.empty() ? 0 : static_cast<std::int64_t>(c.control.back().index) + 1;
         c.control.push_back({point.point("at"), point.stretch("kind"),
-                             static_cast<std::size_t>(point.integer("index", least, c.control.empty() ? 0 : last))});
+                             static_cast<std::size_t>(point.integer("index", least, c.control.empty() ? 0 : last)),
+                             point.image("image")});
     }
     return c;
 }

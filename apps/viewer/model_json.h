@@ -16,6 +16,8 @@ namespace kontur::viewer {
 constexpr Id kLargestId = Id{1} << 53;        ///< JavaScript's whole numbers end here
 constexpr std::size_t kMostPoints = 100'000;  ///< of one contour
 
+constexpr int kMostImages = 16;  ///< of one project, as far as messages and files go
+
 /// How much a value may hold.
 struct Limits {
     std::size_t points = kMostPoints;
@@ -69,6 +71,8 @@ public:
     Plane plane(const char* key) const;
     std::vector<Plane> planes(const char* key, std::size_t most) const;
     Stretch stretch(const char* key) const;
+    /// The number of an image, from 0; 0 where it is missing.
+    int image(const char* key) const;
     std::string color(const char* key) const;
 
 private:

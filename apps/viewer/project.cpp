@@ -27,26 +27,14 @@ constexpr const char* kSchema =
 Structure row_from(const json& value, const Structure*) { return structure_from_json(value); }
 DrawnContour row_from(const json& value, const DrawnContour*) { return contour_from_json(value, kStoredLimits); }
 
-json to_json(const ImageChoice& choice) {
-    json object = json::object();
-    if (choice.series_uid) object["series"] = *choice.series_uid;
-    if (choice.volume) object["volume"] = *choice.volume;
-    if (choice.frame) object["frame"] = *choice.frame;
-    return object;
-}
+/// Of projects of before the text is empty.
+ImageChoice choice_from(const std::string& text) { return text.empty() ? ImageChoice{} : choice_from_json(parsed(text)); }
 
-/// Projects of before have none.
-ImageChoice choice_from(const std::string& text) {
-    constexpr std::size_t kLongestUid = 64;
-    constexpr std::int64_t kMost = 1'000'000;
-    ImageChoice choice;
-    if (text.empty()) return choice;
-    const json object = parsed(text);
-    const Members m(object);
-    if (m.has("series")) choice.series_uid = m.text("series", kLongestUid);
-    if (m.has("volume")) choice.volume = static_cast<int>(m.integer("volume", 1, kMost));
-    if (m.has("frame")) choice.frame = m.integer("frame", 0, kMost);
-    return choice;
+std::vector<ImageReference> references_from(const std::string& text) {
+    std::vector<ImageReference> references;
+    if (text.empty()) return references;
+    for (const json& item : parsed(text)) references.push_back(reference_from_json(item));
+    return references;
 }
 
 template <class Row>
@@ -183,6 +171,7 @@ void Project::create(const ImageReference& image) {
 void Project::load() {
     reading(database_, [&] {
         image_ = {setting("image_path"), setting("image_fingerprint"), choice_from(setting("image_choice"))};
+        further_images_ = references_from(setting("further_images"));
         const json numbers{{"position", parsed(setting("position"))}, {"next_id", parsed(setting("next_id"))}};
         if (const std::string borders = setting("borders"); !borders.empty())
             state_.borders = borders_from_json(parsed(borders));
@@ -214,7 +203,7 @@ void Project::save_setting(std::string_view key, std::string_view value) {
 void Project::write_image(const ImageReference& image) {
     save_setting("image_path", image.path);
     save_setting("image_fingerprint", image.fingerprint);
-    save_setting("image_choice", to_text(to_json(image.choice)));
+    save_setting("image_choice", to_text(viewer::to_json(image.choice)));
 }
 
 void Project::save_image(const ImageReference& image) {
@@ -222,6 +211,15 @@ void Project::save_image(const ImageReference& image) {
     write_image(image);
     transaction.commit();
     image_ = image;
+}
+
+void Project::save_further_images(std::vector<ImageReference> images) {
+    json array = json::array();
+    for (const ImageReference& image : images) array.push_back(viewer::to_json(image));
+    Transaction transaction(database_);
+    save_setting("further_images", to_text(array));
+    transaction.commit();
+    further_images_ = std::move(images);
 }
 
 std::string Project::page_state() { return setting("page"); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viewer/database.h"
+#include "viewer/image_reference.h"
 #include "viewer/model.h"
 
 namespace kontur::viewer {
@@ -36,22 +37,6 @@ struct Commit {
     std::optional<UseImageChange> use_image{};
 
     bool is_empty() const { return structures.empty() && contours.empty() && !borders && !use_image; }
-};
-
-/// Which of the volumes of a path; nothing where there is only one.
-struct ImageChoice {
-    std::optional<std::string> series_uid{};
-    std::optional<int> volume{};          ///< of the series, from 1
-    std::optional<std::int64_t> frame{};  ///< from 0
-
-    friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
-};
-
-/// Which image a project belongs to.
-struct ImageReference {
-    std::string path;         ///< where it was, or "phantom"
-    std::string fingerprint;  ///< of its geometry and voxels
-    ImageChoice choice{};
 };
 
 /// A project file: the present state, every step that led there and every step that was undone, and the image's name. What
@@ -90,6 +75,10 @@ public:
     void save_page_state(std::string_view json);
     void save_image(const ImageReference& image);
 
+    /// Images that are shown beside the one it was drawn on, in the order of their numbers from 1. Not part of the history.
+    const std::vector<ImageReference>& further_images() const { return further_images_; }
+    void save_further_images(std::vector<ImageReference> images);
+
     /// The file itself, for checks of it.
     Database& database() { return database_; }
 
@@ -110,6 +99,7 @@ private:
 
     Database database_;
     ImageReference image_;
+    std::vector<ImageReference> further_images_;
     State state_;
     std::int64_t position_ = 0;  ///< number of the last step that counts
     Id next_id_ = 1;

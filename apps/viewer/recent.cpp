@@ -39,7 +39,8 @@ std::vector<RecentProject> RecentProjects::stored() const {
         for (const json& item : parsed(read_bytes(file_))) {
             const Members m(item);
             projects.push_back({m.text("project", kLongestText), m.text("title", kLongestText),
-                                m.text("image", kLongestText), m.text("time", 32)});
+                                m.text("image", kLongestText), m.text("time", 32),
+                                m.has("second") ? m.text("second", kLongestText) : ""});
             if (projects.size() == kMostKept) break;
         }
     } catch (const json::exception&) {
@@ -70,7 +71,11 @@ void RecentProjects::add(RecentProject project) {
     if (projects.size() > kMostKept) projects.resize(kMostKept);
     json array = json::array();
     for (const RecentProject& one : projects)
-        array.push_back({{"project", one.project.string()}, {"title", one.title}, {"image", one.image}, {"time", one.time}});
+        array.push_back({{"project", one.project.string()},
+                         {"title", one.title},
+                         {"image", one.image},
+                         {"second", one.second},
+                         {"time", one.time}});
     try {
         write_file_atomically(file_, to_text(array) + "\n");
         fs::permissions(file_, fs::perms::owner_read | fs::perms::owner_write);

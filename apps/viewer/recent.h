@@ -11,9 +11,10 @@ namespace kontur::viewer {
 /// A project that was worked on.
 struct RecentProject {
     std::filesystem::path project;
-    std::string title;  ///< of its image: file, or patient and series
-    std::string image;  ///< where it was
-    std::string time;   ///< of the last opening, UTC, as 2026-11-23T17:30:00Z
+    std::string title;     ///< of its image: file, or patient and series
+    std::string image;     ///< where it was
+    std::string time;      ///< of the last opening, UTC, as 2026-11-23T17:30:00Z
+    std::string second{};  ///< title of the image beside it, or ""
 };
 
 /// The projects that were opened last, in a file that only the user may read: titles can name patients. Safe for concurrent

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
@@ -29,7 +27,6 @@ std::string notice_event(std::string_view level, const std::string& text) {
 Session::Session(OpenedImage opened, const std::filesystem::path& project)
     : image_(std::move(opened.image)),
       title_(std::move(opened.title)),
-      notes_(std::move(opened.notes)),
       frame_of_reference_uid_(std::move(opened.frame_of_reference_uid)),
       series_(std::move(opened.series)),
       identity_(std::move(opened.identity)),
@@ -39,6 +36,7 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       range_(value_range(*image_)),
       shows_borders_(range_.first < range_.second && !is_label_map(*image_)),
       edges_(image_),
+      notes_(std::move(opened.notes)),
       project_(project, opened.reference),
       surfaces_(
           {[this](Id structure, std::int64_t revision, const PlaneCutters& cut) { tell_outlines(structure, revision, cut); },
@@ -144,6 +142,7 @@ const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
         {"structure.set", {&Session::set_structure}},
         {"structure.remove", {&Session::remove_structure}},
         {"image.set", {&Session::set_image}},
+        {"image.remove", {&Session::remove_image}},
         {"borders.set", {&Session::set_borders}},
         {"borders.rule", {&Session::set_border_rule}},
         {"draft.drop", {&Session::drop_draft}},
@@ -154,11 +153,6 @@ const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
         {"ping", {&Session::ping, false}},
     };
     return table;
-}
-
-json Session::value(const Members& m) {
-    const double value = interpolate(*image_, mm_to_index_, m.point("at"), std::numeric_limits<double>::quiet_NaN());
-    return {{"value", std::isfinite(value) ? json(value) : json(nullptr)}};
 }
 
 json Session::ping(const Members&) { return json::object(); }

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "kontur/io/dicom_identity.h"
-#include "kontur/io/dicom_series.h"
 #include "kontur/shape/volume.h"
 #include "kontur/view/reslice.h"
+#include "viewer/further_image.h"
 #include "viewer/imports.h"
+#include "viewer/opened_image.h"
 #include "viewer/project.h"
 #include "viewer/sketch.h"
 #include "viewer/slice_edges.h"
@@ -27,17 +27,6 @@
 namespace kontur::viewer {
 
 class Members;
-
-/// An image ready to work on.
-struct OpenedImage {
-    std::shared_ptr<const Image> image;
-    std::string title;
-    ImageReference reference;
-    std::vector<std::string> notes;        ///< what had to be decided on reading
-    std::string frame_of_reference_uid{};  ///< of DICOM images; "" when none is named
-    std::optional<DicomSeries> series{};   ///< what DICOM files that are made of the project refer to
-    DicomIdentity identity{};              ///< whose image it is; of other files all is empty
-};
 
 /// What an import came to: structures, or why the contours may not belong to the image, and then nothing has changed.
 struct ImportReply {
@@ -102,6 +91,16 @@ public:
     /// As DICOM has it; "CT" of other files whose values look like it; else "".
     std::string modality() const;
 
+    /// Shows it beside the project's own image, in place of the one that was; kept with the project. Throws as
+    /// `assumptions_of_one_space`, and then nothing changes.
+    void put_second_image(OpenedImage opened);
+    /// The one that is kept with the project, whether it could be read or not.
+    std::optional<ImageReference> kept_second_image() const;
+    /// Of the image that is shown beside the project's own; "" while there is none.
+    std::string second_title() const;
+    /// A further sentence of what had to be decided on reading.
+    void add_note(const std::string& sentence);
+
     /// Something that the user should know.
     void notice(std::string_view level, const std::string& text);
     State state() const;
@@ -146,6 +145,7 @@ private:
     nlohmann::json ping(const Members& m);
 
     nlohmann::json set_image(const Members& m);
+    nlohmann::json remove_image(const Members& m);
     nlohmann::json set_borders(const Members& m);
     nlohmann::json set_border_rule(const Members& m);
 
@@ -177,8 +177,13 @@ private:
     void tell_borders(const std::vector<BorderPair>& pairs, const std::string& problem);
     nlohmann::json borders_found(const std::vector<BorderPair>& pairs) const;
     nlohmann::json history();
-    /// Of the image's values; "" where the file names none.
-    std::string unit() const;
+    std::string unit() const { return unit_of(identity_, *image_); }
+    void show_second_image(std::shared_ptr<const FurtherImage> shown);
+    /// Null while there is none.
+    std::shared_ptr<const FurtherImage> second_image() const;
+    nlohmann::json further_images() const;
+    /// 0: the project's own. Throws Error(invalid_input) for a number that none has.
+    std::shared_ptr<const Image> image_numbered(int number) const;
     nlohmann::json page_state();
     nlohmann::json surface_event(const Surface& surface) const;
     SurfaceEvidence evidence_of(const Surface& surface) const;
@@ -192,7 +197,6 @@ private:
 
     const std::shared_ptr<const Image> image_;
     const std::string title_;
-    const std::vector<std::string> notes_;
     const std::string frame_of_reference_uid_;
     const std::optional<DicomSeries> series_;
     const DicomIdentity identity_;
@@ -208,7 +212,11 @@ private:
     std::mutex watched_mutex_;
     std::vector<WatchedPlane> watched_;  ///< the latest of each page's views, the newest last
 
+    mutable std::mutex second_mutex_;
+    std::shared_ptr<const FurtherImage> second_;
+
     mutable std::mutex mutex_;  ///< of what follows
+    std::vector<std::string> notes_;
     Project project_;
     std::optional<DrawnContour> draft_;  ///< stands for the contour with its id, or is a new one (id 0)
     std::vector<DrawnContour> carried_;  ///< neighbours' contours that go with it, in place of those with their ids

@@ -29,7 +29,7 @@ double snap_radius_mm(const Members& m) {
 
 SketchPoint sketch_point(const json& item) {
     const Members m(item);
-    SketchPoint point{m.point("at"), m.stretch("kind"), {}};
+    SketchPoint point{m.point("at"), m.stretch("kind"), {}, m.image("image")};
     if (!m.has("path")) return point;
     std::vector<Vec3> line = m.points("path");
     line.insert(line.begin(), point.at);

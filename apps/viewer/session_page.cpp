@@ -46,29 +46,16 @@ json corners_json(const Grid& grid) {
     return corners;
 }
 
-json identity_json(const DicomIdentity& identity) {
-    return {{"patient_name", identity.patient_name},
-            {"patient_id", identity.patient_id},
-            {"birth_date", identity.birth_date},
-            {"study_date", identity.study_date},
-            {"study_description", identity.study_description},
-            {"series_number", identity.series_number},
-            {"series_description", identity.series_description},
-            {"modality", identity.modality}};
-}
-
 }  // namespace
 
 std::string Session::greeting(const json& more) {
     const std::scoped_lock lock(mutex_);
-    json structures = json::array(), contours = json::array(), surfaces = json::array(), presets = json::array();
+    json structures = json::array(), contours = json::array(), surfaces = json::array();
     Told told;
     for (const auto& [id, structure] : project_.state().structures) structures.push_back(to_json(structure));
     for (const auto& [id, contour] : project_.state().contours) contours.push_back(told(*contour));
     for (const auto& [id, surface] : surfaces_.all())
         if (project_.state().structures.contains(id)) surfaces.push_back(surface_event(*surface));
-    for (const WindowPreset& preset : presets_)
-        presets.push_back({{"name", preset.name}, {"center", preset.window.center}, {"width", preset.window.width}});
     const Grid& grid = image_->grid;
     const ViewNames names = view_names(grid);
     json event{{"event", "session"},
@@ -83,10 +70,11 @@ std::string Session::greeting(const json& more) {
                  {"unit", unit()},
                  {"range", {range_.first, range_.second}},
                  {"notes", notes_}}},
-               {"identity", identity_json(identity_)},
+               {"identity", to_json(identity_)},
+               {"images", further_images()},
                {"has_dicom", series_.has_value()},
                {"window", {{"center", window_.center}, {"width", window_.width}}},
-               {"presets", presets},
+               {"presets", to_json(presets_)},
                {"views", views_json(grid, names)},
                {"first_view", kViews[static_cast<std::size_t>(names.first)]},
                {"structures", structures},
@@ -105,11 +93,6 @@ std::string Session::greeting(const json& more) {
 std::string Session::modality() const {
     if (identity_.modality.empty() && looks_like_ct(*image_)) return "CT";
     return identity_.modality;
-}
-
-std::string Session::unit() const {
-    if (!identity_.modality.empty()) return identity_.unit;
-    return looks_like_ct(*image_) ? "HU" : "";
 }
 
 /// A project may come from anywhere: what `page.save` would have refused is not given back.

@@ -29,6 +29,7 @@ struct SliceRequest {  // NOLINT(bugprone-exception-escape)
     std::string page, view;
     json plane;
     Reslice raster;
+    int image;  ///< its number
     Window window;
     enum class Pixels { none, shades, values } pixels;
     bool outlines;
@@ -53,6 +54,7 @@ SliceRequest parse(std::string_view text) {
                     fmt::format("'mm_per_pixel' is {:g}; it must lie between 0.0001 and 10000", request.raster.pixel_mm));
     request.raster.width = static_cast<int>(m.integer("width", 1, kMostPixelsOnASide));
     request.raster.height = static_cast<int>(m.integer("height", 1, kMostPixelsOnASide));
+    request.image = m.image("image");
     request.pixels = pixels_from(m);
     request.outlines = m.flag_or("outlines", true);
     if (request.pixels == SliceRequest::Pixels::shades) {
@@ -191,6 +193,7 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
 
 std::string Session::slice(std::string_view text) {
     const SliceRequest request = parse(text);
+    const std::shared_ptr<const Image> image = image_numbered(request.image);
     if (request.outlines) watch({request.page, request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{
@@ -203,14 +206,14 @@ std::string Session::slice(std::string_view text) {
                      head, lines, dots);
     CodedValues coded;
     if (request.pixels == SliceRequest::Pixels::values) {
-        coded = coded_values(*image_, request.raster);
+        coded = coded_values(*image, request.raster);
         head["values"] = {{"first", coded.first}, {"step", coded.step}};
     }
     BinaryReply reply(std::move(head));
     reply.add("outline_points", lines.numbers());
     reply.add("crossing_points", dots.numbers());
     if (request.pixels == SliceRequest::Pixels::values) reply.add<std::uint16_t>("values", coded.codes);
-    if (request.pixels == SliceRequest::Pixels::shades) reply.add<std::uint8_t>("pixels", shades(*image_, request));
+    if (request.pixels == SliceRequest::Pixels::shades) reply.add<std::uint8_t>("pixels", shades(*image, request));
     return reply.bytes();
 }
 

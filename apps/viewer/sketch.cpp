@@ -39,7 +39,7 @@ public:
                 if (drawing.control.back().index + 1 == drawing.points.size()) drawing.control.pop_back();
                 drawing.points.pop_back();
             }
-            drawing.control.push_back({sketch_[i].at, sketch_[i].kind, drawing.points.size()});
+            drawing.control.push_back({sketch_[i].at, sketch_[i].kind, drawing.points.size(), sketch_[i].image});
             drawing.points.push_back(sketch_[i].at);
             for (const Vec3& p : line)
                 if (distance(drawing.points.back(), p) >= kSamePoint_mm) drawing.points.push_back(p);
@@ -53,7 +53,8 @@ private:
         point.at = projected(point.at, plane_);
         const bool on_wire =
             (point.kind == Stretch::wire && !point.path) || (before && before->kind == Stretch::wire && !before->path);
-        if (options_.snap && on_wire) point.at = edges_.snap(plane_, point.at, options_.snap_radius_mm);
+        const int image = point.kind == Stretch::wire || !before ? point.image : before->image;
+        if (options_.snap && on_wire) point.at = edges_.snap(plane_, point.at, options_.snap_radius_mm, image);
         if (point.path)
             for (Vec3& p : *point.path) p = projected(p, plane_);
     }
@@ -71,7 +72,7 @@ private:
         if (from.kind == Stretch::spline)
             line = spline_stretch(neighbour(i, -1), from.at, to, neighbour(i, 2), options_.spline_step_mm);
         if (from.kind == Stretch::wire) {
-            line = edges_.path(plane_, from.at, to);
+            line = edges_.path(plane_, from.at, to, from.image);
             line.push_back(to);
             line = thinned(line, kThinning_mm);
             line.pop_back();
@@ -140,7 +141,8 @@ std::vector<SketchPoint> sketch_of(const DrawnContour& contour) {
         const std::size_t end = i + 1 < contour.control.size() ? contour.control[i + 1].index : contour.points.size();
         sketch.push_back({c.at, c.kind,
                           std::vector<Vec3>(contour.points.begin() + static_cast<std::ptrdiff_t>(c.index) + 1,
-                                            contour.points.begin() + static_cast<std::ptrdiff_t>(end))});
+                                            contour.points.begin() + static_cast<std::ptrdiff_t>(end)),
+                          c.image});
     }
     return sketch;
 }

@@ -15,6 +15,7 @@ struct SketchPoint {
     Vec3 at;
     Stretch kind = Stretch::free;
     std::optional<std::vector<Vec3>> path;
+    int image = 0;  ///< number of the image whose edges a wire follows
 };
 
 struct SketchOptions {

@@ -22,8 +22,11 @@ bool is_same(const Plane& a, const Plane& b) { return a.u == b.u && a.v == b.v &
 }  // namespace
 
 struct SliceEdges::Slice {
-    Slice(const Image& image, const Plane& its_plane, const Vec3& around, double pixel_mm)
-        : plane(its_plane), raster(centered_reslice(its_plane, kSidePixels, kSidePixels, pixel_mm)) {
+    Slice(int its_number, const Image& image, const Plane& its_plane, const Vec3& around)
+        : number(its_number),
+          plane(its_plane),
+          raster(centered_reslice(its_plane, kSidePixels, kSidePixels, smallest_spacing_mm(image.grid))) {
+        const double pixel_mm = raster.pixel_mm;
         // The lattice stays the same whatever point of the plane comes first: its nodes are multiples of a pixel from the
         // projection of the frame's origin.
         const auto [s, t] = raster.plane.to_uv(around);
@@ -62,32 +65,40 @@ struct SliceEdges::Slice {
         return wires.front();
     }
 
+    int number;  ///< of the image
     Plane plane;
     Reslice raster;
     std::unique_ptr<const EdgeMap> edges;
     std::list<LiveWire> wires;
 };
 
-SliceEdges::SliceEdges(std::shared_ptr<const Image> image)
-    : image_(std::move(image)), pixel_mm_(smallest_spacing_mm(image_->grid)) {}
+SliceEdges::SliceEdges(std::shared_ptr<const Image> image) : images_{{0, std::move(image)}} {}
 SliceEdges::~SliceEdges() = default;
 
-SliceEdges::Slice& SliceEdges::slice_of(const Plane& plane, const Vec3& point) {
+void SliceEdges::set_further(int image, std::shared_ptr<const Image> shown) {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(slices_, [&](const Slice& slice) { return slice.number == image; });
+    if (shown) images_[image] = std::move(shown);
+    else images_.erase(image);
+}
+
+SliceEdges::Slice& SliceEdges::slice_of(const Plane& plane, const Vec3& point, int image) {
+    const int number = images_.contains(image) ? image : 0;
     const auto known = std::find_if(slices_.begin(), slices_.end(), [&](const Slice& slice) {
-        return is_same(slice.plane, plane) && slice.has_in_the_middle(point);
+        return slice.number == number && is_same(slice.plane, plane) && slice.has_in_the_middle(point);
     });
     if (known != slices_.end()) {
         slices_.splice(slices_.begin(), slices_, known);
     } else {
-        slices_.emplace_front(*image_, plane, point, pixel_mm_);
+        slices_.emplace_front(number, *images_.at(number), plane, point);
         if (slices_.size() > kMostSlices) slices_.pop_back();
     }
     return slices_.front();
 }
 
-std::vector<Vec3> SliceEdges::path(const Plane& plane, const Vec3& from, const Vec3& to) {
+std::vector<Vec3> SliceEdges::path(const Plane& plane, const Vec3& from, const Vec3& to, int image) {
     const std::scoped_lock lock(mutex_);
-    Slice& slice = slice_of(plane, from);
+    Slice& slice = slice_of(plane, from, image);
     const std::vector<Pixel> pixels = slice.wire(slice.pixel(from)).path_to(slice.pixel(to));
     std::vector<Vec3> line{from};
     const std::vector<PixelPosition> smooth = smooth_path(*slice.edges, pixels);
@@ -95,11 +106,11 @@ std::vector<Vec3> SliceEdges::path(const Plane& plane, const Vec3& from, const V
     return line;
 }
 
-Vec3 SliceEdges::snap(const Plane& plane, const Vec3& point, double radius_mm) {
+Vec3 SliceEdges::snap(const Plane& plane, const Vec3& point, double radius_mm, int image) {
     const std::scoped_lock lock(mutex_);
-    const Slice& slice = slice_of(plane, point);
+    const Slice& slice = slice_of(plane, point, image);
     const Pixel pixel = slice.pixel(point);
-    const int radius = static_cast<int>(std::clamp(radius_mm / pixel_mm_, 1.0, 20.0));
+    const int radius = static_cast<int>(std::clamp(radius_mm / slice.raster.pixel_mm, 1.0, 20.0));
     const Pixel edge = slice.edges->snap(pixel, radius);
     // Where there is no edge the point stays where the user put it, not at the pixel's centre.
     if (slice.edges->strength(edge) == 0 || (edge == pixel && slice.edges->strength(edge) < 0.2)) return point;

@@ -35,16 +35,6 @@ std::int64_t frame_of(const Target& target) {
     return frame;
 }
 
-OpenRequest request_from(const std::string& body) {
-    const json document = parsed(body);
-    const Members m(document);
-    OpenRequest request{m.text("path", kLongestPath), {}};
-    if (m.has("series")) request.choice.series_uid = m.text("series", kLongestUid);
-    if (m.has("volume")) request.choice.volume = static_cast<int>(m.integer("volume", 1, 100'000));
-    if (m.has("frame")) request.choice.frame = m.integer("frame", 0, 1'000'000);
-    return request;
-}
-
 void keep_arrangement(Workspace& workspace, const std::string& body) {
     const json document = parsed(body);
     const Members m(document);
@@ -76,6 +66,10 @@ private:
 
 }  // namespace
 
+OpenRequest open_request_from(const json& document) {
+    return {Members(document).text("path", kLongestPath), choice_from_json(document)};
+}
+
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
                                     const std::string& body, const std::stop_token& stop) {
     const Places& places = workspace.places();
@@ -88,7 +82,7 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
     if (method == "GET" && target.path == "/api/thumbnail")
         return StartReply{"application/octet-stream", thumbnail(places.resolved(needed(target, "file")), frame_of(target))};
     if (method != "POST") return std::nullopt;
-    if (target.path == "/api/open") workspace.open(request_from(body));
+    if (target.path == "/api/open") workspace.open(open_request_from(parsed(body)));
     else if (target.path == "/api/cancel") workspace.cancel();
     else if (target.path == "/api/close") workspace.close();
     else if (target.path == "/api/arrangement") keep_arrangement(workspace, body);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -18,5 +19,8 @@ struct StartReply {
 };
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
                                     const std::string& body, const std::stop_token& stop);
+
+/// What the body of a request names to be opened.
+OpenRequest open_request_from(const nlohmann::json& document);
 
 }  // namespace kontur::viewer

@@ -10,6 +10,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/frame_needed.h"
 #include "viewer/model_json.h"
+#include "viewer/status_line.h"
 
 namespace kontur::viewer {
 namespace {
@@ -46,7 +47,8 @@ constexpr const char* kAnotherOpen = "another image was opened since; load the p
 
 }  // namespace
 
-Workspace::Workspace(Services services) : services_(std::move(services)), recent_(services_.recent), arrangements_(services_.arrangements) {}
+Workspace::Workspace(Services services)
+    : services_(std::move(services)), recent_(services_.recent), arrangements_(services_.arrangements) {}
 
 Workspace::Workspace(std::shared_ptr<Session> session) { adopt(std::move(session)); }
 
@@ -70,17 +72,26 @@ void Workspace::tell_status(const std::string& text, std::optional<double> fract
     tell(to_text({{"event", "status"}, {"text", text}, {"fraction", fraction ? json(*fraction) : json(nullptr)}}));
 }
 
-std::string Workspace::start_event() const {
-    json places = json::array(), recent = json::array(), opening = nullptr;
+json Workspace::places_json() const {
+    json places = json::array();
     for (const Place& place : services_.places.all())
         places.push_back({{"name", place.name}, {"path", place.path.string()}});
+    return places;
+}
+
+std::string Workspace::start_event() const {
+    json recent = json::array(), opening = nullptr;
     for (const RecentProject& one : recent_.all())
-        recent.push_back({{"path", one.project.string()}, {"title", one.title}, {"image", one.image}, {"time", one.time}});
+        recent.push_back({{"path", one.project.string()},
+                          {"title", one.title},
+                          {"image", one.image},
+                          {"second", one.second},
+                          {"time", one.time}});
     if (opening_) opening = {{"title", opening_->title}, {"stage", opening_->stage}, {"fraction", opening_->fraction}};
     return to_text({{"event", "start"},
                     {"version", KONTUR_VERSION},
                     {"example", kExample},
-                    {"places", places},
+                    {"places", places_json()},
                     {"recent", recent},
                     {"folder", folder_},
                     {"sentence", sentence_},
@@ -100,6 +111,8 @@ std::string Workspace::greeting(PageId page) {
     const std::string modality = session->modality();
     return session->greeting({{"opening", std::to_string(opened)},
                               {"can_close", services_.open != nullptr},
+                              {"places", places_json()},
+                              {"folder", services_.places.folder_of(session->image_path())},
                               {"arrangement", {{"modality", modality}, {"state", arrangements_.of(modality)}}}});
 }
 
@@ -174,9 +187,13 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
     if (done) done(failure);
 }
 
+void Workspace::remember(const Session& session) {
+    recent_.add({fs::absolute(session.project_path()), session.title(), session.image_path(), {}, session.second_title()});
+}
+
 void Workspace::adopt(std::shared_ptr<Session> session) {
     session->on_event([this](const std::string& message) { tell(message); });
-    recent_.add({fs::absolute(session->project_path()), session->title(), session->image_path(), {}});
+    remember(*session);
     {
         const std::scoped_lock lock(mutex_);
         last_ = session;
@@ -226,6 +243,23 @@ void Workspace::open(const OpenRequest& request) {
     const bool is_known = request.path == kExample || recent_.contains(request.path);
     if (!is_known) checked.path = services_.places.resolved(request.path.string());
     begin(checked.path.filename().string(), [this, checked](const Work& work) { return services_.open(checked, work); });
+}
+
+void Workspace::put_second_image(const OpenRequest& request, const std::optional<std::string>& opening,
+                                 const std::stop_token& stop) {
+    session(opening);
+    if (!services_.read) throw Error(ErrorKind::unsupported, "this kontur shows one image alone");
+    const std::unique_lock alone(reading_second_, std::try_to_lock);
+    if (!alone)
+        throw Error(ErrorKind::invalid_input, "another image is being added; wait until it is there, or cancel it first");
+    const OpenRequest checked{services_.places.resolved(request.path.string()), request.choice};
+    const std::string text = fmt::format("Reading {}", checked.path.filename().string());
+    const StatusLine line([this](const std::string& said, std::optional<double> done) { tell_status(said, done); }, text);
+    OpenedImage read = services_.read(checked, line.work(stop));
+    // The session is not held while it reads: whoever opens another image does not wait for this one.
+    const std::shared_ptr<Session> open = session(opening);
+    open->put_second_image(std::move(read));
+    remember(*open);
 }
 
 void Workspace::cancel() {

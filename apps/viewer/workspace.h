@@ -43,6 +43,8 @@ public:
     struct Services {
         /// Makes the session for what a page asks for. Errors are exceptions.
         std::function<std::shared_ptr<Session>(const OpenRequest&, const Work&)> open{};
+        /// Reads an image that is to be shown beside the one that is open.
+        std::function<OpenedImage(const OpenRequest&, const Work&)> read{};
         Places places{};
         std::filesystem::path recent{};        ///< the file that lists projects; empty: none is kept
         std::filesystem::path arrangements{};  ///< the file of how the page was arranged; empty: that is not kept
@@ -78,6 +80,11 @@ public:
 
     /// For pages: as `begin`, of what is a recent project, the example, or lies in one of the places.
     void open(const OpenRequest& request);
+    /// For pages: reads what lies in one of the places, and shows it beside the open session's image. Returns when it is
+    /// there; status lines say how far it is. Throws as `session` and `Session::put_second_image`, what the reader throws,
+    /// and Error(invalid_input) while another one is read.
+    void put_second_image(const OpenRequest& request, const std::optional<std::string>& opening,
+                          const std::stop_token& stop);
     /// What is being read is given up.
     void cancel();
     /// Everything is saved; the start page comes back.
@@ -100,8 +107,10 @@ private:
     };
 
     std::string start_event() const;
+    nlohmann::json places_json() const;
     void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop);
     void adopt(std::shared_ptr<Session> session);
+    void remember(const Session& session);
     /// `frames`: how many the file has, where one of them has to be chosen.
     void fail(std::string_view kind, const std::string& sentence, std::optional<std::int64_t> frames = {});
     void tell_progress(std::string_view stage, double fraction);
@@ -110,6 +119,7 @@ private:
     const Services services_;
     RecentProjects recent_;
     Arrangements arrangements_;
+    std::mutex reading_second_;
 
     std::mutex listener_mutex_;
     std::function<void(const std::string&)> listener_;

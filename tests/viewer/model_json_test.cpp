@@ -20,7 +20,7 @@ DrawnContour oblique_contour() {
     DrawnContour contour = test::freehand_circle(30);
     contour.plane = make_plane({1.23456789012345, -7e-5, 300}, {normal(random), normal(random), normal(random)});
     for (Vec3& p : contour.points) p = contour.plane.from_uv(normal(random), normal(random));
-    contour.control = {{contour.points[0], Stretch::wire, 0}, {contour.points[7], Stretch::spline, 7}};
+    contour.control = {{contour.points[0], Stretch::wire, 0, 1}, {contour.points[7], Stretch::spline, 7}};
     contour.hole = true;
     contour.visible = false;
     return contour;

@@ -85,8 +85,8 @@ def test_a_slice_shows_the_ball_where_it_is(server):
 def test_values_and_presets_follow_the_image(server):
     page = server.page()
     center = page.session["views"]["axial"]["plane"]["origin"]
-    assert page.do("value", at=center)["value"] == pytest.approx(100)
-    assert page.do("value", at=[9000, 0, 0])["value"] is None
+    assert page.do("value", at=center)["values"] == [pytest.approx(100)]
+    assert page.do("value", at=[9000, 0, 0])["values"] == [None]
 
 
 def test_drawing_gives_a_surface_and_outlines_in_every_view(server):

@@ -50,6 +50,11 @@ TEST(Session, ASliceIsOvertakenByItsOwnPagesOnly) {
     EXPECT_EQ(status_before(here.session, slice("axial", "one"), slice("axial", "one")), 409);
     EXPECT_EQ(status_before(here.session, slice("axial", "one"), slice("axial", "two")), 200);
     EXPECT_EQ(status_before(here.session, slice("axial", "one"), slice("axial", {})), 200);
+    HttpRequest second = slice("axial", {});
+    json body = json::parse(second.body);
+    body["image"] = 1;
+    second.body = body.dump();
+    EXPECT_EQ(status_before(here.session, slice("axial", {}), second), 200) << "a view shows both images";
     EXPECT_EQ(status_before(here.session, slice("axial", std::string(65, 'x')), slice("b", {})), 400);
     EXPECT_EQ(status_before(here.session, slice("axial", 7), slice("b", {})), 400);
 }

@@ -58,6 +58,11 @@ private:
                                          root_ / "a.kontur");
     }
 
+    OpenedImage read(const Work& work) {
+        if (reader) reader(work);
+        return {test::flat_image(), "other", {(root_ / "image.nii").string(), "b"}, {}};
+    }
+
     TemporaryFolder folder_;
     fs::path root_ = fs::canonical(folder_.path());
     std::mutex mutex_;
@@ -65,7 +70,9 @@ private:
 
 public:
     std::function<std::shared_ptr<Session>(const Work&)> opener;
+    std::function<void(const Work&)> reader;
     Workspace workspace{{[this](const OpenRequest&, const Work& work) { return made(work); },
+                         [this](const OpenRequest&, const Work& work) { return read(work); },
                          Places(std::vector<Place>{{"Here", root_}}), root_ / "recent.json", root_ / "arrangements.json"}};
 };
 
@@ -134,6 +141,47 @@ TEST(Workspace, ReadingCanBeCancelledAndIsTheOnlyOneMeanwhile) {
     ASSERT_TRUE(desk.workspace.wait_for(10s));
     EXPECT_EQ(desk.greeting()["opening"], nullptr);
     EXPECT_EQ(desk.greeting()["sentence"], "");
+}
+
+TEST(Workspace, ReadsOneSecondImageAtATimeAndItCanBeCancelled) {
+    Desk desk;
+    EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), {}, {}), ErrorKind::invalid_input, "no image is open");
+    desk.open();
+    std::promise<void> begun;
+    desk.reader = [&](const Work& work) {
+        begun.set_value();
+        for (;; std::this_thread::sleep_for(1ms)) work.report("read voxels", 0.25);
+    };
+    std::stop_source stop;
+    auto ended = std::async(std::launch::async, [&] {
+        EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), {}, stop.get_token()), ErrorKind::cancelled, "");
+    });
+    begun.get_future().wait();
+    EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), {}, {}), ErrorKind::invalid_input,
+                        "another image is being added");
+    stop.request_stop();
+    ended.wait();
+    EXPECT_EQ(desk.greeting()["images"], json::array());
+    desk.reader = {};
+    desk.workspace.put_second_image(desk.image(), "1", {});
+    EXPECT_EQ(desk.greeting()["images"][0]["title"], "other");
+    desk.workspace.close();
+    EXPECT_EQ(desk.greeting()["recent"][0]["second"], "other");
+    desk.open();
+    EXPECT_KONTUR_ERROR(desk.workspace.put_second_image({"/etc/passwd", {}}, {}, {}), ErrorKind::invalid_input,
+                        "lies outside");
+}
+
+TEST(Workspace, ASecondImageDoesNotReachASessionThatWasOpenedMeanwhile) {
+    Desk desk;
+    desk.open();
+    desk.reader = [&](const Work&) {
+        desk.workspace.close();
+        desk.open();
+    };
+    EXPECT_KONTUR_ERROR(desk.workspace.put_second_image(desk.image(), "1", {}), ErrorKind::invalid_input,
+                        "another image was opened");
+    EXPECT_EQ(desk.greeting()["images"], json::array());
 }
 
 TEST(Workspace, OpensRecentProjectsAndWhatLiesInItsPlacesOnly) {

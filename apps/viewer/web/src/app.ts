@@ -5,11 +5,13 @@ import { Appearance } from "./model/appearance";
 import { Navigation, type PaneName } from "./model/navigation";
 import { PaneSizes } from "./model/pane_sizes";
 import { Project } from "./model/project";
+import { SecondImage } from "./model/second_image";
 import { Http } from "./net/http";
 import { Latest } from "./net/latest";
-import { VIEW_NAMES, type Contour, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
+import { VIEW_NAMES, type Contour, type FurtherImage, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
 import { Socket, type ConnectionState } from "./net/socket";
 import { ArrangementKeeper } from "./page/arrangement";
+import { AddImageDialog } from "./start/add_image";
 import { PageKeeper, type SavedPage } from "./page/saved_page";
 import { Saving } from "./page/saving";
 import { StartPage } from "./start/start_page";
@@ -27,9 +29,11 @@ import { openHelp } from "./ui/help";
 import { IdentityCard } from "./ui/identity";
 import { importFile, openImport } from "./ui/imports";
 import { crosshairOnto, Panel, viewAlong } from "./ui/panel";
+import { SecondImageCard } from "./ui/second_image_card";
 import { openStatistics } from "./ui/statistics";
 import { Notices, StatusBar } from "./ui/status";
 import { Toolbar } from "./ui/toolbar";
+import { valuesText } from "./ui/values";
 import { SliceView } from "./view/slice_view";
 
 /** Puts the parts of the page together, and hands the server's events to them. */
@@ -38,6 +42,7 @@ export class App {
   private readonly project = new Project();
   private readonly appearance = new Appearance();
   private readonly sizes = new PaneSizes();
+  private readonly second = new SecondImage();
   private readonly views = new Map<ViewName, SliceView>();
   private readonly editor: Editor;
   private active: ViewName = "axial";
@@ -46,6 +51,8 @@ export class App {
   private readonly status = new StatusBar();
   private readonly notices = new Notices();
   private readonly identity = new IdentityCard();
+  private readonly secondCard = new SecondImageCard(this.second, () => this.removeImage());
+  private addImageDialog: AddImageDialog | null = null;
   private readonly stage = el("main", { class: "stage" });
   private readonly startPage: StartPage;
   private readonly surface: SurfaceView;
@@ -81,7 +88,7 @@ export class App {
       made: (contour) => this.tellCrossing(contour),
       notSaved: (sketch, why) => this.saving.tellNotSaved(sketch, why),
     });
-    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, sizes: this.sizes, editor: this.editor, http: this.http, failed };
+    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, sizes: this.sizes, second: this.second, editor: this.editor, http: this.http, failed };
     this.keeper = new PageKeeper({
       ...shared,
       isOpen: () => this.session !== null,
@@ -100,6 +107,7 @@ export class App {
       undo: () => this.undo(),
       redo: () => this.redo(),
       openAnother: () => void this.openAnother(),
+      addImage: () => this.addImage(),
       openExport: () => openExport({ ...shared, hasDicom: () => this.session?.has_dicom ?? false }),
       openImport: () => openImport(this.importServices()),
       openHelp: () => openHelp(this.session?.version ?? ""),
@@ -108,6 +116,7 @@ export class App {
       ...shared,
       call: (name, args = {}) => this.editor.edits.make(name, args),
       identity: this.identity.element,
+      secondImage: this.secondCard.element,
       suggest: () => void this.suggest(),
       openStatistics: () => openStatistics(this.http, (p) => this.goTo(p)),
       addStructure: () => void this.addStructure(),
@@ -159,6 +168,9 @@ export class App {
     project.on(["structures"], () => this.keeper.saveSoon());
     this.appearance.on(["changed"], each((view) => view.paint()));
     this.appearance.on(["changed"], () => this.keeper.saveSoon());
+    this.second.on(["image", "shown", "look"], each((view) => view.secondChanged()));
+    this.second.on(["shown", "look"], () => this.keeper.saveSoon());
+    this.second.on(["image", "shown"], () => editor.drawing.setImage(this.second.front));
     editor.on(["tool", "hover"], each((view) => view.paint()));
     editor.on(["tool", "hover"], () => this.tellHint());
     editor.measuring.measurements.on(["changed"], each((view) => view.paint()));
@@ -178,6 +190,7 @@ export class App {
           editor,
           pointers: this.pointers,
           isPanning: () => this.keyboard.isPanning,
+          windowed: (isShifted) => (this.second.info && (this.second.isAlone || isShifted) ? this.second : navigation),
           pointed: (_, event) => this.pointed(view, event),
           jump: (_, event) => this.jump(view, event),
           hint: (text) => (text === null ? this.tellHint() : this.status.setHint(text)),
@@ -209,6 +222,8 @@ export class App {
         return location.reload();
       case "session":
         return this.begin(event);
+      case "images":
+        return this.showImages(event.images);
       case "changed":
         return this.project.apply(event);
       case "surface":
@@ -219,6 +234,7 @@ export class App {
         return this.showOutlines(event);
       case "status":
         this.startPage.setWork(event.text, event.fraction);
+        this.addImageDialog?.setWork(event.text, event.fraction);
         return this.status.setWork(event.text, event.fraction);
       case "notice":
         return void this.notices.show(event.level, event.text);
@@ -241,6 +257,8 @@ export class App {
     this.status.start(session.project);
     this.saving.tell();
     this.identity.start(session);
+    this.secondCard.start(session);
+    this.second.set(session.images[0] ?? null, page?.second ?? null);
     this.toolbar.start(session);
     // After a reconnect the user stays where he is.
     this.navigation.start(session, isFirst ? (page?.navigation ?? null) : this.navigation.saved());
@@ -310,6 +328,23 @@ export class App {
     }
   }
 
+  private addImage(): void {
+    const { places = [], folder = "" } = this.session ?? {};
+    this.addImageDialog = new AddImageDialog({ http: this.http, places, folder, present: this.second.info });
+  }
+
+  private removeImage(): void {
+    if (this.second.info) void this.socket.call("image.remove", { image: this.second.info.image }).catch((error: unknown) => this.saving.failed(error));
+  }
+
+  /** What has to be assumed of a new one is said once; its card says it always. */
+  private showImages(images: FurtherImage[]): void {
+    const info = images[0] ?? null;
+    const isNew = info !== null && info.key !== this.second.info?.key;
+    this.second.set(info);
+    for (const note of isNew ? info.notes : []) this.notices.show("warning", note);
+  }
+
   // Looking around
 
   private lay(): void {
@@ -375,10 +410,9 @@ export class App {
   }
 
   private async askValue(at: Vec3): Promise<void> {
-    const { value } = await this.socket.call<{ value: number | null }>("value", { at });
-    const unit = this.session?.image.unit ?? "";
-    const shown = value === null ? "outside" : `${unit === "HU" ? Math.round(value) : Number(value.toPrecision(4))} ${unit}`.trim();
-    this.status.setCursor(`${place(at)}  ·  ${shown}`);
+    const { values } = await this.socket.call<{ values: (number | null)[] }>("value", { at });
+    const { session, second } = this;
+    if (session) this.status.setCursor(`${place(at)}  ·  ${valuesText(values, session, second.info)}`);
   }
 
   /** Esc: first what the pointer does, then the sketch, then the tool, then the selection. */

@@ -13,6 +13,8 @@ export class ServerError extends Error {
     message: string,
     /** Whether the call would have changed the project. */
     readonly edits = false,
+    /** So many are in the file, and one has to be named. */
+    readonly frames?: number,
   ) {
     super(message);
   }
@@ -77,6 +79,11 @@ export class Http {
     await this.post("arrangement", JSON.stringify({ modality, state }));
   }
 
+  /** Shows an image over the project's own; settles when it is there. */
+  async putImage(request: OpenRequest, signal: AbortSignal): Promise<void> {
+    await this.request("image", { method: "POST", body: JSON.stringify({ image: 1, ...request }), signal });
+  }
+
   async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
     return new BinaryReply(await (await this.post("slice", JSON.stringify({ page: this.page, ...request }))).arrayBuffer());
   }
@@ -132,8 +139,8 @@ export class Http {
 
 async function errorOf(reply: Response): Promise<ServerError> {
   try {
-    const { error } = (await reply.json()) as { error: { kind: string; message: string } };
-    return new ServerError(error.kind, error.message);
+    const { error } = (await reply.json()) as { error: { kind: string; message: string; frames?: number } };
+    return new ServerError(error.kind, error.message, false, error.frames);
   } catch {
     return new ServerError("io", `kontur answered with status ${reply.status}.`);
   }

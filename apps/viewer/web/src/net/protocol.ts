@@ -39,6 +39,7 @@ export interface ControlPoint {
   at: Vec3;
   kind: StretchKind;
   index: number;
+  image?: number; // whose edges a wire follows; absent: the project's own
 }
 
 export interface Contour {
@@ -118,6 +119,22 @@ export interface ImageInfo {
   notes: string[];
 }
 
+/** An image that is shown over the one that the project is drawn on. */
+export interface FurtherImage {
+  image: number; // its number, from 1
+  key: string; // the same as long as it is the same image
+  title: string;
+  size: [number, number, number];
+  spacing_mm: [number, number, number];
+  unit: string;
+  range: [number, number];
+  notes: string[];
+  identity: Identity;
+  emission: boolean; // of a tracer: from 0 on, and what is high matters
+  window: Window;
+  presets: Preset[];
+}
+
 /** Whose image it is; of images that are no DICOM all is "". Dates as YYYY-MM-DD. */
 export interface Identity {
   patient_name: string;
@@ -175,6 +192,7 @@ export interface Session {
   title: string;
   project: string;
   image: ImageInfo;
+  images: FurtherImage[];
   identity: Identity;
   has_dicom: boolean;
   window: Window;
@@ -193,6 +211,8 @@ export interface Session {
   opening: string; // names this session among those that the server has had
   can_close: boolean; // whether there is a start page to go back to
   arrangement: { modality: string; state: SavedArrangement | null };
+  places: Place[];
+  folder: string; // of the image, or ""
 }
 
 /** What the names of files end with that can be imported, in small letters. */
@@ -208,6 +228,11 @@ export interface Changed {
   history: History;
   borders?: Borders;
   use_image?: UseImage;
+}
+
+export interface FurtherImages {
+  event: "images";
+  images: FurtherImage[];
 }
 
 /** Whether the image is asked between the contours; null: it cannot tell borders. */
@@ -259,6 +284,7 @@ export interface RecentProject {
   path: string;
   title: string;
   image: string;
+  second: string; // title of the image beside it, or ""
   time: string;
 }
 
@@ -315,12 +341,13 @@ export interface OpenRequest {
 
 export type StartEvent = Start | ({ event: "opening" } & OpeningState) | Failed | { event: "opened" } | { event: "closed" };
 
-export type ServerEvent = StartEvent | Session | Changed | (Surface & { event: "surface" }) | FoundBorders | Outlines | Status | Notice;
+export type ServerEvent = StartEvent | Session | Changed | FurtherImages | (Surface & { event: "surface" }) | FoundBorders | Outlines | Status | Notice;
 
 export interface SketchPoint {
   at: Vec3;
   kind: StretchKind;
   path?: Vec3[];
+  image?: number; // whose edges a wire follows; absent: the project's own
 }
 
 export interface PathResult {
@@ -342,7 +369,8 @@ export interface SliceRequest {
   plane: PixelPlane;
   width: number;
   height: number;
-  window: Window;
+  image?: number; // absent: the project's own
+  window?: Window; // for shades
   pixels: Pixels;
   outlines: boolean;
 }

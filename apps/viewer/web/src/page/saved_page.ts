@@ -4,6 +4,7 @@ import type { Measurement } from "../model/measurements";
 import type { Navigation, SavedNavigation } from "../model/navigation";
 import type { PaneSizes, SavedSizes } from "../model/pane_sizes";
 import type { Project } from "../model/project";
+import type { SavedSecondImage, SecondImage } from "../model/second_image";
 import type { Editor } from "../tools/editor";
 import type { SavedSketch } from "../tools/sketch";
 
@@ -18,6 +19,7 @@ export interface SavedPage {
   appearance?: SavedAppearance;
   sizes?: SavedSizes;
   measurements?: Measurement[];
+  second?: SavedSecondImage;
   sketch?: SavedSketch;
   unsaved?: SavedSketch[]; // what was finished, and the server had not taken yet
 }
@@ -27,6 +29,7 @@ export interface SavedPageServices {
   project: Project;
   appearance: Appearance;
   sizes: PaneSizes;
+  second: SecondImage;
   editor: Editor;
   isOpen(): boolean;
   hintSeen(): boolean;
@@ -68,6 +71,8 @@ export class PageKeeper {
     const { navigation, project, appearance, sizes, editor } = this.services;
     const { drawing, measuring } = editor;
     const state: SavedPage = { navigation: navigation.saved(), structure: project.activeStructure?.id ?? 0, hintSeen: this.services.hintSeen(), appearance: appearance.saved(), sizes: sizes.saved(), measurements: measuring.measurements.saved() };
+    const second = this.services.second.saved();
+    if (second) state.second = second;
     let room = LONGEST_SAVED_SKETCHES;
     const fits = (sketch: SavedSketch): boolean => (room -= JSON.stringify(sketch).length) > 0;
     const sketch = drawing.sketch?.saved();

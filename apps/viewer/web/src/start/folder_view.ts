@@ -11,6 +11,13 @@ interface FolderServices {
   problem(sentence: string): void;
 }
 
+interface FolderWords {
+  title: string;
+  /** What a click on a series does. */
+  open: string;
+  onlyImages?: boolean; // no projects
+}
+
 /** A chooser of what lies on the server's disk, as far as the server shows it: places, folders, images, DICOM volumes. */
 export class FolderView {
   readonly element = el("section", { class: "start-folder", "aria-label": "Files and folders" });
@@ -27,9 +34,10 @@ export class FolderView {
   constructor(
     private readonly http: Http,
     private readonly services: FolderServices,
+    private readonly words: FolderWords = { title: "Open", open: "Open this series" },
   ) {
-    this.cards = new VolumeCards(http, services.open);
-    this.element.append(el("h2", {}, "Open"), this.places, el("div", { class: "start-way" }, this.up, this.path, this.filter), this.work, this.cards.element, this.list);
+    this.cards = new VolumeCards(http, services.open, words.open);
+    this.element.append(el("h2", {}, words.title), this.places, el("div", { class: "start-way" }, this.up, this.path, this.filter), this.work, this.cards.element, this.list);
   }
 
   start(places: Place[], folder: string): void {
@@ -87,7 +95,7 @@ export class FolderView {
     const { folders, files, left_out, dicom } = this.shown;
     const wanted = this.filter.value.trim().toLowerCase();
     const fits = ({ name }: Place) => name.toLowerCase().includes(wanted);
-    const rows = [...folders.filter(fits).map((one) => this.folderRow(one)), ...files.filter(fits).map((one) => this.fileRow(one))];
+    const rows = [...folders.filter(fits).map((one) => this.folderRow(one)), ...files.filter((file) => fits(file) && (file.kind === "image" || !this.words.onlyImages)).map((one) => this.fileRow(one))];
     const nothing = dicom === "none" ? "There is no image, project or folder here." : "";
     if (rows.length === 0) rows.push(el("li", { class: "empty" }, wanted ? "No name contains this." : nothing));
     if (left_out > 0) rows.push(el("li", { class: "empty" }, `${left_out} more ${left_out === 1 ? "is" : "are"} not shown.`));

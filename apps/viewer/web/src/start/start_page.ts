@@ -2,8 +2,9 @@
 import type { Http } from "../net/http";
 import type { Failed, OpeningState, OpenRequest, RecentProject, Start } from "../net/protocol";
 import type { ConnectionState } from "../net/socket";
-import { button, el, listen } from "../ui/dom";
+import { button, el } from "../ui/dom";
 import { FolderView } from "./folder_view";
+import { frameChoice } from "./frame_choice";
 
 const ENDED = "There is no connection to kontur. If it has ended, start it again and open the address that it prints.";
 
@@ -87,30 +88,23 @@ export class StartPage {
 
   private recentRows(projects: RecentProject[]): HTMLElement[] {
     if (projects.length === 0) return [el("li", { class: "empty" }, "What you open is listed here, with all that was drawn in it.")];
-    return projects.map(({ path, title, image, time }) => {
-      const row = button({ title: `${path}, drawn on ${image}`, class: "start-row", test: "recent", click: () => void this.open({ path }) });
-      row.setAttribute("aria-label", `${title}, ${path}`);
-      row.append(el("strong", {}, title), el("span", {}, whenText(time)), el("span", { class: "start-path" }, image));
+    return projects.map(({ path, title, image, second, time }) => {
+      const row = button({ title: `${path}, drawn on ${image}${second && `, with ${second}`}`, class: "start-row", test: "recent", click: () => void this.open({ path }) });
+      row.setAttribute("aria-label", `${title}${second && `, with ${second}`}, ${path}`);
+      row.append(el("strong", {}, title), el("span", {}, whenText(time)), ...(second ? [el("span", { class: "start-second" }, `with ${second}`)] : []), el("span", { class: "start-path" }, image));
       return el("li", {}, row);
     });
   }
 
-  /** Of a file with several; kontur counts frames from 0. */
+  /** Of a file with several. */
   private chooseFrame(request: OpenRequest, frames: number): void {
-    this.setProblem(`${request.path} has ${frames} frames. Which one is to be opened`);
-    const field = el("input", { type: "number", class: "number", min: "0", max: String(frames - 1), step: "1", value: "0", "aria-label": `Frame, from 0 to ${frames - 1}`, "data-test": "frame" });
-    const open = () => {
-      const frame = field.valueAsNumber;
-      if (Number.isInteger(frame) && frame >= 0 && frame < frames) return void this.open({ ...request, frame });
-      this.setProblem(`There is no frame ${field.value || "without a number"}; frames are numbered from 0 to ${frames - 1}`);
-      this.problem.append(row);
-      field.focus();
+    const say = (sentence: string) => {
+      this.setProblem(sentence);
+      this.problem.append(choice.element);
     };
-    listen(field, { keydown: (event) => void (event.key === "Enter" && open()) });
-    const row = el("span", { class: "frame-choice" }, ` Frame 0 to ${frames - 1}: `, field, button({ label: "Open", title: "Open this frame", class: "choice", test: "frame-open", click: open }));
-    this.problem.append(row);
-    field.select();
-    field.focus();
+    const choice = frameChoice(frames, (frame) => void this.open({ ...request, frame }), say);
+    say(`${request.path} has ${frames} frames. Which one is to be opened`);
+    choice.focus();
   }
 
   private open(request: OpenRequest): Promise<void> {

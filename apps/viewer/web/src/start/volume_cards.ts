@@ -10,6 +10,7 @@ export class VolumeCards {
   constructor(
     private readonly http: Http,
     private readonly open: (request: OpenRequest) => void,
+    private readonly title: string,
   ) {}
 
   clear(): void {
@@ -40,7 +41,7 @@ export class VolumeCards {
     const canvas = el("canvas", { width: 112, height: 112, "aria-hidden": "true" });
     keep(canvas);
     const [title = "", ...lines] = volumeLines(volume);
-    const card = button({ title: "Open this series", class: "volume", test: "volume", click: () => this.open({ path: folder, series, volume: number }) });
+    const card = button({ title: this.title, class: "volume", test: "volume", click: () => this.open({ path: folder, series, volume: number }) });
     card.removeAttribute("aria-label"); // what it shows is its name
     card.append(canvas, el("strong", {}, title), ...lines.map((line) => el("span", {}, line)));
     return el("li", {}, card);

@@ -32,6 +32,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   private readonly placed = new Latest<Sketch>((sketch) => this.askPlaced(sketch));
   private readonly rubber = new Latest<{ sketch: Sketch; pointer: Vec3; mm: number }>((request) => this.askRubber(request));
+  private image = 0; // whose edges wires follow
   private mm_per_pixel = 1; // of the view in which the pointer was last
 
   constructor(
@@ -40,6 +41,12 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   ) {
     super();
     this.outbox = new Outbox(this, project, services);
+  }
+
+  /** Wires follow this image from now on: what is placed of them stays. */
+  setImage(image: number): void {
+    this.image = image;
+    this.sketch?.setImage(image);
   }
 
   changed(): void {
@@ -151,6 +158,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   private begun(screen: Screen, kind: StretchKind): Sketch {
     const structure = this.project.activeStructure?.id ?? 0;
     this.sketch ??= new Sketch(planeOf(screen), structure, kind);
+    this.sketch.setImage(this.image);
     this.leftSketch = null;
     this.project.select(null);
     return this.sketch;

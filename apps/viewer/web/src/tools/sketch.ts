@@ -35,6 +35,7 @@ export class Sketch {
   /** Its inside does not belong to the structure. */
   hole = false;
   origin: Origin = "drawn";
+  private image = 0; // whose edges wires follow from the last point on
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
 
   constructor(
@@ -86,9 +87,22 @@ export class Sketch {
     if (this.last && !this.last.path) this.last.kind = kind;
   }
 
+  /** The image whose edges a wire from the last point on follows. */
+  setImage(image: number): void {
+    this.image = image;
+    const { last } = this;
+    if (!last || last.path) return;
+    delete last.image;
+    Object.assign(last, this.point(last.at, last.kind));
+  }
+
+  private point(at: Vec3, kind: StretchKind): SketchPoint {
+    return { at, kind, ...(this.image > 0 && { image: this.image }) };
+  }
+
   place(at: Vec3): void {
     this.undone = [];
-    this.points.push({ at, kind: this.kind });
+    this.points.push(this.point(at, this.kind));
   }
 
   /** A stretch drawn by hand: from the last point, or where the hand began, to where it ended. */
@@ -196,6 +210,6 @@ export class Sketch {
   /** What to ask the path for between the last point and the pointer: a spline bends with its neighbours. */
   rubberBand(pointer: Vec3): SketchPoint[] {
     const count = this.last?.kind === "spline" ? 3 : 1;
-    return [...this.points.slice(-count), { at: pointer, kind: this.last?.kind ?? this.kind }];
+    return [...this.points.slice(-count), this.point(pointer, this.last?.kind ?? this.kind)];
   }
 }

@@ -2,6 +2,7 @@
 import { toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
+import type { Window } from "../net/protocol";
 import type { SliceView } from "../view/slice_view";
 import type { Editor } from "./editor";
 import { fingerPair } from "./finger_pair";
@@ -14,10 +15,18 @@ export interface InputServices {
   editor: Editor;
   pointers: Pointers; // of all views
   isPanning(): boolean; // space is held
+  /** The image that a drag puts into another window; with Shift the other one of two. */
+  windowed(isShifted: boolean): Windowed;
   pointed(view: SliceView, event: PointerEvent): void;
   jump(view: SliceView, event: PointerEvent): void;
   /** What can be done by what has begun, until it ends. */
   hint(text: string | null): void;
+}
+
+/** What the right button puts into another window. */
+export interface Windowed {
+  window: Window;
+  setWindow(window: Window): void;
 }
 
 const WHEEL_STEP = 60; // of deltaY in pixels, for touchpads that send many small ones
@@ -87,7 +96,7 @@ export class ViewInput {
     event.preventDefault();
     if (isTouch(event)) return this.fingers.begin(event.pointerId, at);
     const modifiers = { ctrl: event.ctrlKey || event.metaKey, shift: event.shiftKey };
-    if (event.button === 2) this.gesture = this.windowGesture(at);
+    if (event.button === 2) this.gesture = this.windowGesture(at, event.shiftKey);
     else if (event.button === 1 || (event.button === 0 && this.services.isPanning())) this.gesture = this.panGesture(at);
     else if (event.button === 0) this.gesture = editor.press(this.view.name, screen, at, modifiers);
     if (!this.gesture) pointers.release();
@@ -181,12 +190,12 @@ export class ViewInput {
   }
 
   /** To the right: more contrast range; up: darker, as radiologists' workstations do. */
-  private windowGesture(start: Point2): Gesture {
-    const { navigation } = this.services;
-    const { center, width } = navigation.window;
+  private windowGesture(start: Point2, isShifted = false): Gesture {
+    const image = this.services.windowed(isShifted);
+    const { center, width } = image.window;
     const gain = Math.max(width, 1e-6) / 300;
     return {
-      move: (at) => navigation.setWindow({ center: center + (at[1] - start[1]) * gain, width: width + (at[0] - start[0]) * gain * 2 }),
+      move: (at) => image.setWindow({ center: center + (at[1] - start[1]) * gain, width: width + (at[0] - start[0]) * gain * 2 }),
       end: () => undefined,
     };
   }

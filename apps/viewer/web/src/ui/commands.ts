@@ -2,6 +2,7 @@
 import { nextDrawnSlice } from "../model/drawn_slices";
 import type { Navigation, PaneName } from "../model/navigation";
 import type { Project } from "../model/project";
+import type { SecondImage } from "../model/second_image";
 import type { ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { TOOLS } from "../tools/registry";
@@ -11,6 +12,7 @@ import type { HelpRow, HelpSection } from "../tools/tool";
 export interface CommandServices {
   navigation: Navigation;
   project: Project;
+  second: SecondImage;
   editor: Editor;
   /** The view that keys are for. */
   focused(): ViewName;
@@ -68,6 +70,12 @@ export const COMMANDS: readonly Command[] = [
     run: ({ navigation }) => navigation.setLayout("overview"),
   },
   { keys: ["x"], help: ["Look around", "X, K", "plane lines on or off; all slices zoom and shift together"], run: ({ editor }) => editor.toggleLines() },
+  {
+    keys: ["o"],
+    help: ["Look around", "O, I", "the second image over the first, or not; the second alone, and back"],
+    run: (page) => ofSecond(page, (second) => second.toggleOver()),
+  },
+  { keys: ["i"], run: (page) => ofSecond(page, (second) => second.flip()) },
   { keys: ["k"], run: ({ navigation }) => navigation.toggleLinked() },
   {
     keys: ["n"],
@@ -118,6 +126,11 @@ function goToDrawnSlice({ navigation, project, focused, tell }: CommandServices,
   const slice = nextDrawnSlice(focused(), direction, navigation, project);
   if (slice) navigation.scrollTo(focused(), slice.depth_mm);
   else tell(`No slice with a contour lies ${direction > 0 ? "beyond" : "before"} this one in the ${navigation.title(focused())} view.`);
+}
+
+function ofSecond({ second, tell }: CommandServices, act: (second: SecondImage) => void): void {
+  if (second.info) act(second);
+  else tell("There is no second image; the toolbar adds one.");
 }
 
 function toggleHole({ editor, project }: CommandServices): void {

@@ -10,7 +10,7 @@ const GESTURES: Help = {
   "Look around": [
     ["Wheel, ↑ ↓", "scroll through slices (Page keys: ten at a time)"],
     ["Ctrl + wheel, + −", "zoom"],
-    ["Right drag", "window: width to the right, centre up and down"],
+    ["Right drag", "window: width to the right, centre up and down; with Shift of the second image"],
     ["Shift + move", "all views jump to the point under the pointer"],
   ],
   Draw: [["Left clicks, left drag", "place points, draw by hand; change the tool in mid-contour"]],

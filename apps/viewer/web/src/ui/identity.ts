@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Identity, Session } from "../net/protocol";
+import type { Identity, ImageInfo, Session } from "../net/protocol";
 import { el } from "./dom";
 
 /** Whose image it is and what it shows, line by line: what no reader may have to guess. */
 export function identityLines({ identity, title, image }: Pick<Session, "identity" | "title" | "image">): string[] {
-  const size = `${image.size.join(" × ")}, ${image.spacing_mm.map((mm) => Number(mm.toPrecision(3))).join(" × ")} mm`;
-  const values = image.unit === "" ? "values without a unit" : `values in ${image.unit}`;
-  if (identity.modality === "") return [title, `${values} · ${size}`];
-  return [patientLine(identity), studyLine(identity), seriesLine(identity), `${values} · ${size}`].filter((line) => line !== "");
+  if (identity.modality === "") return [title, sizeLine(image)];
+  return [patientLine(identity), studyLine(identity), seriesLine(identity), sizeLine(image)].filter((line) => line !== "");
+}
+
+/** What an image's values are, and its voxels. */
+export function sizeLine({ size, spacing_mm, unit }: Pick<ImageInfo, "size" | "spacing_mm" | "unit">): string {
+  const values = unit === "" ? "values without a unit" : `values in ${unit}`;
+  return `${values} · ${size.join(" × ")}, ${spacing_mm.map((mm) => Number(mm.toPrecision(3))).join(" × ")} mm`;
 }
 
 function patientLine({ patient_name, patient_id, birth_date }: Identity): string {

@@ -19,6 +19,8 @@ export interface ToolbarServices {
   redo(): void;
   /** Back to the start page. */
   openAnother(): void;
+  /** Chooses an image to see over this one. */
+  addImage(): void;
   openExport(): void;
   openImport(): void;
   openHelp(): void;
@@ -39,6 +41,7 @@ export class Toolbar {
   private readonly redo: HTMLButtonElement;
   private readonly link: HTMLButtonElement;
   private readonly another: HTMLButtonElement;
+  private readonly addImage: HTMLButtonElement;
   private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets", on: { change: () => this.choosePreset() } });
   private readonly center = this.windowField("Window: centre (drag with the right button over a slice)");
   private readonly width = this.windowField("Window: width");
@@ -56,6 +59,7 @@ export class Toolbar {
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", click: services.redo });
     this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", click: () => navigation.toggleLinked() });
     this.another = button({ icon: ICONS.open, title: "Open another image or project; this one is kept as it is", class: "icon-button", test: "another", click: services.openAnother });
+    this.addImage = button({ icon: ICONS.second, title: "Add a second image, to see it over this one", class: "icon-button", test: "add-image", click: services.addImage });
     const windows = group(el("label", { class: "window-label" }, "Window"), this.presets, this.center, this.width);
     const layouts = group(...this.layouts.values());
     const looks = group(
@@ -71,6 +75,7 @@ export class Toolbar {
     this.element.append(
       el("span", { class: "brand" }, "kontur"),
       this.another,
+      this.addImage,
       this.title,
       group(...this.tools.values()),
       group(this.undo, this.redo),
@@ -88,7 +93,7 @@ export class Toolbar {
   }
 
   start({ title, presets, can_close }: Pick<Session, "title" | "presets" | "can_close">): void {
-    this.another.hidden = !can_close;
+    this.another.hidden = this.addImage.hidden = !can_close;
     this.title.textContent = title;
     this.title.title = title;
     this.presetList = presets;

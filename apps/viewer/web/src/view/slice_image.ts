@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { areParallel, type PixelPlane } from "../geometry/plane";
-import { sliceOnScreen, type Screen } from "../geometry/screen";
+import type { PixelPlane } from "../geometry/plane";
+import type { Screen } from "../geometry/screen";
 import type { Coding, Window } from "../net/protocol";
-import { el } from "../ui/dom";
+import { PlaneBitmap } from "./plane_bitmap";
 import { canShow, shadesOf } from "./windowing";
 
 const GRAY = Uint32Array.from({ length: 256 }, (_, value) => 0xff000000 | (value << 16) | (value << 8) | value);
@@ -16,16 +16,20 @@ interface Values {
 
 /** The grey values of a slice, laid where its plane is seen. */
 export class SliceImage {
-  readonly canvas = el("canvas", { class: "image" });
-  private readonly bitmap = document.createElement("canvas");
-  private plane: PixelPlane | null = null;
-  private pixels: ImageData | null = null;
+  private readonly bitmap = new PlaneBitmap("image");
   private values: Values | null = null;
-  private painted = ""; // which image, and where: painting it once more would cost a frame as much again
-  private images = 0; // how many have come
+
+  get canvas(): HTMLCanvasElement {
+    return this.bitmap.canvas;
+  }
 
   get isEmpty(): boolean {
-    return this.plane === null;
+    return this.bitmap.plane === null;
+  }
+
+  /** Of what is shown; null before anything has come. */
+  get plane(): PixelPlane | null {
+    return this.bitmap.plane;
   }
 
   keep(gray: Uint8Array, width: number, height: number, plane: PixelPlane): void {
@@ -40,46 +44,24 @@ export class SliceImage {
 
   /** Shows what is there in another window; false where its values are not known, or too coarsely for it. */
   window(window: Window): boolean {
-    const { values, pixels, plane } = this;
+    const { values } = this;
+    const { pixels, plane } = this.bitmap;
     if (!values || !pixels || !plane || !canShow(values.coding, window)) return false;
     this.put(shadesOf(values.codes, values.coding, window, values.shades), pixels.width, pixels.height, plane);
     return true;
   }
 
   private put(gray: Uint8Array, width: number, height: number, plane: PixelPlane): void {
-    const context = this.bitmap.getContext("2d")!;
-    if (this.pixels?.width !== width || this.pixels.height !== height) {
-      this.bitmap.width = width;
-      this.bitmap.height = height;
-      this.pixels = context.createImageData(width, height);
-    }
-    const rgba = new Uint32Array(this.pixels.data.buffer);
-    for (let i = 0; i < gray.length; ++i) rgba[i] = GRAY[gray[i]!]!;
-    context.putImageData(this.pixels, 0, 0);
-    this.plane = plane;
-    ++this.images;
+    this.bitmap.put(width, height, plane, (rgba) => {
+      for (let i = 0; i < gray.length; ++i) rgba[i] = GRAY[gray[i]!]!;
+    });
   }
 
-  /** A canvas of another size is empty. */
   resized(): void {
-    this.painted = "";
+    this.bitmap.resized();
   }
 
   paint(screen: Screen, ratio: number): void {
-    const { canvas, bitmap, plane } = this;
-    const context = canvas.getContext("2d")!;
-    const place = plane && areParallel(plane, screen.axes) ? sliceOnScreen(screen, plane) : null;
-    const painting = JSON.stringify([this.images, ratio, place, canvas.width, canvas.height]);
-    if (painting === this.painted) return;
-    this.painted = painting;
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, canvas.width, canvas.height);
-    if (place) {
-      const { a, dx, dy } = place;
-      context.setTransform(a * ratio, 0, 0, a * ratio, (dx - a / 2) * ratio, (dy - a / 2) * ratio);
-      context.drawImage(bitmap, 0, 0);
-    } else if (plane) {
-      context.drawImage(bitmap, 0, 0, canvas.width, canvas.height); // until the turned slice arrives the old one stays, as it was
-    }
+    this.bitmap.paint(screen, ratio);
   }
 }

@@ -7,6 +7,7 @@ import type { SavedAppearance } from "../model/appearance";
 import { measured } from "../model/measurements";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
+import type { SecondImage } from "../model/second_image";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
 import type { BinaryReply } from "../net/binary";
@@ -21,6 +22,7 @@ import { OverlayPainter } from "./overlay";
 import { newestOutlines, toldOutline } from "./outlines";
 import { PLANE_COLORS } from "./palette";
 import { SliceImage } from "./slice_image";
+import { SecondSlice } from "./second_slice";
 import { SliceSlider } from "./slice_slider";
 import { canShow } from "./windowing";
 import { SliceVectors, type ShownSlice } from "./slice_vectors";
@@ -34,6 +36,7 @@ export interface SliceViewServices {
   project: Project;
   editor: Editor;
   appearance: SavedAppearance;
+  second: SecondImage;
   http: Http;
   failed(error: unknown): void;
 }
@@ -44,6 +47,7 @@ export class SliceView {
   readonly overlay = el("canvas", { class: "overlay", tabIndex: 0 });
   readonly header: HTMLElement;
   private readonly image = new SliceImage();
+  private readonly second: SecondSlice;
   private readonly slider: SliceSlider;
   private readonly title = el("span", { class: "pane-title" });
   private readonly position = el("span", { class: "slice-number" });
@@ -66,6 +70,7 @@ export class SliceView {
     private readonly services: SliceViewServices,
   ) {
     const { navigation } = services;
+    this.second = new SecondSlice(services.second, services.http);
     this.slider = new SliceSlider(name, navigation, services.project);
     this.vectors = new SliceVectors(name, services);
     this.requests = new Latest(
@@ -91,7 +96,7 @@ export class SliceView {
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[name];
     this.header.append(dot, this.title, this.position, el("span", { class: "spring" }), reset, enlarge);
-    this.element = el("section", { class: "pane slice", "data-view": name }, this.image.canvas, this.overlay, this.header, this.slider.element);
+    this.element = el("section", { class: "pane slice", "data-view": name }, this.image.canvas, this.second.canvas, this.overlay, this.header, this.slider.element);
     this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
@@ -117,11 +122,12 @@ export class SliceView {
     this.paint();
     const wanted = this.pixelKey();
     const needsPixels = this.image.isEmpty || wanted !== this.asked;
-    if (pixels && !needsPixels) return;
+    const needsSecond = this.second.needs(this.planeKey());
+    if (pixels && !needsPixels && !needsSecond) return;
     const isOtherWindow = needsPixels && !this.image.isEmpty && this.planeKey() === this.askedPlane;
     if (needsPixels) [this.asked, this.askedPlane] = [wanted, this.planeKey()];
-    if (isOtherWindow && this.valuesComing === this.askedPlane) return; // shown in the window that there is then
-    if (isOtherWindow && !this.requests.busy && this.image.window(this.services.navigation.window)) return;
+    if (isOtherWindow && !needsSecond && this.valuesComing === this.askedPlane) return; // shown in the window that there is then
+    if (isOtherWindow && !needsSecond && !this.requests.busy && this.image.window(this.services.navigation.window)) return;
     const wantsValues = isOtherWindow && !this.isTooCoarse();
     if (needsPixels) this.valuesComing = wantsValues ? this.askedPlane : "";
     this.requests.send({ pixels: wantsValues ? "values" : needsPixels });
@@ -129,6 +135,12 @@ export class SliceView {
     window.clearTimeout(this.crossingsTimer);
     this.crossingsTimer = 0;
     void this.requests.idle().then(() => (this.element.dataset["pending"] = String(this.crossingsTimer !== 0)));
+  }
+
+  /** The second image is to be seen, or not, or another one, or in other colours. */
+  secondChanged(): void {
+    this.second.recolor();
+    this.refresh(true);
   }
 
   /** Paints before the next frame. */
@@ -210,11 +222,12 @@ export class SliceView {
     this.height = box.height;
     this.fontPixels = Number.parseFloat(getComputedStyle(this.element).fontSize);
     const ratio = this.ratio();
-    for (const canvas of [this.image.canvas, this.overlay]) {
+    for (const canvas of [this.image.canvas, this.second.canvas, this.overlay]) {
       canvas.width = Math.round(this.width * ratio);
       canvas.height = Math.round(this.height * ratio);
     }
     this.image.resized();
+    this.second.resized();
     this.refresh(true);
   }
 
@@ -247,7 +260,8 @@ export class SliceView {
     const { window } = this.services.navigation;
     const key = this.planeKey();
     try {
-      const reply = await this.services.http.slice({ view: this.name, plane, width, height, window, pixels, outlines: true });
+      const raster = { view: this.name, plane, width, height };
+      const [reply, laySecond] = await Promise.all([this.services.http.slice({ ...raster, window, pixels, outlines: true }), this.second.ask(raster, key)]);
       this.slice = {
         plane,
         header: reply.header,
@@ -255,6 +269,7 @@ export class SliceView {
         crossingPoints: reply.f32("crossing_points"),
       };
       if (pixels) this.keepPixels(reply, width, height, key);
+      laySecond?.();
       this.paintNow();
     } catch (error) {
       if (error instanceof ServerError && error.kind === "cancelled") return this.askAgain(pixels);
@@ -305,6 +320,7 @@ export class SliceView {
     const screen = this.screen();
     if (!screen) return;
     this.image.paint(screen, this.ratio());
+    this.second.paint(screen, this.ratio(), this.image.plane);
     this.paintOverlay(screen);
   }
 

@@ -15,3 +15,12 @@ export function shadesOf(codes: Uint16Array, { first, step }: Coding, { center, 
   for (let i = 0; i < codes.length; ++i) into[i] = table[codes[i]!]!;
   return into;
 }
+
+/** The colours of coded values in a window, `table` being those of 256 shades; outside of the image nothing. */
+export function colorsOf(codes: Uint16Array, { first, step }: Coding, { center, width }: Window, table: Uint32Array, into: Uint32Array): void {
+  const scale = 255 / width;
+  const a = step * scale, b = (first - step - center) * scale + 128;
+  const colors = new Uint32Array(65536);
+  for (let code = 1; code < colors.length; ++code) colors[code] = table[Math.floor(Math.min(Math.max(a * code + b, 0), 255))]!;
+  for (let i = 0; i < codes.length; ++i) into[i] = colors[codes[i]!]!;
+}

@@ -39,7 +39,7 @@ const STRAIGHT: Steps = [[2, 0, 0], [0, 2, 0], [0, 0, 4]];
 export const SHEARED: Steps = [[2, 0, 0], [0, 1.81, 0.85], [0.6, -0.7, 3.8]];
 
 /** A NIfTI image of 96 x 80 x 40 voxels with a ball of 100 in the middle of space, in a little noise. */
-export function writeBallImage(path: string, steps: Steps = STRAIGHT): void {
+export function writeBallImage(path: string, steps: Steps = STRAIGHT, radius_mm = BALL_RADIUS_MM): void {
   const size = [96, 80, 40] as const;
   const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2]);
   file.writeInt32LE(348, 0);
@@ -63,7 +63,7 @@ export function writeBallImage(path: string, steps: Steps = STRAIGHT): void {
     for (let j = 0; j < size[1]; ++j)
       for (let i = 0; i < size[0]; ++i) {
         const place = first.map((from, axis) => from + i * steps[0][axis]! + j * steps[1][axis]! + k * steps[2][axis]!);
-        file.writeInt16LE((Math.hypot(...place) < BALL_RADIUS_MM ? 100 : 0) + noise(), at);
+        file.writeInt16LE((Math.hypot(...place) < radius_mm ? 100 : 0) + noise(), at);
         at += 2;
       }
   writeFileSync(path, file);

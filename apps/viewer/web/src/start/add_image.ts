@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+import { ServerError, type Http } from "../net/http";
+import type { FurtherImage, OpenRequest, Place } from "../net/protocol";
+import { openDialog } from "../ui/dialogs";
+import { button, el } from "../ui/dom";
+import { FolderView } from "./folder_view";
+import { frameChoice } from "./frame_choice";
+
+export interface AddImageServices {
+  http: Http;
+  places: Place[];
+  /** Where to begin to look. */
+  folder: string;
+  /** The one whose place it takes. */
+  present: FurtherImage | null;
+}
+
+/** Chooses what is seen over the project's own image. It closes when that is there. */
+export class AddImageDialog {
+  private readonly problem = el("p", { class: "start-problem", role: "alert", "data-test": "add-image-problem", hidden: true });
+  private readonly status = el("p", { class: "dialog-status", "aria-live": "polite", "data-test": "add-image-status" });
+  private readonly folders: FolderView;
+  private readonly dialog: HTMLDialogElement;
+  private reading: AbortController | null = null;
+
+  constructor(private readonly services: AddImageServices) {
+    const { http, places, folder, present } = services;
+    const words = { title: "An image of the same patient, on the same frame of reference", open: "Show this series over the image", onlyImages: true };
+    this.folders = new FolderView(http, { open: (request) => void this.add(request), problem: (sentence) => this.setProblem(sentence) }, words);
+    const replaces = present && el("p", { class: "fine" }, `It takes the place of ${present.title}.`);
+    this.dialog = openDialog("Add a second image", "add-image-dialog", ...(replaces ? [replaces] : []), this.problem, this.folders.element, this.status);
+    this.dialog.classList.add("add-image");
+    this.dialog.addEventListener("close", () => {
+      this.reading?.abort();
+      this.folders.stop();
+    });
+    this.folders.start(places, folder);
+    this.folders.path.focus();
+  }
+
+  /** How far the server is with what it looks through, or reads. */
+  setWork(text: string, fraction: number | null): void {
+    if (!this.reading) return this.folders.setWork(text, fraction);
+    const line = this.status.querySelector("span");
+    if (line && text) line.textContent = fraction === null ? text : `${text}: ${Math.floor(100 * fraction)} %`;
+  }
+
+  private async add(request: OpenRequest): Promise<void> {
+    this.reading?.abort();
+    const own = (this.reading = new AbortController());
+    this.setProblem("");
+    const cancel = button({ label: "Cancel", title: "Do not add it", class: "choice", test: "add-image-cancel", click: () => own.abort() });
+    this.status.replaceChildren(el("span", {}, "Reading…"), cancel);
+    try {
+      await this.services.http.putImage(request, own.signal);
+      this.dialog.close();
+    } catch (error) {
+      if (this.reading === own) this.failed(error, request);
+    } finally {
+      if (this.reading === own) {
+        this.reading = null;
+        this.status.replaceChildren();
+      }
+    }
+  }
+
+  private failed(error: unknown, request: OpenRequest): void {
+    const frames = error instanceof ServerError ? error.frames : undefined;
+    if (frames !== undefined) return this.chooseFrame(request, frames);
+    const isCancelled = error instanceof ServerError && error.kind === "cancelled";
+    this.setProblem(isCancelled ? "" : error instanceof Error ? error.message : String(error));
+  }
+
+  private chooseFrame(request: OpenRequest, frames: number): void {
+    const say = (sentence: string) => {
+      this.setProblem(sentence);
+      this.problem.append(choice.element);
+    };
+    const choice = frameChoice(frames, (frame) => void this.add({ ...request, frame }), say);
+    say(`${request.path} has ${frames} frames. Which one is to be shown`);
+    choice.focus();
+  }
+
+  private setProblem(sentence: string): void {
+    this.problem.hidden = sentence === "";
+    this.problem.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/\.?$/, ".");
+  }
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { FurtherImage, Session } from "../net/protocol";
+import { shortName } from "./second_image_card";
+
+function valueText(value: number | null, unit: string): string {
+  if (value === null) return "outside";
+  return `${unit === "HU" ? Math.round(value) : Number(value.toPrecision(4))} ${unit}`.trim();
+}
+
+/** What the images have at a place; with two of them each is named. */
+export function valuesText(values: readonly (number | null)[], { image, identity }: Pick<Session, "image" | "identity">, second: Pick<FurtherImage, "unit" | "identity"> | null): string {
+  const [first = null, other = null] = values;
+  const own = valueText(first, image.unit);
+  if (!second) return own;
+  return `${shortName(identity, "first")} ${own}  ·  ${shortName(second.identity, "second")} ${valueText(other, second.unit)}`;
+}

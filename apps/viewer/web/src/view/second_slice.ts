@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+import { isSamePlane, type PixelPlane } from "../geometry/plane";
+import type { Screen } from "../geometry/screen";
+import type { SecondImage } from "../model/second_image";
+import { ServerError, type Http } from "../net/http";
+import type { Coding, ViewName } from "../net/protocol";
+import { colorTable } from "./color_maps";
+import { PlaneBitmap } from "./plane_bitmap";
+import { colorsOf } from "./windowing";
+
+/** Which raster of a view is asked for. */
+export interface Raster {
+  view: ViewName;
+  plane: PixelPlane;
+  width: number;
+  height: number;
+}
+
+interface Values {
+  key: string;
+  codes: Uint16Array;
+  coding: Coding;
+  raster: Raster;
+}
+
+/** The second image on a view's slice, over the first one: its values, which the page puts into window and colours itself. */
+export class SecondSlice {
+  private readonly bitmap = new PlaneBitmap("second-image");
+  private values: Values | null = null;
+  private colored = ""; // which values, and how: another opacity costs nothing
+
+  constructor(
+    private readonly second: SecondImage,
+    private readonly http: Http,
+  ) {}
+
+  get canvas(): HTMLCanvasElement {
+    return this.bitmap.canvas;
+  }
+
+  /** Whether the image is to be seen, and its values on this plane are not here. */
+  needs(planeKey: string): boolean {
+    return this.second.isSeen && this.values?.key !== this.keyOf(planeKey);
+  }
+
+  private keyOf(planeKey: string): string {
+    return `${this.second.info?.key ?? ""} ${planeKey}`;
+  }
+
+  /** Returns what lays the values, so that both images of a slice can change at once; null where nothing is to be laid. */
+  async ask(raster: Raster, planeKey: string): Promise<(() => void) | null> {
+    const { info } = this.second;
+    if (!info || !this.needs(planeKey)) return null;
+    const key = this.keyOf(planeKey);
+    try {
+      const reply = await this.http.slice({ ...raster, image: info.image, pixels: "values", outlines: false });
+      return () => {
+        this.values = { key, codes: reply.u16("values"), coding: reply.header.values!, raster };
+        this.recolor();
+      };
+    } catch (error) {
+      const isGone = info !== this.second.info && !(error instanceof ServerError && error.kind === "cancelled");
+      if (isGone) return null; // what is there instead is asked for when the page is told
+      throw error;
+    }
+  }
+
+  /** Puts what is there into the window and the colours of now. */
+  recolor(): void {
+    if (!this.values) return;
+    const { key, codes, coding, raster } = this.values;
+    const coloring = JSON.stringify([key, this.second.colors, this.second.isAlone, this.second.window]);
+    if (coloring === this.colored) return;
+    this.colored = coloring;
+    const table = colorTable(this.second.colors, !this.second.isAlone);
+    this.bitmap.put(raster.width, raster.height, raster.plane, (rgba) => colorsOf(codes, coding, this.second.window, table, rgba));
+  }
+
+  resized(): void {
+    this.bitmap.resized();
+  }
+
+  /** Only where it lies on the plane that the first image shows: two slices over each other must be of one place. */
+  paint(screen: Screen, ratio: number, first: PixelPlane | null): void {
+    const { isSeen, isAlone, opacity, info } = this.second;
+    const { plane } = this.bitmap;
+    const isInPlace = isSeen && plane !== null && first !== null && isSamePlane(plane, first) && this.values?.key.startsWith(`${info?.key} `) === true;
+    const { canvas } = this.bitmap;
+    canvas.hidden = !isSeen;
+    canvas.classList.toggle("alone", isAlone);
+    canvas.style.opacity = isAlone ? "1" : String(opacity);
+    this.bitmap.paint(screen, ratio, isInPlace);
+  }
+}

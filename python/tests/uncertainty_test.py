@@ -49,13 +49,14 @@ def test_suggestions_come_in_order_and_skip_what_is_to_be_avoided(case, kidney):
 
 def test_what_the_image_knows_counts_less():
     case = kontur.phantom_case("liver_oblique10")
+    five = case.contours[:5]
     image = kontur.make_phantom_image(case.grid)
-    plain, asked = (kontur.segment(case.contours, case.grid, image=image, use_image=use, mesh=True) for use in ("off", "auto"))
+    plain, asked = (kontur.segment(five, case.grid, image=image, use_image=use, mesh=True) for use in ("off", "auto"))
     assert asked.report.image.verdict == "used"
-    [without], [with_it] = (kontur.suggest_planes(made, case.contours) for made in (plain, asked))
-    assert with_it.before.value > without.before.value
-    narrow = [numpy.median(kontur.half_widths_mm(made, case.contours, made.mesh.points)) for made in (plain, asked)]
-    assert narrow[1] < narrow[0]
+    [without], [with_it] = (kontur.suggest_planes(made, five) for made in (plain, asked))
+    assert with_it.before.value > without.before.value + 0.01
+    narrow = [numpy.median(kontur.half_widths_mm(made, five, made.mesh.points)) for made in (plain, asked)]
+    assert narrow[1] < 0.7 * narrow[0]
 
 
 def test_a_pickled_segmentation_suggests_the_same(case, kidney):

@@ -250,7 +250,7 @@ def test_the_image_brings_ventricles_nearer_to_the_truth(tmp_path):
     for use in ("off", "auto"):
         segment(tmp_path, contours, "--image", brain / "MRIcrop-orig.nii.gz", "--output", f"{use}.nii.gz", "--use-image", use)
         found[use] = dice(read_nifti(tmp_path / f"{use}.nii.gz") > 0, truth)
-    assert found["auto"] > found["off"] + 0.03
+    assert found["off"] > 0.84 and found["auto"] > found["off"] + 0.02
 
 
 @pytest.mark.parametrize("structure", ["vertebral_body_L5label", "kidney_right_5mm"])

@@ -12,6 +12,7 @@
 #include "kontur/fit/active_bounds.h"
 #include "kontur/fit/solve_placed.h"
 #include "kontur/fit/thin.h"
+#include "kontur/fit/tilt_trust.h"
 
 namespace kontur {
 namespace {
@@ -83,7 +84,8 @@ public:
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
         }
-        result_.slopes = read_slopes(result_.function, all_, options_, work_);
+        const std::vector<double> shown = read_slopes(result_.function, all_, options_, work_);
+        result_.slopes = believed_slopes(all_, part, shown, options_.place.normal_offset_mm);
     }
 
     FittedFunction run() {

@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kontur/fit/stretches.h"
+
 namespace kontur {
 namespace {
-
-/// Whether a point goes on from the one before it along the same line. The contours' numbers need not be in order, a contour
-/// may have several stretches (its lid is one), and single points belong to none.
-bool follows(const std::vector<BoundaryPoint>& points, std::size_t i) {
-    return i > 0 && points[i].contour != kNoContour && points[i].contour == points[i - 1].contour;
-}
 
 /// For each point the length of its stretch: consecutive points of one contour; 0 for single points.
 std::vector<double> stretch_lengths(const std::vector<BoundaryPoint>& points) {

@@ -8,7 +8,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
-#include "kontur/measure/point_tree.h"
+#include "kontur/base/point_tree.h"
 
 namespace kontur {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kontur/base/parallel.h"
-#include "kontur/measure/point_tree.h"
+#include "kontur/base/point_tree.h"
 
 namespace kontur {
 namespace {

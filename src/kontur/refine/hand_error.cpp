@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kontur/measure/point_tree.h"
+#include "kontur/base/point_tree.h"
 #include "kontur/refine/drawn_lines.h"
 #include "kontur/refine/quantile.h"
 #include "kontur/shape/contour_nesting.h"

@@ -8,7 +8,7 @@
 
 #include "kontur/fit/constraints.h"
 #include "kontur/fit/solve_placed.h"
-#include "kontur/measure/point_tree.h"
+#include "kontur/base/point_tree.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/movement.h"
 #include "kontur/refine/searched_band.h"

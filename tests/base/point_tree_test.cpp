@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/measure/point_tree.h"
+#include "kontur/base/point_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +40,22 @@ TEST(PointTree, AgreesOnALatticeFullOfTies) {
     for (int i = 0; i < 1000; ++i) {
         const Vec3 p{i % 10 + 0.5, i / 10 % 10 * 1.5, i / 100 - 3.0};
         ASSERT_EQ(tree.distance_to(p), brute_force_distance(points, p));
+    }
+}
+
+TEST(PointTree, FindsTheLeastOfACostThatIsNowhereLessThanTheSquaredDistance) {
+    std::mt19937 random = test::random_of_this_test();
+    std::uniform_real_distribution<double> number(-50, 50);
+    const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
+    std::vector<Vec3> points(2000);
+    for (Vec3& p : points) p = vector();
+    const PointTree tree(points);
+    const auto above = [](const Vec3& d) { return d.z > 5 ? dot(d, d) : std::numeric_limits<double>::infinity(); };
+    for (int query = 0; query < 200; ++query) {
+        const Vec3 p = vector();
+        double least = std::numeric_limits<double>::infinity();
+        for (const Vec3& q : points) least = std::min(least, above(q - p));
+        ASSERT_EQ(tree.least(p, above), least);
     }
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Options of single sources reach the compiler. CMake drops them without a word when they are set in another folder than the one
-of the target, and nothing but the speed, or a wrong rounding once in a billion, would tell."""
+"""Every source reaches the compiler, with its options. A file of tests that no CMakeLists.txt names is never run, and options that are
+set in another folder than the target's are dropped: nothing would tell."""
 import json
 import os
 import pathlib
@@ -11,10 +11,22 @@ COMMANDS = pathlib.Path(os.environ["KONTUR_BUILD"], "compile_commands.json")
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
-def options_of(source):
+def commands():
     if not COMMANDS.exists():
         pytest.skip("the build folder has no compile_commands.json: configure it by a preset")
-    [command] = [entry["command"].split() for entry in json.loads(COMMANDS.read_text())
+    return json.loads(COMMANDS.read_text())
+
+
+@pytest.mark.parametrize("folder", ["src", "tests"])
+def test_every_source_is_compiled(folder):
+    compiled = {pathlib.Path(entry["file"]).resolve() for entry in commands()}
+    sources = {path.resolve() for path in (SOURCE / folder).rglob("*.cpp")}
+    elsewhere = {SOURCE / "tests/packaging/consumer/main.cpp", SOURCE / "tests/fuzz/libfuzzer_main.cpp"}
+    assert sorted(sources - compiled - elsewhere) == []
+
+
+def options_of(source):
+    [command] = [entry["command"].split() for entry in commands()
                  if entry["file"].endswith(f"/src/kontur/{source}") and "/kontur.dir/" in entry["command"]]
     return command
 

@@ -20,7 +20,9 @@ constexpr double kSlopeNoise = 0.21;               // what the tilt of an organ'
 constexpr double kMergeFraction = 6e-4;
 constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
 constexpr double kSurfaceSmoothing = 1e-5;
-constexpr std::size_t kCoarsePoints = 500;  // of contours from which others are left out
+constexpr std::size_t kCoarsePoints = 500;   // of contours from which others are left out
+constexpr std::size_t kCoarseSegments = 48;  // which each of them keeps
+constexpr std::size_t kCoarseLines = 2;      // times as many points as the fit has tell where lines run
 
 FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     FitOptions fit;
@@ -54,6 +56,21 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
         prepare.copy_shift_mm = fitting.place.normal_offset_mm;
     }
     return prepare;
+}
+
+/// Every few of each contour's points, about `most` in all: preparing contours and reading the surface's tilt costs as much
+/// as there are points.
+void thin_lines(ContourSet& set, std::size_t most) {
+    std::size_t count = 0;
+    for (const Contour& contour : set.contours) count += contour.points.size();
+    for (Contour& contour : set.contours) {
+        const std::size_t step = std::min(count / most, contour.points.size() / kCoarseSegments);
+        if (step < 2) continue;
+        std::vector<Vec3> kept;
+        for (std::size_t i = 0; i < contour.points.size(); i += step) kept.push_back(contour.points[i]);
+        if (!contour.closed && kept.back() != contour.points.back()) kept.push_back(contour.points.back());
+        contour.points = std::move(kept);
+    }
 }
 
 /// Where the surface passes near a point at which |f| is about `margin_mm`; nothing where |f| is larger or it is farther
@@ -101,7 +118,9 @@ PreparedContours prepare(const Drawing& drawing, const StageOptions& options, co
 }
 
 ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work) {
-    const Drawing drawing = read_drawing(part, FillRule::declared);
+    ContourSet lines = part;
+    thin_lines(lines, kCoarseLines * kCoarsePoints);
+    const Drawing drawing = read_drawing(lines, FillRule::declared);
     StageOptions coarse = options;
     coarse.fit.most_points = coarse.fit.tilt_points = kCoarsePoints;
     coarse.fit.most_solves = 1;

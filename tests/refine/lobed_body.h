@@ -121,16 +121,21 @@ inline Refinement refine_drawing(const ContourSet& contours, const Image& image,
     return {std::move(drawing), std::move(plain), std::move(refined)};
 }
 
-/// Mean distance of the surface of f from the body's, mm.
-inline double surface_error(const ImplicitFunction& function, const ContourSet& contours,
-                            const std::function<double(const Vec3&)>& depth = lobed_depth) {
+/// Points of the surface of f.
+inline std::vector<Vec3> surface_points(const ImplicitFunction& function, const ContourSet& contours) {
     std::vector<Vec3> starts;
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
-    const TriangleMesh mesh = preview_surface(function, starts, {.spacing_mm = 2});
+    return preview_surface(function, starts, {.spacing_mm = 2}).points;
+}
+
+/// Mean distance of the surface of f from the body's, mm.
+inline double surface_error(const ImplicitFunction& function, const ContourSet& contours,
+                            const std::function<double(const Vec3&)>& depth = lobed_depth) {
+    const std::vector<Vec3> points = surface_points(function, contours);
     double sum = 0;
-    for (const Vec3& p : mesh.points) sum += surface_distance(depth, p);
-    return sum / static_cast<double>(mesh.points.size());
+    for (const Vec3& p : points) sum += surface_distance(depth, p);
+    return sum / static_cast<double>(points.size());
 }
 
 }  // namespace kontur::test

@@ -47,36 +47,40 @@ std::vector<float> gaussian(double deviation) {
     return taps;
 }
 
-/// Blurs over offsets (`along` = kBins apart) or bins (1 apart); beyond the ends lies what is at the ends.
-void blur(Histograms& h, int count, int along, int lines, int apart, const std::vector<float>& taps) {
+/// Row b is what a value in bin b is spread over; beyond the ends lies what is at the ends.
+using Spread = std::array<std::array<float, kBins>, kBins>;
+
+Spread spread_over_bins() {
+    const std::vector<float> taps = gaussian(1.0);
     const int reach = static_cast<int>(taps.size()) / 2;
-    std::array<float, std::max(kOffsets, kBins)> line{};
-    for (int l = 0; l < lines; ++l) {
-        for (int i = 0; i < count; ++i)
-            line[static_cast<std::size_t>(i)] = h[static_cast<std::size_t>(l * apart + i * along)];
-        for (int i = 0; i < count; ++i) {
-            float sum = 0;
-            for (int t = -reach; t <= reach; ++t)
-                sum += taps[static_cast<std::size_t>(t + reach)] *
-                       line[static_cast<std::size_t>(std::clamp(i + t, 0, count - 1))];
-            h[static_cast<std::size_t>(l * apart + i * along)] = sum;
-        }
-    }
+    Spread spread{};
+    for (int to = 0; to < kBins; ++to)
+        for (int t = -reach; t <= reach; ++t)
+            spread[static_cast<std::size_t>(std::clamp(to + t, 0, kBins - 1))][static_cast<std::size_t>(to)] +=
+                taps[static_cast<std::size_t>(t + reach)];
+    return spread;
 }
 
-/// Few examples teach each point: what they show is spread a little.
+/// Few examples teach each point: what they show is spread a little, over bins and offsets.
 Histograms histograms_of(std::span<const double> intensities, const IntensityScale& scale) {
-    static const std::vector<float> over_offsets = gaussian(0.7), over_bins = gaussian(1.0);
-    Histograms h{};
-    for (int t = 0; t < kOffsets; ++t) {
-        const double value = intensities[static_cast<std::size_t>(t)];
-        if (!std::isfinite(value)) continue;
-        const Binned bin(scale(value));
-        entry(h, t, bin.first) += 1 - bin.weight;
-        entry(h, t, bin.second) += bin.weight;
+    static const std::vector<float> over_offsets = gaussian(0.7);
+    static const Spread over_bins = spread_over_bins();
+    std::array<std::array<float, kBins>, kOffsets> seen{};
+    for (std::size_t t = 0; t < kOffsets; ++t) {
+        if (!std::isfinite(intensities[t])) continue;
+        const Binned bin(scale(intensities[t]));
+        const auto &first = over_bins[static_cast<std::size_t>(bin.first)],
+                   &second = over_bins[static_cast<std::size_t>(bin.second)];
+        for (std::size_t b = 0; b < kBins; ++b) seen[t][b] = (1 - bin.weight) * first[b] + bin.weight * second[b];
     }
-    blur(h, kOffsets, kBins, kBins, 1, over_offsets);
-    blur(h, kBins, 1, kOffsets, kBins, over_bins);
+    Histograms h{};
+    const int reach = static_cast<int>(over_offsets.size()) / 2;
+    for (int t = 0; t < kOffsets; ++t)
+        for (int n = -reach; n <= reach; ++n) {
+            const auto& row = seen[static_cast<std::size_t>(std::clamp(t + n, 0, kOffsets - 1))];
+            const float tap = over_offsets[static_cast<std::size_t>(n + reach)];
+            for (int b = 0; b < kBins; ++b) entry(h, t, b) += tap * row[static_cast<std::size_t>(b)];
+        }
     return h;
 }
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <tuple>
+#include <unordered_map>
 
 #include "kontur/refine/quantile.h"
 
@@ -27,7 +28,7 @@ struct Pairs {
 bool is_label_map(const Image& image) {
     const Index3& size = image.grid.size;
     const std::int64_t rows = size.j * size.k, step = std::max<std::int64_t>(1, rows * size.i / kLookedAt);
-    std::map<double, Pairs> pairs;
+    std::unordered_map<double, Pairs> pairs;
     bool is_whole = true;
     for (std::int64_t row = 0; row < rows; row += step) {
         const auto first = static_cast<std::size_t>(row * size.i);
@@ -46,7 +47,7 @@ bool is_label_map(const Image& image) {
     for (const auto& [value, known] : pairs) {
         total.all += known.all;
         total.alike += known.alike;
-        if (known.all > background.all) background = known;
+        if (std::tie(known.all, known.alike) > std::tie(background.all, background.alike)) background = known;
     }
     return static_cast<double>(total.alike - background.alike) > kAlike * static_cast<double>(total.all - background.all);
 }

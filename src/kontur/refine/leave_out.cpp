@@ -74,12 +74,14 @@ std::optional<Fold> leave_out(const ContourSet& drawn, const std::vector<std::si
     try {
         const Drawing rest(with_contours(drawn, group, false), FillRule::declared);
         Fold fold{fit(rest.contours), DrawnOnImage(rest, image), {}, {}, {}, {}};
+        const double spacing = kSurfaceSpacing * rest.diameter_mm();
         fold.samples =
-            spread(points_of_surface(fold.function, rest.contours, kSurfaceSpacing * rest.diameter_mm(), alone), kSamples);
+            spread(points_of_surface(fold.function, rest.contours, spacing, alone), kSamples, frame_of(rest.contours));
         if (fold.samples.size() < kLeastPoints) return std::nullopt;
+        slide_to_surface(fold.function, fold.samples, {.reach_mm = spacing}, alone);
         fold.held_out = along_contours(with_contours(drawn, group, true), step_mm);
         std::vector<Vec3> nearest = fold.held_out;
-        slide_to_surface(fold.function, nearest, 0.25 * rest.diameter_mm(), alone);
+        slide_to_surface(fold.function, nearest, {.reach_mm = 0.25 * rest.diameter_mm(), .steps = 3}, alone);
         fold.on_surface = with_normals(fold.function, nearest, alone);
         for (std::size_t i = 0; i < nearest.size(); ++i) {
             fold.on_surface[i].distance_mm = nearest_distance(nearest[i], fold.others.points);

@@ -16,12 +16,20 @@ constexpr double kJitter = 1e-6;   // of the mean prior variance
 constexpr double kSharpest = 0.3;  // of a step: the smallest standard deviation that is believed of one point
 constexpr double kLeastCavity = 1e-9;
 
-std::vector<double> covariances(std::span<const MovingPoint> points, const OffsetPrior& prior) {
+std::vector<double> correlations(std::span<const MovingPoint> points, const OffsetPrior& prior) {
     const std::size_t n = points.size();
-    std::vector<double> k(n * n);
+    std::vector<double> c(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j) c[i + n * j] = c[j + n * i] = prior.correlation(points[i], points[j]);
+    return c;
+}
+
+std::vector<double> covariances(std::span<const MovingPoint> points, const std::vector<double>& correlations) {
+    const std::size_t n = points.size();
+    std::vector<double> k = correlations;
     double trace = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) k[i + n * j] = k[j + n * i] = prior.covariance(points[i], points[j]);
+        for (std::size_t j = 0; j < n; ++j) k[i + n * j] *= points[i].prior_mm * points[j].prior_mm;
         trace += k[i + n * i];
     }
     for (std::size_t i = 0; i < n; ++i) k[i + n * i] += kJitter * trace / static_cast<double>(n);
@@ -29,13 +37,13 @@ std::vector<double> covariances(std::span<const MovingPoint> points, const Offse
 }
 
 /// The largest precision that each point's evidence may have.
-std::vector<double> caps(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence) {
+std::vector<double> caps(const std::vector<double>& correlations, std::size_t n, const OffsetEvidence& evidence) {
     const double sharpest = kSharpest * evidence.step_mm;
-    std::vector<double> most(points.size(), 1 / (sharpest * sharpest));
+    std::vector<double> most(n, 1 / (sharpest * sharpest));
     if (evidence.image_sd_mm.empty()) return most;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
         double shared = 0;
-        for (const MovingPoint& other : points) shared += std::pow(prior.correlation(points[i], other), 2);
+        for (std::size_t j = 0; j < n; ++j) shared += correlations[j + n * i] * correlations[j + n * i];
         most[i] = std::min(most[i], 1 / (std::pow(evidence.image_sd_mm[i], 2) * std::sqrt(shared)));
     }
     return most;
@@ -80,10 +88,12 @@ double OffsetPrior::correlation(const MovingPoint& a, const MovingPoint& b) cons
 Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& prior, const OffsetEvidence& evidence,
                      const Work& work) {
     const std::size_t n = points.size();
-    const std::vector<double> k = covariances(points, prior);
-    const std::vector<double> most = caps(points, prior, evidence);
+    const std::vector<double> together = correlations(points, prior);
+    const std::vector<double> k = covariances(points, together);
+    const std::vector<double> most = caps(together, n, evidence);
     std::vector<double> precision(n), information(n);
-    GaussianPosterior posterior = gaussian_posterior(k, precision, information);
+    GaussianPosterior posterior{std::vector<double>(n), std::vector<double>(n), {}};  // nothing seen yet: the prior
+    for (std::size_t i = 0; i < n; ++i) posterior.variance[i] = k[i + n * i];
     for (int round = 0; round < kRounds; ++round) {
         work.check();
         for (std::size_t i = 0; i < n; ++i) {

@@ -24,6 +24,7 @@ constexpr double kFollow = 0.05;           // noise of a moved point over its po
 constexpr double kLeastDeviation = 0.2;    // voxels
 constexpr double kBeside = 2.24;           // how much noisier f is before and behind a moved point
 constexpr double kAnchorNoise = 0.1;       // voxels
+constexpr std::size_t kCompared = 500;     // drawn points at which functions are
 constexpr int kAttempts = 4;               // to keep the surface where the image was asked
 
 /// f at the moved points, and before and behind them, is what it was where they came from.
@@ -66,11 +67,15 @@ std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImag
     return held;
 }
 
-/// The largest difference of two functions at the drawn points.
+/// The largest difference of two functions at drawn points, about `kCompared` of them.
 double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, const Work& work) {
+    std::size_t count = 0, next = 0;
+    for (const Contour& contour : contours.contours) count += contour.points.size();
+    const std::size_t step = std::max<std::size_t>(1, count / kCompared);
     std::vector<Vec3> points;
     for (const Contour& contour : contours.contours)
-        points.insert(points.end(), contour.points.begin(), contour.points.end());
+        for (const Vec3& p : contour.points)
+            if (next++ % step == 0) points.push_back(p);
     std::vector<double> before(points.size()), after(points.size());
     a.values(points, before, work);
     b.values(points, after, work);
@@ -151,8 +156,8 @@ RefinedFunction move_surface(const DrawnOnImage& drawn, const Drawing& drawing, 
     const double voxel = drawn.image.voxel_mm(), spacing = kSurfaceSpacing * drawing.diameter_mm();
     RefinedFunction result{fitted, {}};
     const std::vector<Vec3> surface = points_of_surface(fitted.function, drawing.contours, spacing, work);
-    std::vector<Vec3> points = spread(surface, options.samples);
-    slide_to_surface(fitted.function, points, 2 * voxel, work);
+    std::vector<Vec3> points = spread(surface, options.samples, frame_of(drawing.contours));
+    slide_to_surface(fitted.function, points, {.reach_mm = spacing}, work);
     work.check();
     Movement movement = find_movement(drawn, fitted.function, points, beliefs, work);
     result.report.intensities = movement.intensities;

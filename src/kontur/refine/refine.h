@@ -50,7 +50,7 @@ struct RefineReport {
     double error_with_mm = 0;         ///< the same with the image
     double largest_move_mm = 0;       ///< of the surface, at the points asked
     std::int64_t intensities = 0;     ///< read from the image
-    double on_contours_mm = 0;        ///< the largest change of f at any drawn point
+    double on_contours_mm = 0;        ///< the largest change of f at some 500 of the drawn points
     std::vector<AskedPoint> asked{};  ///< where it was asked, and how much surer it made the surface there
 };
 

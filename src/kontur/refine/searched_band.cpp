@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/refine/searched_band.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -28,7 +29,10 @@ std::vector<Vec3> SearchedBand::left_from(std::span<const Vec3> other, const Wor
                      });
     };
     chunks(surface_.size(), [&](std::size_t i) { is_left[i] = others.distance_to(surface_[i]) > reach_mm_[i]; });
+    const PointTree tree(surface_);
+    const double least_reach = surface_.empty() ? 0 : *std::min_element(reach_mm_.begin(), reach_mm_.end());
     chunks(other.size(), [&](std::size_t n) {
+        if (tree.distance_to(other[n]) <= least_reach) return;  // as nearly all are; only the others need all distances
         double least2 = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < surface_.size(); ++i) {
             const Vec3 apart = other[n] - surface_[i];

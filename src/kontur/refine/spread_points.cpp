@@ -7,22 +7,27 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 
+#include "kontur/extract/adaptive.h"
 #include "kontur/extract/preview.h"
+#include "kontur/refine/edge_crossings.h"
 
 namespace kontur {
 namespace {
 
+constexpr double kTolerance = 0.02;  // of a lattice's values, in spacings
+
 /// Of each cell of a lattice that holds any, the first.
-std::vector<Vec3> one_per_cell(std::span<const Vec3> points, const Vec3& corner, double edge_mm) {
+std::vector<std::size_t> one_per_cell(std::span<const Vec3> points, const Vec3& corner, double edge_mm) {
     std::map<std::array<std::int64_t, 3>, std::size_t> first;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3 at = (points[i] - corner) / edge_mm;
         const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
         first.try_emplace({cell(at.x), cell(at.y), cell(at.z)}, i);
     }
-    std::vector<Vec3> kept;
-    for (const auto& entry : first) kept.push_back(points[entry.second]);
+    std::vector<std::size_t> kept;
+    for (const auto& entry : first) kept.push_back(entry.second);
     return kept;
 }
 
@@ -37,24 +42,51 @@ std::size_t sides(const Contour& contour) {
 
 }  // namespace
 
-std::vector<Vec3> points_of_surface(const ImplicitFunction& function, const ContourSet& contours, double spacing_mm,
-                                    const Work& work) {
-    std::vector<Vec3> starts;
-    for (const Contour& contour : contours.contours)
-        starts.insert(starts.end(), contour.points.begin(), contour.points.end());
-    if (starts.empty()) return {};
-    const Vec3 anchor = bounding_box(starts).min;  // so that the points move with the contours
-    return preview_surface(function, starts, {.spacing_mm = spacing_mm, .anchor_mm = anchor}, work.untold()).points;
+Affine3 frame_of(const ContourSet& contours) {
+    Affine3 frame;
+    if (contours.contours.empty()) return frame;
+    const Contour& first = contours.contours.front();
+    Vec3 middle;
+    for (const Vec3& p : first.points) middle += p / static_cast<double>(first.points.size());
+    const Vec3 z = first.plane.normal, across = first.points.front() - middle;
+    const Vec3 x = normalized(across - dot(across, z) * z);
+    if (x == Vec3{}) return frame;
+    frame.set_column(0, x);
+    frame.set_column(1, cross(z, x));
+    frame.set_column(2, z);
+    frame.translation = middle;
+    return frame;
 }
 
-std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count) {
+std::vector<Vec3> points_of_surface(const ImplicitFunction& function, const ContourSet& contours, double spacing_mm,
+                                    const Work& work) {
+    const Affine3 frame = frame_of(contours), to_frame = frame.inverse();
+    std::vector<Vec3> starts, in_frame;
+    for (const Contour& contour : contours.contours)
+        starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+    for (const Vec3& p : starts) in_frame.push_back(to_frame.apply(p));
+    std::optional<Grid> grid = preview_lattice(in_frame, spacing_mm);
+    if (!grid) return {};
+    grid->index_to_mm = compose(frame, grid->index_to_mm);
+    FastFunction fast(function,
+                      {.tolerance_mm = kTolerance * spacing_mm, .expected_points = expected_surface_voxels(*grid, starts)});
+    const SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, work.untold());
+    std::vector<Vec3> points;
+    EdgeCrossings(surface).visit([&](const Vec3& point, double) { points.push_back(point); });
+    return points;
+}
+
+std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count, const Affine3& frame) {
     if (points.size() <= count) return points;
-    const Box3 box = bounding_box(points);
+    const Affine3 to_frame = frame.inverse();
+    std::vector<Vec3> in_frame;
+    for (const Vec3& p : points) in_frame.push_back(to_frame.apply(p));
+    const Box3 box = bounding_box(in_frame);
     double fine = 0, coarse = box.diagonal();
-    std::vector<Vec3> kept;
+    std::vector<std::size_t> kept;
     for (int halving = 0; halving < 12; ++halving) {
         const double edge = (fine + coarse) / 2;
-        std::vector<Vec3> found = one_per_cell(points, box.min, edge);
+        std::vector<std::size_t> found = one_per_cell(in_frame, box.min, edge);
         if (found.size() > count) {
             fine = edge;
         } else {
@@ -62,20 +94,22 @@ std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count) {
             kept = std::move(found);
         }
     }
-    return kept;
+    std::vector<Vec3> some;
+    for (const std::size_t i : kept) some.push_back(points[i]);
+    return some;
 }
 
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, const Work& work) {
-    constexpr int kSteps = 3;
+void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, const SlideOptions& options,
+                      const Work& work) {
     constexpr double kLeastSlope2 = 0.09;
     std::vector<double> values(points.size());
     std::vector<Vec3> gradients(points.size());
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < options.steps; ++step) {
         function.values_and_gradients(points, values, gradients, work);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Vec3 move = -values[i] / std::max(dot(gradients[i], gradients[i]), kLeastSlope2) * gradients[i];
             const double far = norm(move);
-            points[i] += (far > reach_mm ? reach_mm / far : 1.0) * move;
+            points[i] += (far > options.reach_mm ? options.reach_mm / far : 1.0) * move;
         }
     }
 }

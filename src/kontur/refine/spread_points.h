@@ -11,15 +11,27 @@
 
 namespace kontur {
 
-/// The surface of f through the contours as the points at which it crosses a lattice of `spacing_mm`.
+/// Axes of unit length that turn and move with a drawing, by its first contour: what is chosen in it is chosen alike however
+/// the drawing lies. The patient's axes where there is none.
+Affine3 frame_of(const ContourSet& contours);
+
+/// The surface of f through the contours as the points at which it crosses a lattice of `spacing_mm` in their frame,
+/// interpolated linearly: a few percent of the spacing beside it. None where it is farther from the contours than half of
+/// their extent.
 std::vector<Vec3> points_of_surface(const ImplicitFunction& function, const ContourSet& contours, double spacing_mm,
                                     const Work& work);
 
-/// About `count` of the points, evenly spread; all where there are fewer.
-std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count);
+/// About `count` of the points, evenly spread over cells of a frame; all where there are fewer.
+std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count, const Affine3& frame);
 
-/// Moves each point towards where f vanishes, no farther than `reach_mm` in each of three steps.
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, double reach_mm, const Work& work);
+struct SlideOptions {
+    double reach_mm = 0;  ///< no step is longer
+    int steps = 1;        ///< of Newton's method; one is enough from a point of points_of_surface
+};
+
+/// Moves each point towards where f vanishes.
+void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, const SlideOptions& options,
+                      const Work& work);
 
 /// The points with f's outward normals there; distances and offsets are left as they are.
 std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, const Work& work);

@@ -5,56 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "kontur/extract/lattice.h"
+#include "kontur/refine/edge_crossings.h"
 
 namespace kontur {
 namespace {
-
-/// Lattice edges that the surface crosses, each with the measure with which it counts.
-class EdgeCrossings {
-public:
-    explicit EdgeCrossings(const SurfaceLattice& surface) : surface_(surface), grid_(surface.lattice.grid()) {
-        const double cell_mm3 = grid_.voxel_volume_mm3();
-        for (int axis = 0; axis < 3; ++axis) {
-            directions_[axis] = normalized(grid_.index_to_mm.column(axis));
-            measures_[axis] = cell_mm3 / norm(grid_.index_to_mm.column(axis));
-        }
-    }
-
-    /// Each crossed edge is the cell's whose lowest corner it begins at. Edges that leave the grid are no surface of f.
-    template <class Visit>
-    void visit(const Visit& visit) const {
-        for (const Index3& cell : surface_.cells) {
-            const double here = surface_.lattice.value(cell);
-            if (!std::isfinite(here)) continue;
-            for (int axis = 0; axis < 3; ++axis) {
-                Index3 next = cell;
-                ++next[axis];
-                const double there = surface_.lattice.value(next);
-                if (!std::isfinite(there) || (here > 0) == (there > 0)) continue;
-                Vec3 at{static_cast<double>(cell.i), static_cast<double>(cell.j), static_cast<double>(cell.k)};
-                at[axis] += here / (here - there);
-                visit(at, measures_[axis]);
-            }
-        }
-    }
-
-    Vec3 to_mm(const Vec3& index) const { return grid_.index_to_mm.apply(index); }
-    double step_mm() const { return 0.5 * norm(grid_.spacing_mm()); }
-
-    /// Measure of the edges that a unit of area with this normal crosses.
-    double density(const Vec3& normal) const {
-        double sum = 0;
-        for (const Vec3& direction : directions_) sum += std::abs(dot(normal, direction));
-        return sum;
-    }
-
-private:
-    const SurfaceLattice& surface_;
-    const Grid& grid_;
-    std::array<Vec3, 3> directions_;
-    std::array<double, 3> measures_{};
-};
 
 /// Where a running sum passes one place in each of `count` equal steps. The places lie elsewhere in every step, or they
 /// would keep time with the rows of the lattice.
@@ -103,8 +57,8 @@ SurfaceSamples sample_surface(const SurfaceLattice& surface, const ImplicitFunct
     most = std::min(most, count);
     if (most == 0) return samples;
     EqualSteps steps(total, most);
-    crossings.visit([&](const Vec3& index, double measure) {
-        if (steps.passes(measure)) samples.points.push_back(crossings.to_mm(index));
+    crossings.visit([&](const Vec3& point, double measure) {
+        if (steps.passes(measure)) samples.points.push_back(point);
     });
 
     std::vector<double> values(samples.points.size());

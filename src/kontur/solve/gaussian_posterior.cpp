@@ -15,6 +15,7 @@ namespace kontur {
 namespace {
 
 constexpr double kLeastVariance = 1e-12;
+constexpr double kClear = 1e-3;  // prior variance over that of seeing, from which on a number counts as seen clearly
 
 /// Square roots of the precisions.
 std::vector<double> roots(std::span<const double> precision) {
@@ -38,6 +39,48 @@ std::vector<double> factor(std::span<const double> prior, const std::vector<doub
     if (LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', lead, matrix.data(), lead) != 0)
         throw Error(ErrorKind::singular_system, "the prior covariance is not positive definite");
     return matrix;
+}
+
+/// Those of numbers that were seen clearly: (1 - (I + S K S)^-1_ii) / s_i^2, the inverse's diagonal from that of the factor.
+/// Where s_i^2 K_ii is small, that loses digits.
+void add_clear_variances(const std::vector<double>& s, std::vector<double> lower, std::vector<double>& variance) {
+    const std::size_t n = s.size();
+    const auto lead = static_cast<lapack_int>(n);
+    LAPACKE_dtrtri(LAPACK_COL_MAJOR, 'L', 'N', lead, lower.data(), lead);
+    for (std::size_t j = 0; j < n; ++j) {
+        const auto rows = static_cast<int>(n - j);
+        const double inverse = cblas_ddot(rows, &lower[j + n * j], 1, &lower[j + n * j], 1);
+        if (s[j] > 0) variance[j] = (1 - inverse) / (s[j] * s[j]);
+    }
+}
+
+/// diag(K - V^T V), V = L^-1 S K, of some columns.
+void add_variances_of(const std::vector<std::size_t>& columns, std::span<const double> prior, const std::vector<double>& s,
+                      const std::vector<double>& lower, std::vector<double>& variance) {
+    const std::size_t n = s.size();
+    const auto lead = static_cast<int>(n);
+    std::vector<double> v(n * columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        for (std::size_t i = 0; i < n; ++i) v[i + n * c] = s[i] * prior[i + n * columns[c]];
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, lead, static_cast<int>(columns.size()),
+                1.0, lower.data(), lead, v.data(), lead);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const std::size_t j = columns[c];
+        variance[j] = prior[j + n * j] - cblas_ddot(lead, &v[n * c], 1, &v[n * c], 1);
+    }
+}
+
+std::vector<double> variances(std::span<const double> prior, const std::vector<double>& s,
+                              const std::vector<double>& lower) {
+    const std::size_t n = s.size();
+    std::vector<double> variance(n);
+    std::vector<std::size_t> unclear;
+    for (std::size_t j = 0; j < n; ++j)
+        if (s[j] * s[j] * prior[j + n * j] < kClear) unclear.push_back(j);
+    if (unclear.size() < n) add_clear_variances(s, lower, variance);
+    if (!unclear.empty()) add_variances_of(unclear, prior, s, lower, variance);
+    for (double& v : variance) v = std::max(v, kLeastVariance);
+    return variance;
 }
 
 }  // namespace
@@ -64,16 +107,7 @@ GaussianPosterior gaussian_posterior(std::span<const double> prior, std::span<co
     cblas_dsymv(CblasColMajor, CblasLower, lead, 1.0, prior.data(), lead, posterior.weights.data(), 1, 0.0,
                 posterior.mean.data(), 1);
 
-    // variance = diag(K - V^T V), V = L^-1 S K.
-    std::vector<double> v(n * n);
-    for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = 0; i < n; ++i) v[i + n * j] = s[i] * prior[i + n * j];
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, lead, lead, 1.0, lower.data(), lead,
-                v.data(), lead);
-    for (std::size_t j = 0; j < n; ++j) {
-        const double explained = cblas_ddot(lead, &v[n * j], 1, &v[n * j], 1);
-        posterior.variance[j] = std::max(prior[j + n * j] - explained, kLeastVariance);
-    }
+    posterior.variance = variances(prior, s, lower);
     return posterior;
 }
 

@@ -17,6 +17,7 @@ namespace {
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
 constexpr double kPreviewTolerance = 50;    // times that of the refined surface
 constexpr double kSpacingFraction = 0.015;  // of the contours' diameter
+constexpr double kShownNoise = 0.05;        // of the preview's spacing: what the image said before
 // A cut is cheap: it may be finer than the mesh.
 constexpr double kCutFraction = 2.0 / 3;  // of the preview's spacing
 
@@ -87,7 +88,11 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     Stopwatch watch(seconds);
     const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
     StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages, work);
+    PreparedContours prepared = prepare(drawing, stages, work);
+    const double spacing_mm = preview_spacing(drawing.diameter_mm());
+    const std::vector<Vec3> shown = asked_.still_shown(drawing.contours);
+    for (const Vec3& place : shown)
+        prepared.bounds.push_back({.position = place, .least_mm = 0, .most_mm = 0, .noise_mm = kShownNoise * spacing_mm});
     watch.lap("prepare");
     stages.fit.most_points = options_.preview_points;
     stages.fit.tilt_points = options_.preview_points;
@@ -102,19 +107,22 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     watch.lap("fit");
     const std::vector<Vec3> starts =
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);
-    const PreviewOptions lattice{preview_spacing(drawing.diameter_mm())};
+    const PreviewOptions lattice{spacing_mm};
     if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm}, work));
     EditedSurface surface = surface_of(fitted, starts, lattice, work);
     watch.lap("mesh");
     surface.seconds = std::move(seconds);
+    surface.shown_before = shown.size();
     remember(drawing.contours, prepared, fitted.slopes);
     return surface;
 }
 
-EditedSurface Editor::refine(const ContourSet& drawn, const Work& work) const { return refine(drawn, nullptr, work); }
+EditedSurface Editor::refine(const ContourSet& drawn, const Work& work) const {
+    return Editor(options_).refine(drawn, nullptr, work);
+}
 
 EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const Work& work,
-                             const std::function<void(const EditedSurface&)>& alone) const {
+                             const std::function<void(const EditedSurface&)>& alone) {
     if (drawn.contours.empty()) {
         EditedSurface nothing;
         nothing.refined = true;
@@ -135,12 +143,16 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
     };
     const FittedFunction by_contours = fit(prepared, stages.fit, work);
     EditedSurface surface = refined_surface(by_contours);
-    if (!image || options_.segment.use_image == UseImage::off) return surface;
+    if (!image || options_.segment.use_image == UseImage::off) {
+        forget_image();
+        return surface;
+    }
     if (alone) alone(surface);
-    RefinedFunction with_image =
-        kontur::refine(drawing, prepared, by_contours, image, options_.segment.use_image, stages, work);
+    fits_->begin_question();
+    RefinedFunction with_image = kontur::refine(drawing, prepared, by_contours, *image, stages, work, fits_.get());
     if (with_image.report.verdict == ImageVerdict::used) surface = refined_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
+    asked_ = AskedBefore(drawing.contours, surface.image.asked);
     return surface;
 }
 

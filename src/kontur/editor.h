@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "kontur/drawing/prepare.h"
 #include "kontur/extract/surface_band.h"
 #include "kontur/fit/residual.h"
+#include "kontur/refine/asked_before.h"
+#include "kontur/refine/kept_fits.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/volume.h"
 
@@ -26,11 +29,12 @@ struct EditorOptions {
 struct EditedSurface {
     bool refined = false;  ///< false: a preview
     ImplicitFunction function;
-    TriangleMesh mesh;      ///< in mm, with normals; empty without contours
-    double spacing_mm = 0;  ///< of the lattice that the mesh was made on
-    Residual residual;      ///< at all drawn points; refined surfaces only
-    int solves = 0;         ///< how often a linear system was solved for it
-    RefineReport image{};   ///< what became of the image; refined surfaces only
+    TriangleMesh mesh;             ///< in mm, with normals; empty without contours
+    double spacing_mm = 0;         ///< of the lattice that the mesh was made on
+    Residual residual;             ///< at all drawn points; refined surfaces only
+    int solves = 0;                ///< how often a linear system was solved for it
+    RefineReport image{};          ///< what became of the image; refined surfaces only
+    std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit; previews only
 
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order; previews only
 };
@@ -40,9 +44,11 @@ struct EditedSurface {
 /// whatever came before.
 ///
 /// A preview is fitted to a part of the points, to a fraction of a voxel; what it keeps from the edit before is the
-/// surface's tilt along every contour that has not changed, which saves the rounds that would find it. Nothing else is worth
+/// surface's tilt along every contour that has not changed, which saves the rounds that would find it, and where the image
+/// showed the border, so that the surface stays there until the image has been asked again. Nothing else is worth
 /// keeping: every weight and every value of the function change with each edit (weights of the edit before start the solver
-/// at a residual of 1e5 mm and more), and the set-up of a thousand points takes milliseconds.
+/// at a residual of 1e5 mm and more), and the set-up of a thousand points takes milliseconds. To ask the image parts of the
+/// drawing are fitted; a part that has been fitted in one of the last questions is not fitted again.
 class Editor {
 public:
     /// Throws Error(invalid_input) for a spacing that is not finite or below 0 and for a preview of no points.
@@ -57,7 +63,9 @@ public:
     /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` is told first what the
     /// contours alone make, which stays the result where the image does not help. Throws as `kontur::refine`, too.
     EditedSurface refine(const ContourSet& contours, const Image* image, const Work& work = {},
-                         const std::function<void(const EditedSurface&)>& alone = {}) const;
+                         const std::function<void(const EditedSurface&)>& alone = {});
+    /// Previews no longer follow what an image said: it is another one now, or none.
+    void forget_image() { asked_ = {}; }
 
     const EditorOptions& options() const { return options_; }
 
@@ -74,6 +82,8 @@ private:
 
     EditorOptions options_;
     std::vector<Known> known_;
+    AskedBefore asked_;
+    std::shared_ptr<KeptFits> fits_ = std::make_shared<KeptFits>();
 };
 
 }  // namespace kontur

@@ -21,7 +21,8 @@ struct LiveEditor::Worker {
     int threads;
     Listener listener;
     BandListener ahead;
-    std::mutex mutex;  // guards all below
+    std::weak_ptr<const Image> last_image;  ///< of the last edit; the editor's thread alone uses it
+    std::mutex mutex;                       // guards all below
     std::condition_variable changed;
     std::uint64_t newest = 0;    ///< number of edits so far
     std::uint64_t answered = 0;  ///< the newest that is done with
@@ -65,6 +66,8 @@ struct LiveEditor::Worker {
         update.edit = edit.number;
         try {
             std::function<void(const SurfaceBand&)> tell_ahead;
+            if (edit.image != last_image.lock()) editor.forget_image();
+            last_image = edit.image;
             if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(edit.number, band); };
             update.surface = editor.preview(edit.contours, work_for(edit, closed), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;

@@ -31,7 +31,9 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
 
     const FittedFunction by_contours = fit(prepared, stages.fit, work);
     watch.lap("fit");
-    const auto [fitted, image_report] = refine(drawing, prepared, by_contours, image, options.use_image, stages, work);
+    const bool asks_image = image && options.use_image != UseImage::off;
+    const auto [fitted, image_report] =
+        asks_image ? refine(drawing, prepared, by_contours, *image, stages, work) : RefinedFunction{by_contours, {}};
     if (image_report.verdict != ImageVerdict::none) watch.lap("refine");
 
     const std::vector<Vec3> starts =

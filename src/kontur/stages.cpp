@@ -129,12 +129,12 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
 }
 
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image* image, UseImage use, const StageOptions& options, const Work& work) {
-    if (!image || use == UseImage::off) return {fitted, {}};
+                       const Image& image, const StageOptions& options, const Work& work, KeptFits* kept) {
     work.report("ask the image", 0);
     const Work alone{.threads = 1, .stop = work.stop};  // parts are fitted beside each other
-    const auto fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
-    return refine(drawing, prepared, fitted, *image, fit_part, {.fit = options.fit}, work);
+    const FitContours fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
+    const FitContours fit_once = [&](const ContourSet& part) { return kept->of(part, drawing.diameter_mm(), fit_part); };
+    return refine(drawing, prepared, fitted, image, kept ? fit_once : fit_part, {.fit = options.fit}, work);
 }
 
 std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,

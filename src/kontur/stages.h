@@ -8,6 +8,7 @@
 #include "kontur/drawing/prepare.h"
 #include "kontur/drawing/reconcile.h"
 #include "kontur/fit/fit.h"
+#include "kontur/refine/kept_fits.h"
 #include "kontur/refine/refine.h"
 #include "kontur/segment_options.h"
 
@@ -34,10 +35,10 @@ PreparedContours prepare(const Drawing& drawing, const StageOptions& options, co
 /// planes that will do.
 ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work = {});
 
-/// The fit, moved between the contours to where the image shows the border, if there is an image, `use` asks for it and it
-/// helps; else as it came.
+/// The fit, moved between the contours to where the image shows the border, where it helps; else as it came. Parts of the
+/// drawing that `kept` holds are not fitted again.
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image* image, UseImage use, const StageOptions& options, const Work& work = {});
+                       const Image& image, const StageOptions& options, const Work& work = {}, KeptFits* kept = nullptr);
 
 /// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
 /// themselves, and a place near each exterior point that only just got its side: it may have made a cavity. Not near

@@ -89,12 +89,64 @@ TEST(Editor, DoesNotAskTheImageWhereItIsToldNotTo) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     bool is_told = false;
     const auto tell = [&](const EditedSurface&) { is_told = true; };
-    const Editor off({.segment = {.use_image = UseImage::off}});
+    Editor off({.segment = {.use_image = UseImage::off}});
     const EditedSurface plain = off.refine(contours, helpful_image().get(), {}, tell);
     EXPECT_EQ(plain.image.verdict, ImageVerdict::none);
     expect_same_function(plain.function, Editor().refine(contours).function);
     EXPECT_TRUE(Editor().refine({}, helpful_image().get(), {}, tell).mesh.points.empty());
     EXPECT_FALSE(is_told) << "there is nothing to wait for";
+}
+
+/// One contour drawn smaller, the others as they were.
+ContourSet edited(ContourSet contours) {
+    Contour& contour = contours.contours[1];
+    for (Vec3& p : contour.points) p = contour.plane.origin + 0.97 * (p - contour.plane.origin);
+    return contours;
+}
+
+TEST(Editor, PreviewsFollowWhatTheImageSaidUntilItIsAskedAgain) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Editor editor, fresh;
+    editor.preview(contours);
+    fresh.preview(contours);
+    editor.refine(contours, helpful_image().get());
+    const EditedSurface with = editor.preview(edited(contours)), without = fresh.preview(edited(contours));
+    EXPECT_EQ(without.shown_before, 0u);
+    EXPECT_GT(with.shown_before, 50u);
+    EXPECT_LT(surface_error(with.function, contours), 0.6 * surface_error(without.function, contours));
+    for (const Contour& contour : edited(contours).contours)
+        for (const Vec3& p : contour.points) EXPECT_NEAR(with.function.value(p), without.function.value(p), 0.5);
+    const Image& image = *helpful_image();
+    expect_same_function(editor.refine(edited(contours), &image).function,
+                         segment(edited(contours), image.grid, &image).function);
+    editor.forget_image();
+    expect_same_function(editor.preview(edited(contours)).function, fresh.preview(edited(contours)).function);
+}
+
+TEST(Editor, PreviewsDoNotFollowAnImageThatIsNoLongerAsked) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Editor editor;
+    editor.preview(contours);
+    editor.refine(contours, helpful_image().get());
+    EXPECT_GT(editor.preview(contours).shown_before, 50u);
+    editor.refine(contours, noise_alone().get());
+    EXPECT_EQ(editor.preview(contours).shown_before, 0u);
+    editor.refine(contours, helpful_image().get());
+    editor.refine(contours, nullptr);
+    EXPECT_EQ(editor.preview(contours).shown_before, 0u);
+}
+
+TEST(LiveEditor, PreviewsWithAnotherImageDoNotFollowTheOneBefore) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Listened live;
+    for (const auto& image : {helpful_image(), helpful_image(), noise_alone()}) {
+        live.editor.edit(contours, image);
+        live.editor.wait();
+    }
+    std::vector<bool> follows;
+    for (const EditorUpdate& update : live.updates())
+        if (update.kind == Kind::preview) follows.push_back(update.surface.shown_before > 0);
+    EXPECT_EQ(follows, (std::vector{false, true, false}));
 }
 
 TEST(LiveEditor, AsksTheImageWhenTheSurfaceIsRefined) {
@@ -161,7 +213,7 @@ TEST(Cancellation, EndsTheQuestionToTheImageAtRandomMoments) {
     std::vector<Plane> planes = stacked_planes();
     for (const Plane& plane : orthogonal_planes()) planes.push_back(plane);
     const ContourSet contours = drawn_on(planes);
-    const Editor editor;
+    Editor editor;
     double all = 0, longest = 0, longest_processor = 0;
     {
         Clock::time_point asked{};

@@ -33,9 +33,9 @@ public:
     }
 
     double mean_slope() const { return mean_slope_; }
-    double half_width_mm(double distance_mm, double slope, double share) const {
-        const double missed =
-            factor_mm_ * std::pow(relative(distance_mm), kBand.distance) * std::pow(clamped(slope), kBand.slope);
+    static double of_slope(double slope) { return std::pow(clamped(slope), kBand.slope); }
+    double half_width_mm(double distance_mm, double of_slope, double share) const {
+        const double missed = factor_mm_ * std::pow(relative(distance_mm), kBand.distance) * of_slope;
         return std::hypot(share * missed, drawing_mm_);
     }
 
@@ -62,17 +62,19 @@ std::vector<double> half_widths_mm(const SurfaceEvidence& evidence) {
     const Band band(evidence);
     std::vector<double> widths;
     for (std::size_t n = 0; n < evidence.distances_mm.size(); ++n)
-        widths.push_back(band.half_width_mm(evidence.distances_mm[n], evidence.samples.slopes[n], evidence.shares[n]));
+        widths.push_back(
+            band.half_width_mm(evidence.distances_mm[n], Band::of_slope(evidence.samples.slopes[n]), evidence.shares[n]));
     return widths;
 }
 
 std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::vector<Vec3>& points, const Work& work) {
     if (!is_known(evidence)) return {};
     const Band band(evidence);
+    const double of_slope = Band::of_slope(band.mean_slope());
     std::vector<double> widths = evidence.lines.distances_to(points, work);
     parallel_for(static_cast<std::int64_t>(points.size()), 256, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-            widths[n] = band.half_width_mm(widths[n], band.mean_slope(), evidence.image.at(points[n]));
+            widths[n] = band.half_width_mm(widths[n], of_slope, evidence.image.at(points[n]));
     });
     return widths;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each of these went unseen by the compiler, and left a user with a field that takes no key or a file that no click chooses.
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { test } from "node:test";
+import { transform } from "esbuild";
 import { ESLint } from "eslint";
 
 const linter = new ESLint();
@@ -24,4 +26,10 @@ test("the linter refuses handlers that return what they were not asked for, and 
   assert.deepEqual(await broken("el('input', { on: { keydown: (event) => event.key === 'Enter' && field.blur() } });"), ["@typescript-eslint/strict-void-return"]);
   assert.deepEqual(await broken("save();"), ["@typescript-eslint/no-floating-promises"]);
   assert.deepEqual(await broken("el('input', { on: { keydown: (event) => { if (event.key === 'Enter') field.blur(); } } });"), []);
+});
+
+test("browsers drop no rule of the style sheet", async () => {
+  const warnings = async (css: string): Promise<string[]> => (await transform(css, { loader: "css" })).warnings.map(({ text }) => text);
+  assert.notDeepEqual(await warnings(".slice-slider,\n@media (hover: none) { a { color: red; } }"), [], "a rule that has lost its end");
+  assert.deepEqual(await warnings(await readFile("src/style.css", "utf8")), []);
 });

@@ -99,7 +99,8 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     stages.fit.solve.tolerance_mm *= kPreviewTolerance;
     stages.fit.early_tolerance_factor = 2;
     stages.fit.start_slopes = known_slopes(drawing.contours, prepared);
-    if (!stages.fit.start_slopes.empty()) {  // the last round is enough
+    if (!shown.empty()) stages.fit.most_solves = 1;  // f misses such a place by ever so little, which is no reason for more
+    if (!stages.fit.start_slopes.empty()) {          // the last round is enough
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
         stages.fit.rounds = 1;
     }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,7 @@ struct Structure {
     std::string color = "#e8b04a";  ///< "#rrggbb"
     bool visible = true;
     std::vector<Plane> empty_planes{};  ///< in which nothing of it is seen
+    std::optional<double> smoothing{};  ///< of the fit (SegmentOptions); unset: the usual one
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };

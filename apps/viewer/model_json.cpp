@@ -102,6 +102,7 @@ json to_json(const Plane& plane) {
 
 json to_json(const Structure& s) {
     json told{{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}};
+    if (s.smoothing) told["smoothing"] = *s.smoothing;
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     return told;
 }
@@ -220,10 +221,19 @@ std::string Members::color(const char* key) const {
     return color;
 }
 
+std::optional<double> Members::smoothing(const char* key) const {
+    constexpr double kMost = 1;
+    if (at(key) == "usual") return std::nullopt;
+    const double value = number(key);
+    if (value < 0 || value > kMost) refuse(fmt::format("'{}' is {}; it must lie between 0 and {}", key, value, kMost));
+    return value;
+}
+
 Structure structure_from_json(const json& value) {
     const Members m(value);
     Structure structure{m.id("id"), m.text("name", 200), m.color("color"), m.flag("visible")};
     if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes", kMostEmptyPlanes);
+    if (m.has("smoothing")) structure.smoothing = m.smoothing("smoothing");
     return structure;
 }
 

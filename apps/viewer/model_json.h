@@ -62,6 +62,8 @@ public:
     std::int64_t integer(const char* key, std::int64_t least, std::int64_t most) const;
     Id id(const char* key) const;
     bool flag(const char* key) const;
+    /// Of a structure's fit; nullopt: "usual", what the library chooses.
+    std::optional<double> smoothing(const char* key) const;
     bool flag_or(const char* key, bool fallback) const;
     /// At most `most` bytes of UTF-8 (nlohmann's parser has checked that it is).
     std::string text(const char* key, std::size_t most) const;

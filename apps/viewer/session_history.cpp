@@ -117,7 +117,8 @@ std::set<Id> Session::touched_surfaces(const Commit& commit) const {
     if (commit.use_image)
         for (const auto& [id, structure] : project_.state().structures) touched.insert(id);
     for (const auto& change : commit.structures)
-        if (!change.before || !change.after || change.before->empty_planes != change.after->empty_planes)
+        if (!change.before || !change.after || change.before->empty_planes != change.after->empty_planes ||
+            change.before->smoothing != change.after->smoothing)
             touched.insert(change.id);
     for (const auto& change : commit.contours) {
         if (change.before && change.after && same_surface(*change.before, *change.after)) continue;
@@ -131,8 +132,10 @@ SurfaceTask Session::surface_task(Id structure) const {
     SurfaceTask task;
     task.structure = structure;
     const State& state = project_.state();
-    if (const auto own = state.structures.find(structure); own != state.structures.end())
+    if (const auto own = state.structures.find(structure); own != state.structures.end()) {
         task.set.empty_planes = own->second.empty_planes;
+        task.smoothing = own->second.smoothing;
+    }
     const auto add = [&](const DrawnContour& contour) {
         if (contour.structure != structure) return;
         task.set.contours.push_back({contour.plane, contour.points, true, contour.hole});

@@ -65,9 +65,11 @@ json Session::set_structure(const Members& m) {
     if (m.has("color")) after.color = m.color("color");
     after.visible = m.flag_or("visible", after.visible);
     if (m.has("empty_planes")) after.empty_planes = m.planes("empty_planes", kMostEmptyPlanes);
+    if (m.has("smoothing")) after.smoothing = m.smoothing("smoothing");
     std::string label = "Show or hide " + after.name;
     if (after.empty_planes != before.empty_planes) label = fmt::format("Nothing of {} in a plane", after.name);
     if (after.empty_planes.size() < before.empty_planes.size()) label = "Forget empty planes of " + after.name;
+    if (after.smoothing != before.smoothing) label = "Smoothing of " + after.name;
     if (after.color != before.color) label = "Colour " + after.name;
     if (after.name != before.name) label = "Rename " + before.name;
     commit({label, {{after.id, before, after}}, {}});

@@ -179,6 +179,7 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     if (all.empty()) return all;
     TogetherOptions options;
     options.segment.mesh = with_mesh;
+    for (const FittedStructure& one : all) options.smoothing.push_back(one.structure.smoothing);
     options.rules = rules_among(state.borders, ids);
     Together together = segment_together(sets, image.grid, asked(state, image), options, work);
     for (std::size_t n = 0; n < all.size(); ++n) {
@@ -198,8 +199,7 @@ std::vector<FittedStructure> fit_each(const State& state, const Image& image, bo
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
         if (set.contours.empty()) continue;
-        SegmentOptions options;
-        options.mesh = with_mesh;
+        const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh};
         try {
             Segmentation made = segment(set, image.grid, asked(state, image), options, work);
             all.push_back({structure, std::move(set), std::move(made)});
@@ -223,8 +223,7 @@ FittedStructure fit_structure(const State& state, Id structure, const Image& ima
     const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
                                       [&](const auto& item) { return item.second->structure == structure; });
     if (!state.borders.shared || is_alone || set.contours.empty()) {
-        SegmentOptions options;
-        options.mesh = with_mesh;
+        const SegmentOptions options{.smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh};
         Segmentation made = segment(set, image.grid, asked(state, image), options, work);
         return {structure_of(state, structure), std::move(set), std::move(made)};
     }

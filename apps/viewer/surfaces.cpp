@@ -141,6 +141,8 @@ void Surfaces::follow(SurfaceTask task) {
     retired.swap(retired_);
     std::erase_if(later_, [&](const SurfaceTask& waiting) { return waiting.structure == task.structure; });
     start(std::move(task));
+    for (auto& editor : retired_) retired.push_back(std::move(editor));
+    retired_.clear();
 }
 
 void Surfaces::follow_later(SurfaceTask task) {
@@ -170,12 +172,11 @@ void Surfaces::start(SurfaceTask task) {
     sharing_stop_.request_stop();
     Follower& follower = followers_[structure];
     follower.is_outdated = false;
+    if (follower.editor && follower.smoothing != task.smoothing) retired_.push_back(std::move(follower.editor));
     if (!follower.editor) {
         if (task.set.contours.empty()) return publish_locked(no_surface(structure));
         try {
-            follower.editor = std::make_shared<LiveEditor>(
-                EditorOptions{}, [this, structure](const EditorUpdate& update) { hear(structure, update); },
-                [this, structure](std::uint64_t, const SurfaceBand& band) { hear_ahead(structure, band); });
+            begin_editor(follower, task);
         } catch (const std::exception& error) {
             return publish_locked(no_surface(
                 structure,
@@ -184,9 +185,25 @@ void Surfaces::start(SurfaceTask task) {
         }
     }
     // The lock makes the editor's answer wait until its task is known.
-    const std::uint64_t number = follower.editor->edit(task.set, image_);
+    follower.last_edit = follower.edits_before + follower.editor->edit(task.set, image_);
     follower.is_working = true;
-    follower.tasks[number] = std::move(task);
+    follower.tasks[follower.last_edit] = std::move(task);
+}
+
+/// An editor has one smoothing for all of its life. What the one before still tells is older than every edit of this one.
+void Surfaces::begin_editor(Follower& follower, const SurfaceTask& task) {
+    const Id structure = task.structure;
+    const std::uint64_t before = follower.last_edit;
+    EditorOptions options;
+    options.segment.smoothing = task.smoothing;
+    follower.editor = std::make_shared<LiveEditor>(
+        options,
+        [this, structure, before](const EditorUpdate& update) { hear(structure, before + update.edit, update); },
+        [this, structure, before](std::uint64_t edit, const SurfaceBand& band) {
+            hear_ahead(structure, before + edit, band);
+        });
+    follower.edits_before = before;
+    follower.smoothing = task.smoothing;
 }
 
 void Surfaces::wait() {
@@ -210,16 +227,20 @@ std::map<Id, std::shared_ptr<const Surface>> Surfaces::all() const {
     return latest_;
 }
 
-void Surfaces::hear(Id structure, const EditorUpdate& update) {
-    if (update.kind == EditorUpdate::Kind::progress) return show_progress(structure, update);
+void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update) {
+    if (update.kind == EditorUpdate::Kind::progress) return show_progress(structure, edit, update);
     SurfaceTask task;
+    Alone known;
     {
         const std::scoped_lock lock(mutex_);
-        auto& tasks = followers_[structure].tasks;
-        tasks.erase(tasks.begin(), tasks.lower_bound(update.edit));
-        task = tasks.at(update.edit);
+        Follower& follower = followers_[structure];
+        if (edit <= follower.edits_before) return;
+        auto& tasks = follower.tasks;
+        tasks.erase(tasks.begin(), tasks.lower_bound(edit));
+        task = tasks.at(edit);
+        known = std::exchange(follower.without_image, {});
     }
-    Alone alone = heard(task, update);
+    Alone alone = heard(task, update, std::move(known));
     Surface& surface = alone.surface;
     const bool is_final = update.kind != EditorUpdate::Kind::preview && !update.asks_image;
     if (is_final && hand_over(task, alone)) return;
@@ -242,11 +263,7 @@ void Surfaces::hear(Id structure, const EditorUpdate& update) {
 }
 
 /// Where the image was not used, or could not be asked, it is the surface that is shown already, and keeps its revision.
-Surfaces::Alone Surfaces::heard(const SurfaceTask& task, const EditorUpdate& update) {
-    Alone known = [&] {
-        const std::scoped_lock lock(mutex_);
-        return std::exchange(followers_[task.structure].without_image, {});
-    }();
+Surfaces::Alone Surfaces::heard(const SurfaceTask& task, const EditorUpdate& update, Alone known) {
     const bool is_of_image = update.kind == EditorUpdate::Kind::with_image ||
                              (update.kind == EditorUpdate::Kind::problem && known.surface.stage == SurfaceStage::asking);
     const bool is_used = update.surface.image.verdict == ImageVerdict::used;
@@ -267,17 +284,19 @@ void Surfaces::finish_locked(Follower& follower, const SurfaceTask& task) {
     follower.is_working = false;
     if (task.set.contours.empty() && follower.editor) {
         retired_.push_back(std::move(follower.editor));
-        follower.tasks.clear();  // the next editor counts from 1 again
+        follower.tasks.clear();
     }
     listener_.status("", std::nullopt);
     start_next();
 }
 
-void Surfaces::hear_ahead(Id structure, const SurfaceBand& band) {
+void Surfaces::hear_ahead(Id structure, std::uint64_t edit, const SurfaceBand& band) {
     const std::int64_t revision = next_revision();
     {
         const std::scoped_lock lock(mutex_);
-        followers_[structure].ahead = revision;
+        Follower& follower = followers_[structure];
+        if (edit <= follower.edits_before) return;
+        follower.ahead = revision;
     }
     listener_.outlines(structure, revision, {[&](const Plane& plane) { return band.cut(plane); }});
 }
@@ -288,16 +307,16 @@ std::int64_t Surfaces::next_revision() {
 }
 
 /// News by the tenth: more would only cost the page time.
-void Surfaces::show_progress(Id structure, const EditorUpdate& update) {
+void Surfaces::show_progress(Id structure, std::uint64_t edit, const EditorUpdate& update) {
     const int tenths = static_cast<int>(10 * update.done);
     std::string text;
     {
         const std::scoped_lock lock(mutex_);
         Follower& follower = followers_[structure];
-        if (follower.stage == update.stage && follower.tenths == tenths) return;
+        if (edit <= follower.edits_before || (follower.stage == update.stage && follower.tenths == tenths)) return;
         follower.stage = update.stage;
         follower.tenths = tenths;
-        text = fmt::format("{}: {}", follower.tasks.at(update.edit).set.name, update.stage);
+        text = fmt::format("{}: {}", follower.tasks.at(edit).set.name, update.stage);
     }
     listener_.status(text, tenths / 10.0);
 }

@@ -63,6 +63,7 @@ struct SurfaceTask {
     Id structure = 0;
     ContourSet set;
     std::vector<Id> ids;
+    std::optional<double> smoothing{};  ///< of the fit; unset: the usual one
 };
 
 /// The closed lines, in mm, where a surface meets a plane.
@@ -123,7 +124,9 @@ private:
         ImplicitFunction function;
     };
     struct Follower {
-        std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit
+        std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit, counted through all editors
+        std::uint64_t last_edit = 0;                 ///< its number
+        std::uint64_t edits_before = 0;              ///< of editors that there were before this one
         bool is_working = false;
         bool is_outdated = false;            ///< there will be another task
         Alone without_image;                 ///< of the task for which the image is asked
@@ -131,18 +134,20 @@ private:
         std::string_view stage;              ///< what the status line was told last ...
         int tenths = 0;                      ///< ... and how far it was
         std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
+        std::optional<double> smoothing{};   ///< with which the editor was made
     };
     using Editors = std::vector<std::shared_ptr<LiveEditor>>;
 
     void start(SurfaceTask task);
+    void begin_editor(Follower& follower, const SurfaceTask& task);
     void start_next();
-    void hear(Id structure, const EditorUpdate& update);
-    void hear_ahead(Id structure, const SurfaceBand& band);
+    void hear(Id structure, std::uint64_t edit, const EditorUpdate& update);
+    void hear_ahead(Id structure, std::uint64_t edit, const SurfaceBand& band);
     std::int64_t next_revision();
-    void show_progress(Id structure, const EditorUpdate& update);
+    void show_progress(Id structure, std::uint64_t edit, const EditorUpdate& update);
     void outdate_locked(Id structure);
     void publish_locked(Surface surface);
-    Alone heard(const SurfaceTask& task, const EditorUpdate& update);
+    Alone heard(const SurfaceTask& task, const EditorUpdate& update, Alone known);
     void finish_locked(Follower& follower, const SurfaceTask& task);
 
     // Sharing borders (surfaces_shared.cpp).

@@ -46,7 +46,7 @@ public:
         result_.grid = grid_;
         for (std::size_t n = 0; n < drawn_.size(); ++n) {
             try {
-                result_.structures.push_back(fit(drawn_[n], image_));
+                result_.structures.push_back(fit(drawn_[n], image_, options_of(n)));
             } catch (const Error& error) {
                 throw error.with_context(name_of(n));
             }
@@ -62,11 +62,17 @@ private:
         return drawn_[n].name.empty() ? fmt::format("structure {}", n + 1) : drawn_[n].name;
     }
 
-    Segmentation fit(const ContourSet& contours, const Image* image) const {
+    SegmentOptions options_of(std::size_t n) const {
+        SegmentOptions options = options_.segment;
+        if (n < options_.smoothing.size() && options_.smoothing[n]) options.smoothing = options_.smoothing[n];
+        return options;
+    }
+
+    Segmentation fit(const ContourSet& contours, const Image* image, const SegmentOptions& options) const {
         const IndexBox box = box_of(contours, grid_);
-        Segmentation result = segment(contours, grid_of(grid_, box), image, options_.segment, work_);
+        Segmentation result = segment(contours, grid_of(grid_, box), image, options, work_);
         if (is_cut_off(trimmed({box, result.mask}, grid_).box, box, grid_))
-            return segment(contours, grid_, image, options_.segment, work_);
+            return segment(contours, grid_, image, options, work_);
         return result;
     }
 
@@ -82,7 +88,7 @@ private:
         for (const Segmentation& made : result_.structures) fits.functions.push_back(made.function);
         fits.masks = std::move(masks_);
         const auto fit_union = [&](std::span<const std::size_t>, const ContourSet& outlines) -> FittedObject {
-            Segmentation all = fit(outlines, nullptr);
+            Segmentation all = fit(outlines, nullptr, options_.segment);
             BoxedMask mask = take_mask(all);
             return {std::move(all.function), std::move(mask)};
         };

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace kontur {
 struct TogetherOptions {
     SegmentOptions segment;
     std::vector<StructurePair> rules{};  ///< relations that are known; all others follow from the masks
+    std::vector<std::optional<double>> smoothing{};  ///< of each structure; empty, or unset for one: as in `segment`
 };
 
 /// Structures of one grid, in the order of their contours.

@@ -10,9 +10,11 @@
 
 #include "kontur/io/image.h"
 #include "kontur/segment.h"
+#include "kontur/segment_together.h"
 #include "refine/lobed_body.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
+#include "viewer/model_json.h"
 #include "viewer/session.h"
 
 // Surfaces and exports that the image helps to make.
@@ -199,6 +201,77 @@ TEST(SessionImage, TheLatestOfManySwitchesCounts) {
     here.session.wait_for_surfaces();
     EXPECT_EQ(here.surface()["volume_ml"], first["volume_ml"]);
     EXPECT_EQ(here.surface()["image"], first["image"]);
+}
+
+TEST(SessionSmoothing, OfAStructureIsAStepAndMakesSurfaceAndExportsAsSegmentDoes) {
+    Visit here(label_map());
+    const json usual = here.surface();
+    const auto smooth = [&](const json& smoothing) {
+        return here.call({{"call", "structure.set"}, {"id", here.structure}, {"smoothing", smoothing}});
+    };
+    const auto segmented = [&](std::optional<double> smoothing) {
+        SegmentOptions options;
+        options.smoothing = smoothing;
+        return segment(contour_set(here.session.state(), here.structure), here.image->grid, options).mask.values;
+    };
+    EXPECT_FALSE(here.greeting()["structures"][0].contains("smoothing"));
+    here.told_surfaces();
+    EXPECT_TRUE(smooth(1e-2).contains("result"));
+    EXPECT_EQ(stages(here.told_surfaces()), (std::vector<std::string>{"outdated", "preview", "refined"}));
+    EXPECT_EQ(here.greeting()["structures"][0]["smoothing"], 1e-2);
+    EXPECT_GT(here.surface()["residual"]["rms_mm"], usual["residual"]["rms_mm"]);
+    EXPECT_NE(segmented(1e-2), segmented({}));
+    EXPECT_EQ(here.exported_mask(), segmented(1e-2));
+    const Structure stored = here.session.state().structures.at(here.structure);
+    EXPECT_EQ(structure_from_json(to_json(stored)), stored);
+
+    EXPECT_TRUE(smooth(0).contains("result"));
+    EXPECT_EQ(here.exported_mask(), segmented(0));
+    EXPECT_EQ(here.call({{"call", "undo"}})["result"]["label"], "Smoothing of Body");
+    EXPECT_EQ(here.call({{"call", "undo"}})["result"]["label"], "Smoothing of Body");
+    EXPECT_EQ(here.surface()["volume_ml"], usual["volume_ml"]);
+    EXPECT_EQ(here.exported_mask(), segmented({}));
+    here.call({{"call", "redo"}});
+    EXPECT_EQ(here.exported_mask(), segmented(1e-2));
+    EXPECT_TRUE(smooth("usual").contains("result"));
+    EXPECT_FALSE(here.greeting()["structures"][0].contains("smoothing"));
+    EXPECT_EQ(here.surface()["volume_ml"], usual["volume_ml"]);
+    for (const json& wrong : {json(-1), json(2), json("much")}) EXPECT_EQ(smooth(wrong)["error"]["kind"], "invalid_input");
+}
+
+TEST(SessionSmoothing, CountsWhereStructuresShareTheirBorders) {
+    Visit here(label_map());
+    ContourSet beside = drawing();
+    for (Contour& contour : beside.contours) {
+        contour.plane.origin.x += 25;
+        for (Vec3& p : contour.points) p.x += 25;
+    }
+    const Id other = here.session.add_structures("Import", {beside}).front();
+    here.call({{"call", "structure.set"}, {"id", here.structure}, {"smoothing", 1e-2}});
+    const State state = here.session.state();
+    ASSERT_TRUE(state.borders.shared);
+    const std::vector<ContourSet> sets{contour_set(state, here.structure), contour_set(state, other)};
+    TogetherOptions options;
+    const Mask usual = whole_mask(segment_together(sets, here.image->grid, options), 0);
+    options.smoothing = {1e-2, std::nullopt};
+    const Together smooth = segment_together(sets, here.image->grid, options);
+    EXPECT_NE(usual.values, whole_mask(smooth, 0).values);
+    EXPECT_EQ(here.exported_mask(), whole_mask(smooth, 0).values);
+}
+
+TEST(SessionSmoothing, ThatChangesWhileASurfaceIsOnItsWayLeavesTheLastOne) {
+    Visit here(label_map());
+    const auto set = [&](double smoothing) {
+        const json message{{"seq", 1}, {"call", "structure.set"}, {"id", here.structure}, {"smoothing", smoothing}};
+        return here.session.call(message.dump());
+    };
+    set(1e-2);
+    here.session.wait_for_surfaces();
+    const double volume_ml = here.surface()["volume_ml"];
+    for (int round = 0; round < 12; ++round) set(round % 3 == 0 ? 0 : round % 3 == 1 ? 1e-3 : 1e-2);
+    here.session.wait_for_surfaces();
+    EXPECT_EQ(here.surface()["stage"], "refined");
+    EXPECT_EQ(here.surface()["volume_ml"], volume_ml);
 }
 
 }  // namespace

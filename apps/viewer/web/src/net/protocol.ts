@@ -33,6 +33,8 @@ export interface Structure {
   visible: boolean;
   /** In which nothing of it is seen; absent: none. */
   empty_planes?: Plane[];
+  /** Of the fit, on unit coordinates; absent: the usual one. */
+  smoothing?: number;
 }
 
 export interface ControlPoint {

@@ -12,6 +12,7 @@ import type { RowServices } from "./contour_rows";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 import { qualityOf } from "./quality";
+import { SmoothingSlider } from "./smoothing";
 import { StructureList } from "./structure_list";
 import { UseImageSwitch } from "./use_image";
 
@@ -51,6 +52,7 @@ export class Panel {
       this.actions.element,
       el("div", { class: "panel-title" }, el("span", {}, "Surface"), measure),
       new UseImageSwitch(services).element,
+      new SmoothingSlider(services).element,
       this.quality,
     );
     project.on(["structures", "contours", "selection"], () => this.update());

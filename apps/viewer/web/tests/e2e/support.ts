@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before } from "node:test";
+import { gunzipSync } from "node:zlib";
 import type { Browser, Locator, Page } from "playwright-core";
 import { downloaded, launch, PATIENCE_MS, type Wish } from "./browsers";
 
@@ -67,6 +68,12 @@ export function writeBallImage(path: string, steps: Steps = STRAIGHT, radius_mm 
         at += 2;
       }
   writeFileSync(path, file);
+}
+
+/** The voxels of a NIfTI, behind its header and what that says of how the file was made. */
+export function voxels(file: Buffer): Buffer {
+  const bytes = gunzipSync(file);
+  return bytes.subarray(bytes.readFloatLE(108));
 }
 
 /** A running `kontur open`. */

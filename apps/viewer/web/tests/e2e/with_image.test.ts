@@ -4,8 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { beforeEach, describe, test } from "node:test";
-import { gunzipSync } from "node:zlib";
-import { BALL_RADIUS_MM, BallVisits, run, Viewer } from "./support";
+import { BALL_RADIUS_MM, BallVisits, run, Viewer, voxels } from "./support";
 
 const visits = new BallVisits();
 let viewer: Viewer;
@@ -36,12 +35,6 @@ async function imageIs(verdict: string): Promise<void> {
 const withLineOfContours = () => viewer.page.locator(".pane.slice[data-without-image]:not([data-without-image=''])").count();
 
 const sentence = () => viewer.page.locator("[data-test=image-sentence]").textContent();
-
-/** The voxels of a NIfTI. */
-function voxels(file: Buffer): Buffer {
-  const bytes = gunzipSync(file);
-  return bytes.subarray(bytes.readFloatLE(108));
-}
 
 async function exportedMask(): Promise<Buffer> {
   return voxels((await viewer.export("mask.nii.gz")).bytes);

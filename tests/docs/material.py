@@ -44,7 +44,7 @@ def write_material(folder):
     truth = kontur.make_truth_mask(CASE.body, GRID)
     for name in ("demo", "out", "P001", "P002"):
         (folder / name).mkdir()
-    for name in ("ct.nii.gz", "demo/liver_ct.nii.gz", "P001/ct.nii.gz"):
+    for name in ("ct.nii.gz", "pet.nii.gz", "demo/liver_ct.nii.gz", "P001/ct.nii.gz"):
         kontur.write_image(folder / name, image)
     for name in ("truth.nii.gz", "demo/liver_truth_liver.nii.gz"):
         kontur.write_mask(folder / name, truth)

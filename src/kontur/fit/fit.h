@@ -58,7 +58,8 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 /// points and cost less than the one fit of all points that follows. To first order that is the normal constraint of the
 /// true 3D normal, but only the contour's own direction is prescribed: the tilt itself stays free, so jagged contours cannot
 /// amplify it from round to round (docs/decisions/0001-surface-normals.md). The first fits are smoothed, because the start
-/// contradicts itself.
+/// contradicts itself. A tilt counts as far as the drawn lines are smooth over the distance that it is read from
+/// (believed_slopes).
 ///
 /// Where f leaves the interval of a bound after a round, the bound becomes a datum with noise of the next one, as long as f
 /// leans on it. Interior and exterior points are bounds of the same kind. Throws Error as

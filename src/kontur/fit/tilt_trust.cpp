@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kontur/base/point_tree.h"
 #include "kontur/fit/stretches.h"
@@ -105,7 +106,9 @@ std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, st
     const PointTree tree(std::move(positions));
     const auto error_at = [&](const BoundaryPoint& point) {
         const auto counted2 = [&](const Vec3& d) {  // at least the squared distance
-            return dot(d, d) * square(1 + square(scale_mm / dot(d, point.plane_normal)));
+            const double out_of_plane = dot(d, point.plane_normal);
+            return out_of_plane == 0 ? std::numeric_limits<double>::infinity()
+                                     : dot(d, d) * square(1 + square(scale_mm / out_of_plane));
         };
         return turns.square_at(std::sqrt(tree.least(point.position, counted2)));
     };

@@ -5,6 +5,7 @@ import { COLOR_MAPS, gradientOf, type ColorMapName } from "../view/color_maps";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 import { sizeLine } from "./identity";
+import { windowField } from "./window_field";
 
 /** What an image is called where there are two: its modality, or else its place. */
 export const shortName = ({ modality }: Pick<Identity, "modality">, else_: string): string => modality || else_;
@@ -94,21 +95,9 @@ export class SecondImageCard {
   }
 
   private field(title: string, test: string): HTMLInputElement {
-    const field = el("input", {
-      type: "number",
-      class: "number",
-      title,
-      "aria-label": title,
-      step: "any",
-      "data-test": test,
-      on: {
-        change: () => this.typeWindow(),
-        blur: () => this.update(), // what is no window is not kept
-        keydown: (event) => {
-          if (event.key === "Enter") field.blur(); // keys are the tools' again
-        },
-      },
-    });
+    const field = windowField(title, () => this.typeWindow(), () => this.update());
+    field.setAttribute("aria-label", title);
+    field.dataset["test"] = test;
     return field;
   }
 

@@ -9,6 +9,7 @@ import { appearanceButton } from "./appearance";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 import { Overflow } from "./overflow";
+import { windowField } from "./window_field";
 
 export interface ToolbarServices {
   navigation: Navigation;
@@ -43,8 +44,8 @@ export class Toolbar {
   private readonly another: HTMLButtonElement;
   private readonly addImage: HTMLButtonElement;
   private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets", on: { change: () => this.choosePreset() } });
-  private readonly center = this.windowField("Window: centre (drag with the right button over a slice)");
-  private readonly width = this.windowField("Window: width");
+  private readonly center = windowField("Window: centre (drag with the right button over a slice)", () => this.typeWindow(), () => this.update());
+  private readonly width = windowField("Window: width", () => this.typeWindow(), () => this.update());
   private readonly title = el("span", { class: "file-title" });
   private readonly overflow: Overflow;
   private presetList: Preset[] = [];
@@ -119,23 +120,6 @@ export class Toolbar {
     if (document.activeElement !== this.width) this.width.value = short(width);
     const preset = this.presetList.findIndex((entry) => short(entry.center) === short(center) && short(entry.width) === short(width));
     this.presets.value = preset < 0 ? "" : String(preset);
-  }
-
-  private windowField(title: string): HTMLInputElement {
-    const field = el("input", {
-      type: "number",
-      class: "number",
-      title,
-      step: "any",
-      on: {
-        change: () => this.typeWindow(),
-        blur: () => this.update(), // what is no window is not kept
-        keydown: (event) => {
-          if (event.key === "Enter") field.blur(); // keys are the tools' again
-        },
-      },
-    });
-    return field;
   }
 
   private choosePreset(): void {

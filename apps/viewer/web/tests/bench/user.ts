@@ -34,6 +34,15 @@ export class User {
     await this.viewer.page.waitForTimeout(ms);
   }
 
+  /** Reads the hint and takes the tool for strokes, on a screen of a common size. */
+  async takesFreehand(): Promise<void> {
+    await this.viewer.page.setViewportSize({ width: 1600, height: 900 });
+    await this.waits(READ_HINT_MS);
+    await this.viewer.closeHint();
+    await this.viewer.page.keyboard.press("f");
+    await this.waits(CHOOSE_MS);
+  }
+
   async photographs(name: string): Promise<void> {
     if (this.pictures) await this.viewer.page.screenshot({ path: join(this.pictures, `${name}.png`) });
   }

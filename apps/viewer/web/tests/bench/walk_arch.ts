@@ -6,7 +6,7 @@ import { launch } from "../e2e/browsers";
 import { Server, temporaryFolder, Viewer } from "../e2e/support";
 import { writeArch } from "./arch";
 import { along, Truth, type Vec3 } from "./truth";
-import { CHOOSE_MS, READ_HINT_MS, User } from "./user";
+import { User } from "./user";
 
 const folder = temporaryFolder();
 const browser = await launch();
@@ -16,12 +16,8 @@ try {
   const truth = new Truth(mask);
   const server = await Server.start(folder.path, image);
   const viewer = await Viewer.open(browser, server.address);
-  await viewer.page.setViewportSize({ width: 1600, height: 900 });
   const user = new User(viewer, truth);
-  await user.waits(READ_HINT_MS);
-  await viewer.closeHint();
-  await viewer.page.keyboard.press("f");
-  await user.waits(CHOOSE_MS);
+  await user.takesFreehand();
   const oblique = await user.sees("oblique");
   await user.strokesAround("oblique", oblique.outlines[0]!);
   user.says("drawn along the arch");

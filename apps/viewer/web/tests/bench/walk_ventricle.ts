@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { launch } from "../e2e/browsers";
 import { Server, temporaryFolder, Viewer } from "../e2e/support";
 import { Truth } from "./truth";
-import { CHOOSE_MS, READ_HINT_MS, User } from "./user";
+import { User } from "./user";
 
 const data = join(process.env["KONTUR_TEST_DATA"] ?? "../shared/data", "10_cine_mr_SC-HF-I-1");
 if (!existsSync(data)) {
@@ -22,12 +22,8 @@ try {
   const truth = new Truth(mask);
   const server = await Server.start(folder.path, join(data, "cine4d_crop.nii.gz"), "--frame", END_DIASTOLE);
   const viewer = await Viewer.open(browser, server.address);
-  await viewer.page.setViewportSize({ width: 1600, height: 900 });
   const user = new User(viewer, truth);
-  await user.waits(READ_HINT_MS);
-  await viewer.closeHint();
-  await viewer.page.keyboard.press("f");
-  await user.waits(CHOOSE_MS);
+  await user.takesFreehand();
   const [acquisition, row, column] = await viewer.page.locator(".pane.slice").evaluateAll((panes) =>
     ["1", "2", "3"].map((place) => panes.find((pane) => (pane as HTMLElement).dataset["place"] === place)!.getAttribute("data-view")!),
   );

@@ -80,7 +80,7 @@ Keywords<FitOptions> fit_keywords() {
         .field("tilt_points", &FitOptions::tilt_points, "About how many of the points take part in these rounds.")
         .field("most_points", &FitOptions::most_points, "The last fit uses about as many points; 0: all.")
         .field("most_solves", &FitOptions::most_solves,
-               "At most so many with all points, while other bounds should be held than were.")
+               "At most so many with all points, while other bounds should be held than were; 1: whatever is held.")
         .field(
             "normal_offset_mm", [](FitOptions& o) -> double& { return o.place.normal_offset_mm; },
             "Length of the normal constraints.")
@@ -162,7 +162,8 @@ void bind_types(py::module_& m) {
     py::class_<FittedFunction> fit_type(m, "FittedFunction", "A function fitted to contours.");
     fit_type.def_readonly("function", &FittedFunction::function, "ImplicitFunction");
     fit_type.def_readonly("report", &FittedFunction::report, "SolveReport: of the last solve.");
-    fit_type.def_readonly("solves", &FittedFunction::solves, "int");
+    fit_type.def_readonly("solves", &FittedFunction::solves, "int: of any part of the points.");
+    fit_type.def_readonly("full_solves", &FittedFunction::full_solves, "int: of all points.");
     fit_type.def_readonly("iterations", &FittedFunction::iterations, "int: over all solves.");
     fit_type.def_readonly("merged", &FittedFunction::merged, "int: near-duplicate constraints left out.");
     fit_type.def_readonly("bounded", &FittedFunction::bounded, "int: bounds at which f is held.");

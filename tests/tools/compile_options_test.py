@@ -36,14 +36,14 @@ def test_exact_predicates_may_change_the_rounding():
 
 
 @pytest.mark.parametrize("source", ["solve/h2_basis", "solve/h2_interpolation", "solve/pair_sums", "solve/preconditioner",
-                                    "solve/small_cholesky", "function/split_kernel", "function/stencil"])
+                                    "solve/small_cholesky", "function/kernel", "function/split_kernel", "function/stencil"])
 def test_fast_sums_may_fuse_multiplications_and_additions(source):
     options = options_of(f"{source}.cpp")
     # The last one counts.
     assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=fast"
 
 
-@pytest.mark.parametrize("source", ["function/kernel", "solve/nearest_points", "fit/fit", "function/implicit_function"])
+@pytest.mark.parametrize("source", ["solve/nearest_points", "fit/fit", "function/implicit_function"])
 def test_what_the_same_bytes_come_from_fuses_nothing(source):
     options = options_of(f"{source}.cpp")
     assert [option for option in options if option.startswith("-ffp-contract")][-1] == "-ffp-contract=off"

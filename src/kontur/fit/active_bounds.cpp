@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/fit/active_bounds.h"
 
+#include <algorithm>
+
 namespace kontur {
 
 ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds) : bounds_(bounds), held_(bounds.size(), Held::no) {
@@ -20,6 +22,10 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
         held_[i] = next;
     }
     return changed;
+}
+
+bool ActiveBounds::holds_any() const {
+    return std::ranges::any_of(held_, [](Held held) { return held != Held::no; });
 }
 
 void ActiveBounds::append_to(std::vector<PointConstraint>& points) const {

@@ -19,6 +19,7 @@ public:
     /// Holds f where it leaves its interval, and lets it go where it keeps it by itself; true if that changed anything.
     bool update(const ImplicitFunction& function, double tolerance_mm, const Work& work);
 
+    bool holds_any() const;
     void append_to(std::vector<PointConstraint>& points) const;
 
 private:

@@ -51,23 +51,37 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
     return change / static_cast<double>(after.size()) * 180 / M_PI;
 }
 
+// Solves of a part of the points that settle which bounds are held. Each lets go of a share of those that are held in vain,
+// and the hundreds of bounds of a vertebra take six.
+constexpr int kMostSettling = 10;
+// They need not be as exact as the last one, which shows whether they were right.
+constexpr double kSettlingTolerance = 3;
+
 /// The solves of one fit, with what they share and what they leave behind.
 class Solves {
 public:
     Solves(const PreparedContours& contours, const FitOptions& options, const Work& work)
         : all_(contours.points), ball_(contours.ball), options_(options), work_(work), bounds_(contours.bounds) {}
 
-    /// Solves for points with these slopes; true if other bounds should have been held.
-    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes, const PlaceOptions& placing,
-                   const SolveOptions& solving) {
-        std::vector<PointConstraint> single_points;
-        bounds_.append_to(single_points);
-        result_.bounded = single_points.size();
-        result_.held = single_points;
-        const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
-        solve_placed(placed, solving, ball_, work_of_next_solve(), previous_, result_);
-        return bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
+    FittedFunction run() {
+        result_.slopes = options_.start_slopes;
+        result_.slopes.resize(all_.size(), 1.0);
+        if (options_.normals == Normals::surface && options_.rounds > 0) {
+            find_slopes();
+            settle_bounds();
+        }
+        progress_ = {progress_.end, 1.0};
+        const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
+        for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves; ++result_.full_solves)
+            other_bounds = solve_part(kept, 1);
+        return std::move(result_);
     }
+
+private:
+    /// A stretch of the whole progress.
+    struct Stretch {
+        double begin = 0, end = 0;
+    };
 
     /// Finds the tilts of the surface from a part of the points.
     void find_slopes() {
@@ -78,6 +92,7 @@ public:
         solving.tolerance_mm *= options_.early_tolerance_factor;
         double smoothing = options_.start_smoothing;
         for (int round = 0; round < options_.rounds; ++round, smoothing *= options_.smoothing_factor) {
+            progress_ = {progress_.end, progress_.end + 0.5 / options_.rounds};
             solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
             solve_for(points, slopes, options_.place, solving);
             std::vector<double> next = read_slopes(result_.function, points, options_, work_);
@@ -88,38 +103,47 @@ public:
         result_.slopes = believed_slopes(all_, part, shown, options_.place.normal_offset_mm);
     }
 
-    FittedFunction run() {
-        result_.slopes = options_.start_slopes;
-        result_.slopes.resize(all_.size(), 1.0);
-        if (finds_slopes()) find_slopes();
-        const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
-        const std::vector<BoundaryPoint> points = pick(all_, kept);
-        const std::vector<double> slopes = pick(result_.slopes, kept);
-        SolveOptions solving = options_.solve;
-        solving.smoothing *= share(points);
-        PlaceOptions placing = options_.place;
-        placing.slope_noise *= std::sqrt(share(points));
-        for (int more = 0; solve_for(points, slopes, placing, solving) && more + 1 < options_.most_solves;) ++more;
-        return std::move(result_);
+    /// Finds which bounds the fit leans on, from a part of the points: with them, a fit of all points seldom has to be repeated.
+    void settle_bounds() {
+        if (!bounds_.holds_any() || options_.most_solves == 1) return;
+        const std::vector<std::size_t> part = thin(all_, std::clamp(all_.size() / 2, std::size_t{1}, options_.tilt_points));
+        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance);) ++solve;
     }
 
-private:
+    /// The fit with the slopes that were found, from a part of the points; true if other bounds should have been held.
+    bool solve_part(const std::vector<std::size_t>& part, double tolerance_factor) {
+        const std::vector<BoundaryPoint> points = pick(all_, part);
+        SolveOptions solving = options_.solve;
+        solving.smoothing *= share(points);
+        solving.tolerance_mm *= tolerance_factor;
+        PlaceOptions placing = options_.place;
+        placing.slope_noise *= std::sqrt(share(points));
+        return solve_for(points, pick(result_.slopes, part), placing, solving);
+    }
+
+    /// Solves for points with these slopes; true if other bounds should have been held.
+    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes, const PlaceOptions& placing,
+                   const SolveOptions& solving) {
+        std::vector<PointConstraint> single_points;
+        bounds_.append_to(single_points);
+        result_.bounded = single_points.size();
+        result_.held = single_points;
+        const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
+        solve_placed(placed, solving, ball_, work_of_stretch(), previous_, result_);
+        return bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
+    }
+
     /// By which smoothing is reduced so that fewer points weigh as much against smoothness as all would.
     double share(const std::vector<BoundaryPoint>& part) const {
         return static_cast<double>(part.size()) / static_cast<double>(all_.size());
     }
 
-    bool finds_slopes() const { return options_.normals == Normals::surface && options_.rounds > 0; }
-
-    /// Of the whole progress, half belongs to the tilts: there are more solves, but smaller ones.
-    Work work_of_next_solve() const {
+    Work work_of_stretch() const {
         if (!work_.callback) return work_;
-        const int early = finds_slopes() ? options_.rounds : 0;
-        const bool is_early = result_.solves < early;
-        const double share = is_early ? 0.5 / early : early > 0 ? 0.5 : 1.0;
-        const double before = is_early ? share * result_.solves : 1.0 - share;
         return {work_.threads,
-                [this, before, share](std::string_view stage, double done) { work_.callback(stage, before + share * done); },
+                [this, stretch = progress_](std::string_view stage, double done) {
+                    work_.callback(stage, stretch.begin + (stretch.end - stretch.begin) * done);
+                },
                 work_.stop};
     }
 
@@ -129,6 +153,7 @@ private:
     const Work& work_;
     ActiveBounds bounds_;
     PreviousSolve previous_;
+    Stretch progress_;
     FittedFunction result_;
 };
 

@@ -27,7 +27,7 @@ struct FitOptions {
     std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
     std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
     std::size_t most_points = 0;         ///< the last fit uses about as many points; 0: all
-    int most_solves = 3;                 ///< with all points, while other bounds should be held than were
+    int most_solves = 3;                 ///< with all points, while other bounds should be held than were; 1: whatever is held
     PlaceOptions place;
     SolveOptions solve;
 };
@@ -36,7 +36,8 @@ struct FitOptions {
 struct FittedFunction {
     ImplicitFunction function;
     SolveReport report;  ///< of the last solve
-    int solves = 0;
+    int solves = 0;                     ///< of any part of the points
+    int full_solves = 0;                ///< of all points
     int iterations = 0;                 ///< over all solves
     std::size_t merged = 0;             ///< near-duplicate constraints left out
     std::size_t bounded = 0;            ///< bounds at which f is held
@@ -61,8 +62,9 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 /// contradicts itself. A tilt counts as far as the drawn lines are smooth over the distance that it is read from
 /// (believed_slopes).
 ///
-/// Where f leaves the interval of a bound after a round, the bound becomes a datum with noise of the next one, as long as f
-/// leans on it. Interior and exterior points are bounds of the same kind. Throws Error as
+/// Where f leaves the interval of a bound after a solve, the bound becomes a datum with noise of the next one, as long as f
+/// leans on it. Which bounds these are is settled by solves of a part of the points, so that the fit of all points, which
+/// costs the most, seldom has to be repeated. Interior and exterior points are bounds of the same kind. Throws Error as
 /// check_fit_options, place_constraints and solve do.
 FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Work& work = {});
 

@@ -62,8 +62,8 @@ struct EvenPowers {
 };
 EvenPowers even_powers(const PointArrays& centers, std::span<const double> weights);
 
-/// out[t] = sum_j weights[j] phi(|targets[t] - centers[j]|). The sum runs over j in order for every target, without
-/// contraction, so a value depends neither on the batch it is computed in, nor on the instruction set, nor on `threads`.
+/// out[t] = sum_j weights[j] phi(|targets[t] - centers[j]|). The sum runs over j in order for every target, so
+/// on one type of processor a value depends neither on the batch it is computed in nor on `threads`.
 /// With the screened kernel no target may be farther than kScreenedReach from a centre.
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                 std::span<double> out, const Work& work);

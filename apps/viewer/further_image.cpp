@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/further_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "kontur/base/error.h"
 #include "viewer/model_json.h"
 
 namespace kontur::viewer {
@@ -26,6 +29,11 @@ std::vector<WindowPreset> emission_presets(const Image& image, const std::string
 }
 
 }  // namespace
+
+void check_time(int time) {
+    if (time >= kTimes)
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no time {}: the last one is time {}", time, kTimes - 1));
+}
 
 std::string unit_of(const DicomIdentity& identity, const Image& image) {
     if (!identity.modality.empty()) return identity.unit;
@@ -95,6 +103,7 @@ json to_json(const FurtherImage& shown, int number) {
             {"spacing_mm", to_json(grid.spacing_mm())},
             {"unit", shown.unit},
             {"range", {shown.range.first, shown.range.second}},
+            {"times", kTimes},
             {"notes", shown.opened.notes},
             {"identity", to_json(shown.opened.identity)},
             {"emission", is_emission(shown.opened.identity)},

@@ -14,6 +14,7 @@
 #include "kontur/base/printable.h"
 #include "kontur/io/frame_needed.h"
 #include "viewer/gzip.h"
+#include "viewer/message_checks.h"
 #include "viewer/model_json.h"
 #include "viewer/page.h"
 #include "viewer/start_api.h"
@@ -197,8 +198,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
 }
 
 HttpReply HttpApi::put_image(const HttpRequest& request, const std::stop_token& stop) {
-    const json document = parsed(request.body);
-    Members(document).integer("image", 1, 1);
+    const json document = parsed_request(request.body, "ImageRequest");
     workspace_.put_second_image(open_request_from(document), request.opening, stop);
     return {200, "application/json", "{}", {}};
 }

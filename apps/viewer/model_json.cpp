@@ -195,6 +195,8 @@ Plane Members::plane(const char* key) const {
 
 int Members::image(const char* key) const { return has(key) ? static_cast<int>(integer(key, 0, kMostImages - 1)) : 0; }
 
+int Members::time() const { return has("time") ? static_cast<int>(integer("time", 0, 99'999)) : 0; }
+
 std::vector<Plane> Members::planes(const char* key, std::size_t most) const {
     const json& array = at(key);
     if (!array.is_array() || array.size() > most) refuse(fmt::format("'{}' is no array of at most {} planes", key, most));
@@ -231,8 +233,8 @@ std::optional<double> Members::smoothing(const char* key) const {
 
 Structure structure_from_json(const json& value) {
     const Members m(value);
-    Structure structure{m.id("id"), m.text("name", 200), m.color("color"), m.flag("visible")};
-    if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes", kMostEmptyPlanes);
+    Structure structure{m.id("id"), m.text("name", kMostNameBytes), m.color("color"), m.flag("visible")};
+    if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes");
     if (m.has("smoothing")) structure.smoothing = m.smoothing("smoothing");
     return structure;
 }

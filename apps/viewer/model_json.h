@@ -16,7 +16,8 @@ namespace kontur::viewer {
 constexpr Id kLargestId = Id{1} << 53;        ///< JavaScript's whole numbers end here
 constexpr std::size_t kMostPoints = 100'000;  ///< of one contour
 
-constexpr int kMostImages = 16;  ///< of one project, as far as messages and files go
+constexpr int kMostImages = 16;              ///< of one project, as far as messages and files go
+constexpr std::size_t kMostNameBytes = 400;  ///< of a structure's name: the protocol allows 100 characters
 
 /// How much a value may hold.
 struct Limits {
@@ -71,10 +72,12 @@ public:
     std::vector<Vec3> points(const char* key) const;
     /// An orthonormal plane; cosines up to 1e-3 off are corrected.
     Plane plane(const char* key) const;
-    std::vector<Plane> planes(const char* key, std::size_t most) const;
+    std::vector<Plane> planes(const char* key, std::size_t most = kMostEmptyPlanes) const;
     Stretch stretch(const char* key) const;
     /// The number of an image, from 0; 0 where it is missing.
     int image(const char* key) const;
+    /// The member `time`, from 0; 0 where it is missing.
+    int time() const;
     std::string color(const char* key) const;
 
 private:

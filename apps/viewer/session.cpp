@@ -7,6 +7,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/refine/intensities.h"
+#include "viewer/message_checks.h"
 #include "viewer/model_json.h"
 
 namespace kontur::viewer {
@@ -96,6 +97,7 @@ std::string Session::call(std::string_view message, PageId page) {
         const auto found = calls().find(m.text("call", 64));
         if (found == calls().end())
             return failed(name(ErrorKind::invalid_input), fmt::format("there is no call '{}'", m.text("call", 64)));
+        check_message(request, *call_types().find(found->first)->second, {"seq", "call"});
         std::unique_lock lock(mutex_, std::defer_lock);
         if (found->second.needs_project) {
             lock.lock();

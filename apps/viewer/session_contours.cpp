@@ -20,8 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostControlPoints = 10'000;
-
 double snap_radius_mm(const Members& m) {
     // Eight screen pixels are what a hand aims with.
     return m.has("mm_per_pixel") ? 8 * std::clamp(m.number("mm_per_pixel"), 1e-3, 100.0) : SketchOptions{}.snap_radius_mm;
@@ -39,20 +37,14 @@ SketchPoint sketch_point(const json& item) {
 }
 
 std::vector<SketchPoint> sketch_from(const Members& m) {
-    const json& array = m.at("control");
-    if (!array.is_array() || array.empty() || array.size() > kMostControlPoints)
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("'control' is no array of 1 to {} control points", kMostControlPoints));
     std::vector<SketchPoint> sketch;
-    for (const json& item : array) sketch.push_back(sketch_point(item));
+    for (const json& item : m.at("control")) sketch.push_back(sketch_point(item));
     return sketch;
 }
 
 std::vector<Id> ids_from(const Members& m) {
-    const json& array = m.at("ids");
-    if (!array.is_array()) throw Error(ErrorKind::invalid_input, "'ids' is no array");
     std::set<Id> ids;
-    for (const json& item : array) ids.insert(Members(json{{"ids", item}}).id("ids"));
+    for (const json& item : m.at("ids")) ids.insert(item.get<Id>());
     return {ids.begin(), ids.end()};
 }
 
@@ -62,10 +54,7 @@ std::string label_of(std::string_view origin) {
                                                                                        {"pulled", "Pull the outline"},
                                                                                        {"adopted", "Keep the outline"},
                                                                                        {"proposed", "Accept the proposal"}}};
-    for (const auto& [name, label] : kOrigins)
-        if (name == origin) return label;
-    throw Error(ErrorKind::invalid_input,
-                fmt::format("'origin' is {}; it must be drawn, pulled, adopted or proposed", origin));
+    return std::ranges::find(kOrigins, origin, &std::pair<std::string_view, const char*>::first)->second;
 }
 
 Commit one_contour(const std::string& label, const State& state, const DrawnContour& after) {
@@ -78,6 +67,7 @@ Commit one_contour(const std::string& label, const State& state, const DrawnCont
 
 json Session::path(const Members& m) {
     const Members plane(m.at("plane"));
+    check_time(m.time());
     SketchOptions options;
     options.closed = m.flag_or("closed", false);
     options.snap = m.flag_or("snap", true);

@@ -35,8 +35,7 @@ void Session::put_second_image(OpenedImage opened) {
     show_second_image(std::move(shown));
 }
 
-json Session::remove_image(const Members& m) {
-    m.integer("image", 1, 1);
+json Session::remove_image(const Members&) {
     project_.save_further_images({});
     show_second_image(nullptr);
     return json::object();
@@ -88,6 +87,7 @@ std::shared_ptr<const Image> Session::image_numbered(int number) const {
 
 json Session::value(const Members& m) {
     const Vec3 at = m.point("at");
+    check_time(m.time());
     json values{value_json(*image_, mm_to_index_, at)};
     if (const auto second = second_image()) values.push_back(value_json(*second->opened.image, second->mm_to_index, at));
     return {{"values", std::move(values)}};

@@ -69,6 +69,7 @@ std::string Session::greeting(const json& more) {
                  {"center", to_json(grid.bounds_mm().center())},
                  {"unit", unit()},
                  {"range", {range_.first, range_.second}},
+                 {"times", kTimes},
                  {"notes", notes_}}},
                {"identity", to_json(identity_)},
                {"images", further_images()},

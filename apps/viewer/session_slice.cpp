@@ -10,6 +10,7 @@
 #include "kontur/view/outline.h"
 #include "kontur/view/reslice.h"
 #include "viewer/binary_reply.h"
+#include "viewer/message_checks.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
 
@@ -20,8 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t kMostPixelsOnASide = 4096;
-constexpr std::size_t kLongestViewName = 64;
 constexpr std::size_t kMostWatched = 8;  // two pages of four views
 
 // json's default constructor makes null, which cannot throw; clang-tidy sees the throwing cases of the one it calls.
@@ -29,7 +28,7 @@ struct SliceRequest {  // NOLINT(bugprone-exception-escape)
     std::string page, view;
     json plane;
     Reslice raster;
-    int image;  ///< its number
+    int image = 0, time = 0;  ///< their numbers
     Window window;
     enum class Pixels { none, shades, values } pixels;
     bool outlines;
@@ -41,26 +40,21 @@ SliceRequest::Pixels pixels_from(const Members& m) {
 }
 
 SliceRequest parse(std::string_view text) {
-    const json document = parsed(text);
-    const Members m(document), plane(m.at("plane"));
+    const json document = parsed_request(text, "SliceRequest");
+    const Members m(document);
     SliceRequest request;
-    if (m.has("page")) request.page = m.text("page", kLongestViewName);
-    if (m.has("view")) request.view = m.text("view", kLongestViewName);
+    request.page = document.value("page", "");
+    request.view = document.value("view", "");
     request.plane = m.at("plane");
-    request.raster.plane = m.plane("plane");
-    request.raster.pixel_mm = plane.number("mm_per_pixel");
-    if (!(request.raster.pixel_mm >= 1e-4 && request.raster.pixel_mm <= 1e4))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("'mm_per_pixel' is {:g}; it must lie between 0.0001 and 10000", request.raster.pixel_mm));
-    request.raster.width = static_cast<int>(m.integer("width", 1, kMostPixelsOnASide));
-    request.raster.height = static_cast<int>(m.integer("height", 1, kMostPixelsOnASide));
+    request.raster = {m.plane("plane"), document["width"].get<int>(), document["height"].get<int>(),
+                      request.plane["mm_per_pixel"].get<double>()};
     request.image = m.image("image");
+    request.time = m.time();
     request.pixels = pixels_from(m);
     request.outlines = m.flag_or("outlines", true);
     if (request.pixels == SliceRequest::Pixels::shades) {
         const Members window(m.at("window"));
         request.window = {window.number("center"), window.number("width")};
-        if (!(request.window.width > 0)) throw Error(ErrorKind::invalid_input, "the window's width is not greater than 0");
     }
     return request;
 }
@@ -136,7 +130,6 @@ json in_pixels(const std::vector<std::vector<Vec3>>& lines, const Reslice& raste
 /// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
 void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const Surface>>& surfaces, const Reslice& raster,
                   double thickness_mm, json& head, PixelPoints& lines, PixelPoints& dots) {
-    head["outlines"] = head["crossings"] = head["contours"] = json::array();
     const auto is_visible = [&](Id id) { return state.structures.contains(id) && state.structures.at(id).visible; };
     for (const auto& [id, surface] : surfaces) {
         if (!is_visible(id) || !surface->mesh) continue;
@@ -194,12 +187,14 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
 std::string Session::slice(std::string_view text) {
     const SliceRequest request = parse(text);
     const std::shared_ptr<const Image> image = image_numbered(request.image);
+    check_time(request.time);
     if (request.outlines) watch({request.page, request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{
         {"width", request.raster.width},
         {"height", request.raster.height},
         {"letters", {{"left", letters.left}, {"right", letters.right}, {"top", letters.top}, {"bottom", letters.bottom}}}};
+    head["outlines"] = head["crossings"] = head["contours"] = json::array();
     PixelPoints lines(request.raster), dots(request.raster);
     if (request.outlines)
         add_outlines(state(), surfaces_.all(), request.raster, slice_step_mm(image_->grid, request.raster.plane.normal),

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kLongestName = 100;  ///< of imports
 constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 
 /// Told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
@@ -51,7 +51,7 @@ std::string next_color(const State& state) {
 
 json Session::add_structure(const Members& m) {
     Structure structure;
-    structure.name = m.has("name") ? m.text("name", kLongestName) : free_name(project_.state());
+    structure.name = m.has("name") ? m.text("name", kMostNameBytes) : free_name(project_.state());
     structure.color = m.has("color") ? m.color("color") : next_color(project_.state());
     structure.id = project_.new_id();
     commit({"Add " + structure.name, {{structure.id, {}, structure}}, {}});
@@ -61,10 +61,10 @@ json Session::add_structure(const Members& m) {
 json Session::set_structure(const Members& m) {
     const Structure before = structure_of(project_.state(), m.id("id"));
     Structure after = before;
-    if (m.has("name")) after.name = m.text("name", kLongestName);
+    if (m.has("name")) after.name = m.text("name", kMostNameBytes);
     if (m.has("color")) after.color = m.color("color");
     after.visible = m.flag_or("visible", after.visible);
-    if (m.has("empty_planes")) after.empty_planes = m.planes("empty_planes", kMostEmptyPlanes);
+    if (m.has("empty_planes")) after.empty_planes = m.planes("empty_planes");
     if (m.has("smoothing")) after.smoothing = m.smoothing("smoothing");
     std::string label = "Show or hide " + after.name;
     if (after.empty_planes != before.empty_planes) label = fmt::format("Nothing of {} in a plane", after.name);

@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostSkipped = 100;
-
 }  // namespace
 
 SurfaceEvidence Session::evidence_of(const Surface& surface) const {
@@ -29,7 +27,7 @@ SurfaceEvidence Session::evidence_of(const Surface& surface) const {
 json Session::suggest(const Members& m) {
     const Id structure = m.id("structure");
     SuggestPlaneOptions options{.planes = m.flag_or("slices", false) ? PlaneChoice::image_slices : PlaneChoice::any};
-    if (m.has("skip")) options.avoid = m.planes("skip", kMostSkipped);
+    if (m.has("skip")) options.avoid = m.planes("skip");
     options.grid = image_->grid;
     const auto surfaces = surfaces_.all();
     const auto found = surfaces.find(structure);

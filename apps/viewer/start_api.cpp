@@ -8,15 +8,13 @@
 
 #include "kontur/base/error.h"
 #include "viewer/dicom_choice.h"
+#include "viewer/message_checks.h"
 #include "viewer/model_json.h"
 
 namespace kontur::viewer {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t kLongestPath = 4096;
-constexpr std::size_t kLongestUid = 64;
 
 StartReply json_reply(const json& value) { return {"application/json", to_text(value)}; }
 
@@ -36,9 +34,8 @@ std::int64_t frame_of(const Target& target) {
 }
 
 void keep_arrangement(Workspace& workspace, const std::string& body) {
-    const json document = parsed(body);
-    const Members m(document);
-    workspace.arrangements().keep(m.text("modality", kLongestUid), m.at("state"));
+    const json document = parsed_request(body, "ArrangementRequest");
+    workspace.arrangements().keep(document["modality"].get<std::string>(), document["state"]);
 }
 
 /// Says in all pages how far the search is, as long as it lives.
@@ -67,7 +64,7 @@ private:
 }  // namespace
 
 OpenRequest open_request_from(const json& document) {
-    return {Members(document).text("path", kLongestPath), choice_from_json(document)};
+    return {document["path"].get<std::string>(), choice_from_json(document)};
 }
 
 std::optional<StartReply> start_api(Workspace& workspace, const std::string& method, const Target& target,
@@ -82,7 +79,7 @@ std::optional<StartReply> start_api(Workspace& workspace, const std::string& met
     if (method == "GET" && target.path == "/api/thumbnail")
         return StartReply{"application/octet-stream", thumbnail(places.resolved(needed(target, "file")), frame_of(target))};
     if (method != "POST") return std::nullopt;
-    if (target.path == "/api/open") workspace.open(open_request_from(parsed(body)));
+    if (target.path == "/api/open") workspace.open(open_request_from(parsed_request(body, "OpenRequest")));
     else if (target.path == "/api/cancel") workspace.cancel();
     else if (target.path == "/api/close") workspace.close();
     else if (target.path == "/api/arrangement") keep_arrangement(workspace, body);

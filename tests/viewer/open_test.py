@@ -177,7 +177,7 @@ def test_two_pages_are_told_of_their_own_planes(server):
     plane = shifted(page.session["views"]["axial"]["plane"], 65, 65, 0.5)
     planes = [at_offset(plane, offset) for offset in (-3, 0, 3)]
     for at, name in zip(planes, ("one", "two", None), strict=True):
-        server.slice(at, 65, 65, view="axial", pixels=False, page=name)
+        server.slice(at, 65, 65, view="axial", pixels=False, **({"page": name} if name else {}))
     page.events.clear()
     page.do("contour.translate", id=max(page.contours), by=[1, 0, 0])
     (last,) = [event for event in events_until_refined(page) if event["event"] == "outlines"][-1:]
@@ -833,12 +833,14 @@ def test_the_browser_lives_on_and_nobody_else_learns_the_token(tmp_path, image):
     [
         ("contour.add", {"structure": 99, "control": []}, "'plane' is missing"),
         ("contour.move_point", {"id": 77, "index": 0, "to": [0, 0, 0]}, "no contour with the id 77"),
-        ("structure.set", {"id": 1, "color": "red"}, "'color' is no colour"),
-        ("structure.set", {"id": 1, "name": "x" * 101}, "the limit is 100"),
-        ("value", {"at": [0, 0]}, "'at' is not [x, y, z]"),
-        ("value", {"at": [0, 0, 1e300]}, "the limit is 1e+06 mm"),
+        ("structure.set", {"id": 1, "color": "red"}, "'color' is \"red\"; a colour"),
+        ("structure.set", {"id": 1, "name": "x" * 101}, "'name' is a text of 101 characters; a text of at most 100"),
+        ("value", {"at": [0, 0]}, "'at' is a list of 2; a point [x, y, z] is needed"),
+        ("value", {"at": [0, 0, 1e300]}, "'at[2]' is 1e+300; a number from -1000000 to 1000000"),
+        ("value", {"at": [0, 0, 0], "time": 1}, "there is no time 1: the last one is time 0"),
+        ("structure.set", {"id": 1, "colour": "#e8b04a"}, "'colour' is not known here"),
         ("fly", {}, "no call 'fly'"),
-        ("contour.remove", {"ids": [1.5]}, "'ids' is not a whole number"),
+        ("contour.remove", {"ids": [1.5]}, "'ids[0]' is 1.5; a whole number"),
     ],
 )
 def test_wrong_calls_are_refused_and_change_nothing(server, call, arguments, part):

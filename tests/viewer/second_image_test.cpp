@@ -176,7 +176,7 @@ TEST(SecondImage, OtherNumbersAreRefused) {
     EXPECT_KONTUR_ERROR(here.session.slice(slice_request(2).dump()), ErrorKind::invalid_input,
                         "there is no image 2: the last one is image 1");
     EXPECT_KONTUR_ERROR(here.session.slice(slice_request(-1).dump()), ErrorKind::invalid_input,
-                        "'image' is not a whole number");
+                        "'image' is -1; a whole number from 0 to 15");
     EXPECT_EQ(here.call({{"call", "image.remove"}, {"image", 0}})["error"]["kind"], "invalid_input");
 }
 

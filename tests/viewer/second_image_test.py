@@ -129,7 +129,7 @@ def test_what_does_not_fit_is_refused_in_one_sentence(tmp_path, home):
         ]:
             told, reply = add(server, path)
             assert (told, part in reply["error"]["message"]) == (status, True), reply
-        assert add(server, home / "pet.nii.gz", image=2)[1]["error"]["message"] == "'image' is not a whole number from 1 to 1"
+        assert add(server, home / "pet.nii.gz", image=2)[1]["error"]["message"] == "'image' is 2; a whole number from 1 to 1 is needed"
         assert images_of(server) == []
 
 

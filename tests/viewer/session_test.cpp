@@ -107,7 +107,7 @@ TEST(Session, TheHistoryNamesWhatAContourWasMadeOf) {
     }
     const json refusal = called(here.session, circle_to_add(id, "stolen"));
     EXPECT_EQ(refusal["error"]["kind"], "invalid_input");
-    EXPECT_EQ(refusal["error"]["message"], "'origin' is stolen; it must be drawn, pulled, adopted or proposed");
+    EXPECT_EQ(refusal["error"]["message"], R"('origin' is "stolen"; drawn, pulled, adopted or proposed is needed)");
 }
 
 TEST(Session, SeveralContoursAreChangedAsOneStep) {
@@ -136,8 +136,7 @@ TEST(Session, TheOutlineOnAPlaneThatNoViewShowsIsTold) {
     SessionHere here;
     const Id id = here.session.add_structures("Import", {circles(1, 60)}).front();
     here.session.wait_for_surfaces();
-    json request = circle_to_add(id, "drawn");
-    request["call"] = "outline";
+    json request{{"call", "outline"}, {"structure", id}, {"plane", circle_to_add(id, "drawn")["plane"]}};
     const json lines = called(here.session, request)["result"]["lines"];
     ASSERT_EQ(lines.size(), 1u);
     for (const json& p : lines[0]) {

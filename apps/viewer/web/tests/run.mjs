@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the TypeScript under tests/<what>/ and runs it: `node tests/run.mjs unit`, or only some of its files:
-// `node tests/run.mjs e2e edit`. KONTUR_BROWSER=firefox runs e2e and bench in Firefox instead of Chromium.
+// `node tests/run.mjs e2e edit page`. Several such runs may go at once. KONTUR_BROWSER=firefox runs e2e and bench in Firefox instead of Chromium.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -22,7 +22,10 @@ if (what === "e2e" && missing) {
 
 const tests = dirname(fileURLToPath(import.meta.url));
 const output = join(tests, "..", "node_modules", ".tests", browser, what); // the two may run at once
-const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(what === "bench" ? ".ts" : ".test.ts")).filter((name) => what === "bench" || rest.length === 0 || rest.some((word) => name.startsWith(word)));
+const ending = what === "bench" ? ".ts" : ".test.ts";
+const isWanted = (name) => what === "bench" || rest.length === 0 || rest.includes(name.slice(0, -ending.length));
+const files = readdirSync(join(tests, what)).filter((name) => name.endsWith(ending) && isWanted(name));
+if (files.length === 0) throw new Error(`there is no test of ${rest.join(", ")} in tests/${what}`);
 
 mkdirSync(output, { recursive: true });
 await build({

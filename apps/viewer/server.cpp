@@ -7,11 +7,16 @@
 
 #include <utility>  // before Asio 1.18, which uses std::exchange without including it
 
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/redirect_error.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -20,13 +25,14 @@
 #include <optional>
 #include <set>
 #include <stop_token>
+#include <type_traits>
 
 #include "kontur/base/error.h"
 #include "viewer/access.h"
 #include "viewer/http_api.h"
 
-// The one file that includes Boost.Beast, which is slow to compile. All of its objects live on one network thread; what
-// takes time runs on thread pools and posts its result back.
+// The one file that includes Boost.Beast, which is slow to compile. All of its objects and coroutines live on one network
+// thread; what takes time runs on thread pools.
 
 namespace kontur::viewer {
 namespace {
@@ -86,9 +92,9 @@ struct ServerCore {
     asio::thread_pool calls{1};        ///< messages of the pages, in order
     asio::thread_pool work{kWorkers};  ///< slices, meshes, files
 
-    void accept();
+    asio::awaitable<void> accept();
     bool make_room();
-    void tick();
+    asio::awaitable<void> watch_the_clock();
     void broadcast(const std::string& message);
     void stop();
 };
@@ -109,8 +115,16 @@ private:
     int* count_;
 };
 
-// What holds a socket or connection on a pool's thread hands it back to `io` by moving it: whoever lets go last destroys it,
-// and that changes what only the thread of `io` may touch.
+/// Waits, without holding up the network's thread, for what is made on a pool's. Afterwards that coroutine goes on on its
+/// own thread again, whose objects the other one never touches.
+template <class Make>
+asio::awaitable<std::invoke_result_t<Make&>> made_on(asio::thread_pool& pool, Make make) {
+    const auto run = [&make]() -> asio::awaitable<std::invoke_result_t<Make&>> { co_return make(); };
+    co_return co_await asio::co_spawn(pool, run, asio::use_awaitable);
+}
+
+/// Errors come as values: most of them are clients that go.
+auto into(beast::error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
 /// One open page: messages in, one at a time, and replies and events out.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
@@ -119,17 +133,27 @@ public:
         : core_(core), slot_(std::move(slot)), stream_(std::move(socket)), buffer_(kLargestMessage), id_(++core.last_page) {}
     ~PageSocket() { core_.sockets.erase(this); }
 
-    void accept(const http::request<http::string_body>& request) {
-        stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), std::chrono::seconds(60), true});
-        stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-            response.set(http::field::sec_websocket_protocol, "kontur");
-            response.set(http::field::server, "kontur");
-        }));
-        stream_.read_message_max(kLargestMessage);
-        stream_.auto_fragment(false);
-        stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
-            if (!error) self->greet();
-        });
+    /// For as long as the page is there; `self` keeps this.
+    asio::awaitable<void> serve([[maybe_unused]] std::shared_ptr<PageSocket> self,
+                                http::request<http::string_body> request) {
+        beast::error_code error;
+        prepare();
+        co_await stream_.async_accept(request, into(error));
+        if (error) co_return;
+        core_.sockets.insert(this);
+        if (!co_await greet()) co_return;
+        // The next message is read only when this one is answered, so a flood waits in the sender's socket.
+        while (!is_closing_) {
+            co_await stream_.async_read(buffer_, into(error));
+            core_.last_use = Clock::now();
+            if (error) co_return leave();
+            if (is_closing_) co_return;
+            if (!stream_.got_text()) co_return close(websocket::close_code::unknown_data);
+            const std::string message = beast::buffers_to_string(buffer_.data());
+            buffer_.consume(buffer_.size());
+            std::string reply = co_await made_on(core_.calls, [&] { return core_.workspace.call(message, id_); });
+            send(std::make_shared<const std::string>(std::move(reply)));
+        }
     }
 
     /// Events wait until the page has been greeted.
@@ -139,26 +163,35 @@ public:
     }
 
 private:
-    void greet() {
-        core_.sockets.insert(this);
-        asio::post(core_.calls, [self = shared_from_this()]() mutable {
-            ServerCore& core = self->core_;
-            std::shared_ptr<const std::string> greeting;
-            std::string problem;
+    void prepare() {
+        stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), std::chrono::seconds(60), true});
+        stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+            response.set(http::field::sec_websocket_protocol, "kontur");
+            response.set(http::field::server, "kontur");
+        }));
+        stream_.read_message_max(kLargestMessage);
+        stream_.auto_fragment(false);
+    }
+
+    asio::awaitable<bool> greet() {
+        std::string greeting, problem;
+        const auto ask = [&] {
             try {
-                greeting = std::make_shared<const std::string>(core.workspace.greeting(self->id_));
+                greeting = core_.workspace.greeting(id_);
             } catch (const std::exception& error) {
                 problem = error.what();
             }
-            asio::post(core.io, [self = std::move(self), greeting, problem] {
-                if (!greeting) return self->turn_away(problem);
-                self->is_greeted_ = true;
-                self->send(greeting);
-                for (const auto& message : self->held_back_) self->send(message);
-                self->held_back_.clear();
-                self->read();
-            });
-        });
+            return problem.empty();
+        };
+        if (!co_await made_on(core_.calls, ask)) {
+            turn_away(problem);
+            co_return false;
+        }
+        is_greeted_ = true;
+        send(std::make_shared<const std::string>(std::move(greeting)));
+        for (const auto& message : held_back_) send(message);
+        held_back_.clear();
+        co_return true;
     }
 
     void turn_away(const std::string& problem) {
@@ -166,54 +199,32 @@ private:
         close(websocket::close_code::internal_error);
     }
 
-    void read() {
-        if (is_closing_) return;
-        stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            self->core_.last_use = Clock::now();
-            if (!error) self->take();
-            else self->leave();
-        });
-    }
-
-    /// The next message is read only when this one is answered, so a flood waits in the sender's socket.
-    void take() {
-        if (is_closing_) return;
-        if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
-        asio::post(core_.calls, [self = shared_from_this(), message = beast::buffers_to_string(buffer_.data())]() mutable {
-            ServerCore& core = self->core_;
-            auto reply = std::make_shared<const std::string>(core.workspace.call(message, self->id_));
-            asio::post(core.io, [self = std::move(self), reply] {
-                self->send(reply);
-                self->read();
-            });
-        });
-        buffer_.consume(buffer_.size());
-    }
-
     void send(const std::shared_ptr<const std::string>& message) {
         if (is_closing_) return;
         if (!unsent_.empty()) waiting_bytes_ += message->size();
         if (waiting_bytes_ > kMostWaitingBytes) return cut_off();
         unsent_.push_back(message);
-        if (unsent_.size() == 1) write();
+        if (unsent_.size() == 1) asio::co_spawn(core_.io, write(shared_from_this()), asio::detached);
     }
 
-    void write() {
-        stream_.text(true);
-        stream_.async_write(asio::buffer(*unsent_.front()),
-                            [self = shared_from_this()](beast::error_code error, std::size_t) {
-                                if (error) return self->cut_off();
-                                self->unsent_.pop_front();
-                                if (self->unsent_.empty()) return;
-                                self->waiting_bytes_ -= self->unsent_.front()->size();
-                                self->write();
-                            });
+    asio::awaitable<void> write([[maybe_unused]] std::shared_ptr<PageSocket> self) {
+        beast::error_code error;
+        while (!unsent_.empty()) {
+            stream_.text(true);
+            co_await stream_.async_write(asio::buffer(*unsent_.front()), into(error));
+            if (error) co_return cut_off();
+            unsent_.pop_front();
+            if (!unsent_.empty()) waiting_bytes_ -= unsent_.front()->size();
+        }
+        if (reason_) co_await stream_.async_close(*reason_, into(error));
     }
 
+    /// After what it has been sent so far.
     void close(websocket::close_code reason) {
         is_closing_ = true;
+        reason_ = reason;
         leave();
-        stream_.async_close(reason, [self = shared_from_this()](beast::error_code) {});
+        if (unsent_.empty()) asio::co_spawn(core_.io, write(shared_from_this()), asio::detached);
     }
 
     void cut_off() {
@@ -235,6 +246,7 @@ private:
     beast::flat_buffer buffer_;
     const PageId id_;
     bool is_greeted_ = false, is_closing_ = false;
+    std::optional<websocket::close_code> reason_;  ///< why it is closed by us
     std::vector<std::shared_ptr<const std::string>> held_back_;
     std::deque<std::shared_ptr<const std::string>> unsent_;
     std::size_t waiting_bytes_ = 0;
@@ -262,20 +274,23 @@ public:
         stream_.close();
     }
 
-    void wait_for_request(std::chrono::seconds patience) {
-        is_waiting_ = true;
-        parser_.emplace();
-        parser_->header_limit(kLargestHeader);
-        // Checked again, by target, once the header is known; the parser would refuse imports by its own limit.
-        parser_->body_limit(HttpApi::body_limit(kImports));
-        stream_.expires_after(patience);
-        http::async_read_header(stream_, buffer_, *parser_,
-                                [self = shared_from_this()](beast::error_code error, std::size_t) {
-                                    self->is_waiting_ = false;
-                                    self->last_sign_ = self->core_.last_use = Clock::now();
-                                    if (error) self->refuse_header(error);
-                                    else self->check_header();
-                                });
+    /// Until the client goes, or becomes a page; `self` keeps this.
+    asio::awaitable<void> serve([[maybe_unused]] std::shared_ptr<Connection> self) {
+        for (int patience_s = core_.options.request_timeout_s; true; patience_s = core_.options.keep_alive_s) {
+            beast::error_code error = co_await read_header(std::chrono::seconds(patience_s));
+            std::optional<HttpReply> reply;
+            if (!error) reply = check_header();
+            if (!error && !reply && target_.path == kSocket) co_return upgrade();
+            if (!error && !reply) error = co_await read_body();
+            if (error) reply = refusal_of(error);
+            if (error && !reply) break;  // it has gone, or is too slow
+            keep_alive_ = !reply && parser_->get().keep_alive();
+            if (!reply) reply = co_await work();
+            import_.reset();
+            if (!co_await write(std::move(*reply))) co_return;
+            if (!keep_alive_) break;
+        }
+        co_await end();
     }
 
 private:
@@ -298,130 +313,135 @@ private:
                 websocket::is_upgrade(request)};
     }
 
-    void refuse_header(beast::error_code error) {
+    /// What a client is told that sent no request; nothing to one that has gone.
+    static std::optional<HttpReply> refusal_of(beast::error_code error) {
         if (error == http::error::header_limit || error == http::error::buffer_overflow)
-            return finish_with(error_reply(431, "too_large", "the request's header is larger than 8 KiB"));
-        if (error == http::error::body_limit)
-            return finish_with(error_reply(413, "too_large", "the request's body is too large"));
+            return error_reply(431, "too_large", "the request's header is larger than 8 KiB");
+        if (error == http::error::body_limit) return error_reply(413, "too_large", "the request's body is too large");
         const bool is_malformed = error.category() == http::make_error_code(http::error::bad_method).category();
         if (is_malformed && error != http::error::end_of_stream && error != http::error::partial_message)
-            return finish_with(error_reply(400, "invalid_input", "this is no HTTP request"));
-        end();
+            return error_reply(400, "invalid_input", "this is no HTTP request");
+        return std::nullopt;
     }
 
-    void check_header() {
+    asio::awaitable<beast::error_code> read_header(std::chrono::seconds patience) {
+        is_waiting_ = true;
+        parser_.emplace();
+        parser_->header_limit(kLargestHeader);
+        // Checked again, by target, once the header is known; the parser would refuse imports by its own limit.
+        parser_->body_limit(HttpApi::body_limit(kImports));
+        stream_.expires_after(patience);
+        beast::error_code error;
+        co_await http::async_read_header(stream_, buffer_, *parser_, into(error));
+        is_waiting_ = false;
+        last_sign_ = core_.last_use = Clock::now();
+        co_return error;
+    }
+
+    /// Why it is refused, if it is.
+    std::optional<HttpReply> check_header() {
         const Request& request = parser_->get();
         const RequestHead head = head_of(request);
         if (const auto refused = refusal(head, core_.access))
-            return finish_with(error_reply(refused->status, refused->kind, refused->message));
+            return error_reply(refused->status, refused->kind, refused->message);
         is_known_ = is_known_ || shows_token(head, core_.access);
         host_ = head.host.front();
         opening_.reset();
         if (const auto named = request.find("Kontur-Opening"); named != request.end()) opening_ = text(named->value());
-        if (!head.target) return finish_with(error_reply(400, "invalid_input", "the address is malformed"));
+        if (!head.target) return error_reply(400, "invalid_input", "the address is malformed");
         target_ = *head.target;
-        const bool is_socket = target_.path == kSocket;
-        if (head.is_upgrade != is_socket)
-            return finish_with(error_reply(404, "not_found", "there is nothing at this address"));
-        if (is_socket) return upgrade();
+        if (head.is_upgrade != (target_.path == kSocket))
+            return error_reply(404, "not_found", "there is nothing at this address");
+        if (head.is_upgrade) return std::nullopt;
+        return check_body();
+    }
 
+    std::optional<HttpReply> check_body() {
         const std::uint64_t limit = HttpApi::body_limit(target_.path), length = parser_->content_length().value_or(0);
         if (length > limit)
-            return finish_with(error_reply(413, "too_large",
-                                           fmt::format("the request's body has {} bytes; the limit is {}", length, limit)));
+            return error_reply(413, "too_large",
+                               fmt::format("the request's body has {} bytes; the limit is {}", length, limit));
         parser_->body_limit(limit);
-        if (target_.path.starts_with(kImports)) {
-            if (core_.imports >= kMostImports)
-                return finish_with(error_reply(413, "too_large", "other files are being imported; try again after them"));
-            import_.emplace(core_.imports);
-        }
+        if (!target_.path.starts_with(kImports)) return std::nullopt;
+        if (core_.imports >= kMostImports)
+            return error_reply(413, "too_large", "other files are being imported; try again after them");
+        import_.emplace(core_.imports);
+        return std::nullopt;
+    }
+
+    asio::awaitable<beast::error_code> read_body() {
+        const std::uint64_t length = parser_->content_length().value_or(0);
         stream_.expires_after(
             std::chrono::seconds(core_.options.request_timeout_s + static_cast<long>(length / kBytesPerSecond)));
-        http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (error) self->refuse_header(error);
-            else self->work();
-        });
+        beast::error_code error;
+        co_await http::async_read(stream_, buffer_, *parser_, into(error));
+        co_return error;
     }
 
     void upgrade() {
         stream_.expires_never();
         core_.requests.erase(this);
         const auto socket = std::make_shared<PageSocket>(core_, std::move(*slot_), stream_.release_socket());
-        socket->accept(parser_->get());
+        asio::co_spawn(core_.io, socket->serve(socket, parser_->release()), asio::detached);
     }
 
-    void work() {
+    asio::awaitable<HttpReply> work() {
         Request request = parser_->release();
-        keep_alive_ = request.keep_alive();
-        auto make = core_.api.prepare({text(request.method_string()), target_, std::move(request.body()), opening_});
-        stop_ = std::stop_source();
-        watch();
-        asio::post(core_.work, [self = shared_from_this(), make = std::move(make), stop = stop_]() mutable {
-            ServerCore& core = self->core_;
-            const std::stop_callback end(core.ending.get_token(), [&] { stop.request_stop(); });
-            auto reply = std::make_shared<HttpReply>(make(stop.get_token()));
-            asio::post(core.io, [self = std::move(self), reply] {
-                beast::error_code ignored;
-                self->stream_.socket().cancel(ignored);  // the watch
-                self->reply(std::move(*reply));
-            });
-        });
+        HttpRequest asked{text(request.method_string()), target_, std::move(request.body()), opening_};
+        const auto make = core_.api.prepare(std::move(asked));
+        std::stop_source stop;
+        asio::co_spawn(core_.io, watch(shared_from_this(), stop), asio::detached);
+        const auto run = [&] {
+            const std::stop_callback end(core_.ending.get_token(), [&] { stop.request_stop(); });
+            return make(stop.get_token());
+        };
+        HttpReply reply = co_await made_on(core_.work, run);
+        beast::error_code ignored;
+        stream_.socket().cancel(ignored);  // the watch
+        co_return reply;
     }
 
     /// Nothing is worked on for a client that has gone: that is how a page cancels. What it sends already, ahead of our
     /// reply, stays in the socket.
-    void watch() {
-        stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this()](beast::error_code error) {
-            char byte = 0;
-            if (error) return;
-            if (recv(self->stream_.socket().native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0)
-                self->stop_.request_stop();
-        });
+    asio::awaitable<void> watch([[maybe_unused]] std::shared_ptr<Connection> self, std::stop_source stop) {
+        beast::error_code error;
+        co_await stream_.socket().async_wait(tcp::socket::wait_read, into(error));
+        char byte = 0;
+        if (error) co_return;
+        if (recv(stream_.socket().native_handle(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0) stop.request_stop();
     }
 
-    void finish_with(HttpReply refusal) {
-        keep_alive_ = false;
-        reply(std::move(refusal));
-    }
-
-    void reply(HttpReply reply) {
-        import_.reset();
+    /// Whether it has been taken.
+    asio::awaitable<bool> write(HttpReply reply) {
         last_sign_ = core_.last_use = Clock::now();
-        response_ = {};
-        response_.version(11);
-        response_.result(static_cast<unsigned>(reply.status));
-        response_.set(http::field::server, "kontur");
-        response_.set(http::field::content_type, reply.content_type);
-        for (const auto& [key, value] : security_headers(host_)) response_.set(key, value);
-        for (const auto& [key, value] : reply.headers) response_.set(key, value);
-        response_.keep_alive(keep_alive_);
+        http::response<http::string_body> response;
+        response.version(11);
+        response.result(static_cast<unsigned>(reply.status));
+        response.set(http::field::server, "kontur");
+        response.set(http::field::content_type, reply.content_type);
+        for (const auto& [key, value] : security_headers(host_)) response.set(key, value);
+        for (const auto& [key, value] : reply.headers) response.set(key, value);
+        response.keep_alive(keep_alive_);
         const std::size_t size = reply.body.size();
-        response_.body() = std::move(reply.body);
-        response_.prepare_payload();
+        response.body() = std::move(reply.body);
+        response.prepare_payload();
         stream_.expires_after(
             std::chrono::seconds(core_.options.reply_timeout_s + static_cast<long>(size / kBytesPerSecond)));
-        http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (error) return;
-            if (self->keep_alive_) self->wait_for_request(std::chrono::seconds(self->core_.options.keep_alive_s));
-            else self->end();
-        });
+        beast::error_code error;
+        co_await http::async_write(stream_, response, into(error));
+        co_return !error;
     }
 
     /// Closes without a reset, which would take the reply from a client that is still sending.
-    void end() {
-        beast::error_code ignored;
-        stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    asio::awaitable<void> end() {
+        beast::error_code error;
+        stream_.socket().shutdown(tcp::socket::shutdown_send, error);
         stream_.expires_after(std::chrono::seconds(2));
-        drain();
-    }
-
-    void drain() {
-        buffer_.consume(buffer_.size());
-        stream_.async_read_some(buffer_.prepare(64 << 10),
-                                [self = shared_from_this()](beast::error_code error, std::size_t count) {
-                                    self->drained_ += count;
-                                    if (!error && self->drained_ < kMostDrained) self->drain();
-                                });
+        for (std::size_t drained = 0; drained < kMostDrained;) {
+            buffer_.consume(buffer_.size());
+            drained += co_await stream_.async_read_some(buffer_.prepare(64 << 10), into(error));
+            if (error) co_return;
+        }
     }
 
     ServerCore& core_;
@@ -432,30 +452,25 @@ private:
     bool is_waiting_ = false;  ///< for a request's header
     Clock::time_point last_sign_ = Clock::now();
     std::optional<http::request_parser<http::string_body>> parser_;
-    http::response<http::string_body> response_;
     std::optional<Slot> import_;
-    std::stop_source stop_{std::nostopstate};  ///< of what is worked on
     std::string host_ = "127.0.0.1";
     Target target_;  ///< of the request
     std::optional<std::string> opening_;
     bool keep_alive_ = false;
-    std::size_t drained_ = 0;
 };
 
 }  // namespace
 
-void ServerCore::accept() {
-    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
-        if (!acceptor.is_open()) return;
-        if (!error && make_room()) {
-            beast::error_code ignored;
-            socket.set_option(tcp::no_delay(true), ignored);
-            keep_to_this_process(socket.native_handle());
-            std::make_shared<Connection>(*this, std::move(socket))
-                ->wait_for_request(std::chrono::seconds(options.request_timeout_s));
-        }
-        accept();
-    });
+asio::awaitable<void> ServerCore::accept() {
+    while (acceptor.is_open()) {
+        beast::error_code error;
+        tcp::socket socket = co_await acceptor.async_accept(into(error));
+        if (error || !acceptor.is_open() || !make_room()) continue;
+        socket.set_option(tcp::no_delay(true), error);
+        keep_to_this_process(socket.native_handle());
+        const auto connection = std::make_shared<Connection>(*this, std::move(socket));
+        asio::co_spawn(io, connection->serve(connection), asio::detached);
+    }
 }
 
 /// Whoever opens connections and says nothing must not shut the page out.
@@ -469,15 +484,15 @@ bool ServerCore::make_room() {
     return true;
 }
 
-void ServerCore::tick() {
-    clock.expires_after(std::chrono::milliseconds(250));
-    clock.async_wait([this](beast::error_code error) {
-        if (error) return;
+asio::awaitable<void> ServerCore::watch_the_clock() {
+    for (beast::error_code error; !error;) {
+        clock.expires_after(std::chrono::milliseconds(250));
+        co_await clock.async_wait(into(error));
         const bool is_reading = !workspace.wait_for(std::chrono::milliseconds(0));
         if (!sockets.empty() || is_reading) last_use = Clock::now();
-        if (options.idle_timeout_s > 0 && Clock::now() - last_use > std::chrono::seconds(options.idle_timeout_s)) stop();
-        else tick();
-    });
+        if (options.idle_timeout_s > 0 && Clock::now() - last_use > std::chrono::seconds(options.idle_timeout_s))
+            co_return stop();
+    }
 }
 
 void ServerCore::broadcast(const std::string& message) {
@@ -522,8 +537,8 @@ std::string Server::address() const {
 }
 
 void Server::run() {
-    core_->accept();
-    core_->tick();
+    asio::co_spawn(core_->io, core_->accept(), asio::detached);
+    asio::co_spawn(core_->io, core_->watch_the_clock(), asio::detached);
     core_->io.run();
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a hostile web page, a scanner or a broken client may send. Each must be refused, and the server must live on."""
+import concurrent.futures
 import contextlib
 import json
 import os
@@ -313,6 +314,45 @@ def test_connections_beyond_the_limit_are_closed_and_then_there_is_room_again(se
             return
         time.sleep(0.1)
     pytest.fail("no connection was freed")
+
+
+def test_pages_and_half_open_connections_come_and_go_at_once(server):
+    """Each ends at another point: before a request, in a header, in a body, in a handshake, in a reply, in a call."""
+    body = json.dumps({**SLICE, "width": 512, "height": 512}).encode()
+    call = json.dumps({"seq": 1, "call": "path", "plane": SLICE["plane"], "control": [{"at": [0, 0, 0], "kind": "line"}]}).encode()
+    beginnings = [b"", head(server)[:20], post(server, "/api/slice", body)[:-9], upgrade(server)[:60], post(server, "/api/slice", body),
+                  upgrade(server), head(server, target="/assets/scene.js"), post(server, "/api/slice", b"{")]
+    choose = random.Random(FUZZ + 2)
+    page = server.page()
+
+    def come_and_go(number):
+        with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", server.port), timeout=15) as connection:
+            connection.sendall(beginnings[number % len(beginnings)])
+            how = number // len(beginnings) % 3
+            if how == 1:
+                connection.shutdown(socket.SHUT_WR)  # half open: it may still listen
+            if how == 2:
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # a reset
+            elif number % 5 == 0:
+                connection.recv(100)
+
+    def call_and_leave(_):
+        with contextlib.suppress(OSError, AssertionError):  # there may be no room for another page
+            other = Page(server)
+            other.send_frame(call)
+            other.close()
+
+    with concurrent.futures.ThreadPoolExecutor(24) as threads:
+        jobs = [(come_and_go, number) for number in range(240)] + [(call_and_leave, number) for number in range(24)]
+        choose.shuffle(jobs)
+        for done in [threads.submit(*job) for job in jobs]:
+            done.result()
+    assert page.do("ping") == {}
+    for _ in range(100):
+        if raw(server, head(server)) == 200:
+            break
+        time.sleep(0.1)
+    assert server.request("POST", "/api/slice", body)[0] == 200
 
 
 def test_a_page_that_reads_nothing_is_cut_off_and_costs_the_others_nothing(server):

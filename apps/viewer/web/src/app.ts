@@ -6,6 +6,7 @@ import { Navigation, type PaneName } from "./model/navigation";
 import { PaneSizes } from "./model/pane_sizes";
 import { Project } from "./model/project";
 import { SecondImage } from "./model/second_image";
+import type { Theme } from "./model/theme";
 import { Http } from "./net/http";
 import { Latest } from "./net/latest";
 import { VIEW_NAMES, type Contour, type FurtherImage, type Outlines, type ServerEvent, type Session, type ViewName } from "./net/protocol";
@@ -68,7 +69,10 @@ export class App {
   private readonly keeper: PageKeeper;
   private readonly arrangement: ArrangementKeeper;
 
-  constructor(token: string) {
+  constructor(
+    token: string,
+    private readonly theme: Theme,
+  ) {
     this.http = new Http(token);
     this.startPage = new StartPage(this.http);
     this.saving = new Saving({ status: this.status, notices: this.notices, outbox: () => this.editor.drawing.outbox, project: () => this.session?.project, token });
@@ -88,7 +92,7 @@ export class App {
       made: (contour) => this.tellCrossing(contour),
       notSaved: (sketch, why) => this.saving.tellNotSaved(sketch, why),
     });
-    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, sizes: this.sizes, second: this.second, editor: this.editor, http: this.http, failed };
+    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, theme: this.theme, sizes: this.sizes, second: this.second, editor: this.editor, http: this.http, failed };
     this.keeper = new PageKeeper({
       ...shared,
       isOpen: () => this.session !== null,
@@ -168,6 +172,7 @@ export class App {
     project.on(["structures"], () => this.keeper.saveSoon());
     this.appearance.on(["changed"], each((view) => view.paint()));
     this.appearance.on(["changed"], () => this.keeper.saveSoon());
+    this.theme.on(["changed"], () => this.surface.themeChanged());
     this.second.on(["image", "shown", "look"], each((view) => view.secondChanged()));
     this.second.on(["shown", "look"], () => this.keeper.saveSoon());
     this.second.on(["image", "shown"], () => editor.drawing.setImage(this.second.front));

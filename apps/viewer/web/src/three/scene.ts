@@ -4,6 +4,7 @@ import { TrackballControls } from "three/examples/jsm/controls/TrackballControls
 import { boxSection } from "../geometry/plane";
 import type { Plane } from "../geometry/plane";
 import { add, distance, scale, type Vec3 } from "../geometry/vec";
+import type { Scheme } from "../model/theme";
 import { tinted } from "../view/palette";
 import { coarseTriangles } from "./coarse";
 import { isSoftwareRenderer, Pace } from "./pace";
@@ -46,6 +47,7 @@ export class Scene {
   private readonly center: Vec3;
   private readonly pace: Pace;
   private aspect = 1;
+  private ground: Scheme = "dark"; // what lies behind all
   private touched = false; // the user has turned, zoomed or shifted the view: it stays as he wants it
 
   /** Throws where the browser has no WebGL. `begin` is called as a frame begins, and what it returns when that is finished. */
@@ -155,11 +157,22 @@ export class Scene {
     return [...this.surfaces.keys()];
   }
 
+  /** Of lines that are set from now on. */
+  setGround(ground: Scheme): void {
+    this.ground = ground;
+    this.box.material = this.lineMaterial(ground === "light" ? "#6d7a88" : "#56606c", 0.5);
+  }
+
+  /** Away from the ground. */
+  private stands(color: string, t: number): string {
+    return tinted(color, this.ground === "light" ? -t : t);
+  }
+
   setContours(contours: { points: readonly Vec3[]; color: string; selected: boolean }[]): void {
     this.clear(this.lines);
     for (const { points, color, selected } of contours) {
       const geometry = new THREE.BufferGeometry().setFromPoints(points.map(vector));
-      this.lines.add(new THREE.LineLoop(geometry, this.lineMaterial(tinted(color, selected ? 0.95 : 0.6), 1)));
+      this.lines.add(new THREE.LineLoop(geometry, this.lineMaterial(this.stands(color, selected ? 0.95 : 0.6), 1)));
     }
     this.pace.changed(true);
   }
@@ -173,7 +186,7 @@ export class Scene {
       const fan = outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]);
       const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
       const rim = new THREE.BufferGeometry().setFromPoints(points);
-      this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(color, 0.4)));
+      this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(this.ground === "light" ? tinted(color, -0.25) : color, this.ground === "light" ? 0.7 : 0.4)));
     }
     this.pace.changed(true);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
+import type { Theme } from "../model/theme";
 import type { Http } from "../net/http";
 import { ServerError } from "../net/http";
 import { Latest } from "../net/latest";
@@ -19,6 +20,7 @@ import type { Scene } from "./scene";
 export interface SurfaceViewServices {
   navigation: Navigation;
   project: Project;
+  theme: Theme;
   http: Http;
   failed(error: unknown): void;
   goTo(p: Vec3): void;
@@ -84,9 +86,15 @@ export class SurfaceView {
       }
     }
     this.resized();
+    this.themeChanged();
+    this.surfacesChanged();
+  }
+
+  /** Lines are seen before what lies behind them. */
+  themeChanged(): void {
+    this.scene?.setGround(this.services.theme.scheme);
     this.planesChanged();
     this.contoursChanged();
-    this.surfacesChanged();
   }
 
   planesChanged(): void {

@@ -2,6 +2,7 @@
 import type { Appearance } from "../model/appearance";
 import type { LayoutName, Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
+import type { Theme } from "../model/theme";
 import type { Preset, Session } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { TOOLS, type ToolName } from "../tools/registry";
@@ -14,6 +15,7 @@ import { windowField } from "./window_field";
 export interface ToolbarServices {
   navigation: Navigation;
   appearance: Appearance;
+  theme: Theme;
   project: Project;
   editor: Editor;
   undo(): void;
@@ -66,7 +68,7 @@ export class Toolbar {
     const looks = group(
       button({ icon: ICONS.lines, title: "Show or hide the plane lines (X)", class: "icon-button", test: "lines", click: () => editor.toggleLines() }),
       this.link,
-      ...appearanceButton(services.appearance),
+      ...appearanceButton(services.appearance, services.theme),
     );
     const files = group(
       button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", click: services.openImport }),

@@ -39,6 +39,19 @@ async function prepare(): Promise<void> {
   await viewer.surfaceShown();
 }
 
+/** By the keyboard: the list that a click opens is the browser's own. */
+async function choose(theme: string): Promise<void> {
+  const { page } = viewer;
+  await page.click("[data-test=appearance]");
+  const field = page.locator("[data-test=theme]");
+  await field.focus();
+  await page.keyboard.press("Home");
+  for (let n = 0; n < 5 && (await field.inputValue()) !== theme; ++n) await page.keyboard.press("ArrowDown");
+  assert.equal(await field.inputValue(), theme);
+  await page.keyboard.press("Escape");
+  await field.waitFor({ state: "hidden" });
+}
+
 describe("axe finds nothing", () => {
   test("on the page with structures, contours, conflicts and figures", async () => {
     await open();
@@ -52,8 +65,41 @@ describe("axe finds nothing", () => {
       if (name === "statistics-open") await viewer.page.locator("[data-test=statistics]").waitFor();
       const found = await violations();
       await viewer.page.keyboard.press("Escape");
+      await viewer.page.locator("dialog[open], :popover-open").waitFor({ state: "detached" });
       assert.deepEqual(found, []);
     });
+});
+
+describe("axe finds nothing in the theme", () => {
+  const background = (place: string) => viewer.page.locator(place).evaluate((one) => getComputedStyle(one).backgroundColor);
+
+  for (const [theme, surface] of [["light", "rgb(242, 245, 247)"], ["dark-contrast", "rgb(5, 7, 10)"], ["light-contrast", "rgb(255, 255, 255)"]] as const)
+    test(theme, async () => {
+      await open();
+      await choose(theme);
+      assert.equal(await background(".toolbar"), surface);
+      assert.equal(await background(".pane.slice >> nth=0"), "rgb(0, 0, 0)", "slices stay black");
+      assert.deepEqual(await violations(), []);
+      await viewer.page.click("[data-test=export]");
+      assert.deepEqual(await violations(), []);
+      await viewer.page.keyboard.press("Escape");
+    });
+
+  test("that was chosen last, in the next page, too, until the system's is chosen again", async () => {
+    await open();
+    const { page } = viewer;
+    await choose("light");
+    await page.reload();
+    await viewer.ready();
+    const theme = () => page.evaluate(() => document.documentElement.dataset["theme"]);
+    assert.equal(await theme(), "light");
+    await choose("system");
+    for (const colorScheme of ["light", "dark"] as const) {
+      await page.emulateMedia({ colorScheme });
+      await page.waitForFunction((wanted) => document.documentElement.dataset["theme"] === wanted, colorScheme);
+    }
+    assert.deepEqual(viewer.complaints, []);
+  });
 });
 
 describe("the keyboard alone", () => {
@@ -85,6 +131,7 @@ describe("the system's wishes", () => {
     const line = () => page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--line").trim());
     const usual = await line();
     await page.emulateMedia({ contrast: "more" });
+    await page.waitForFunction(() => document.documentElement.dataset["contrast"] === "more");
     assert.notEqual(await line(), usual);
     await page.emulateMedia({ contrast: null, reducedMotion: "reduce" });
     const moves = () => page.evaluate(() => [...document.querySelectorAll("*")].filter((one) => Number.parseFloat(getComputedStyle(one).transitionDuration) > 0.01).length);
@@ -92,6 +139,7 @@ describe("the system's wishes", () => {
     await page.emulateMedia({ reducedMotion: null });
     assert.ok((await moves()) > 0, "the test can fail");
     await page.emulateMedia({ forcedColors: "active" });
+    assert.deepEqual(await violations(), []);
     const pressed = await page.locator('[aria-pressed="true"]').first().evaluate((one) => getComputedStyle(one).forcedColorAdjust);
     assert.equal(pressed, "none", "what is pressed keeps a colour of its own");
     await page.emulateMedia({ forcedColors: null });

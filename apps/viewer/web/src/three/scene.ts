@@ -157,10 +157,11 @@ export class Scene {
     return [...this.surfaces.keys()];
   }
 
-  /** Of lines that are set from now on. */
+  /** What lines that are set from now on are seen before. */
   setGround(ground: Scheme): void {
     this.ground = ground;
     this.box.material = this.lineMaterial(ground === "light" ? "#6d7a88" : "#56606c", 0.5);
+    this.pace.changed();
   }
 
   /** Away from the ground. */

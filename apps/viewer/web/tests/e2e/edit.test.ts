@@ -234,7 +234,7 @@ describe("live-wire", () => {
 describe("contours without a surface", () => {
   test("are told, with the places where they contradict each other", onlyChromium("on whole pixels, where Firefox's pointer goes, these two have a surface"), async () => {
     await drawBall("axial");
-    await drawBall("coronal", 0.5 * BALL_RADIUS_MM, 2);
+    await drawBall("coronal", 0.1 * BALL_RADIUS_MM, 2);
     await viewer.page.waitForSelector(".panel[data-stage=none]");
     await viewer.page.locator("[data-test=conflict]").first().waitFor();
     assert.match((await viewer.page.locator(".quality").textContent())!, /give no surface/);

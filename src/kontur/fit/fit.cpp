@@ -64,14 +64,14 @@ public:
         : all_(contours.points), ball_(contours.ball), options_(options), work_(work), bounds_(contours.bounds) {}
 
     FittedFunction run() {
+        const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
         result_.slopes = options_.start_slopes;
         result_.slopes.resize(all_.size(), 1.0);
         if (options_.normals == Normals::surface && options_.rounds > 0) {
             find_slopes();
-            settle_bounds();
+            settle_bounds(kept.size());
         }
         progress_ = {progress_.end, 1.0};
-        const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());
         for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves; ++result_.full_solves)
             other_bounds = solve_part(kept, 1);
         return std::move(result_);
@@ -103,10 +103,10 @@ private:
         result_.slopes = believed_slopes(all_, part, shown, options_.place.normal_offset_mm);
     }
 
-    /// Finds which bounds the fit leans on, from a part of the points: with them, a fit of all points seldom has to be repeated.
-    void settle_bounds() {
+    /// Finds which bounds a fit of so many points leans on, from half as many at most: that fit is repeated less often then.
+    void settle_bounds(std::size_t kept) {
         if (!bounds_.holds_any() || options_.most_solves == 1) return;
-        const std::vector<std::size_t> part = thin(all_, std::clamp(all_.size() / 2, std::size_t{1}, options_.tilt_points));
+        const std::vector<std::size_t> part = thin(all_, std::clamp(kept / 2, std::size_t{1}, options_.tilt_points));
         for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance);) ++solve;
     }
 

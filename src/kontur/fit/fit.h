@@ -64,7 +64,7 @@ void check_fit_options(const FitOptions& options, std::size_t points);
 ///
 /// Where f leaves the interval of a bound after a solve, the bound becomes a datum with noise of the next one, as long as f
 /// leans on it. Which bounds these are is settled by solves of a part of the points, so that the fit of all points, which
-/// costs the most, seldom has to be repeated. Interior and exterior points are bounds of the same kind. Throws Error as
+/// costs the most, is repeated less often. Interior and exterior points are bounds of the same kind. Throws Error as
 /// check_fit_options, place_constraints and solve do.
 FittedFunction fit(const PreparedContours& contours, const FitOptions& options, const Work& work = {});
 

@@ -161,6 +161,7 @@ ReadContours first_contours(const OpenCommand& command, const Words& words, Open
     if (words.contours.empty()) return {};
     ReadContours read = read_contours(words.contours, command.read);
     check_contours(read.contours);
+    for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
     result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());
     if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);
     return read;

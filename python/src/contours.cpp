@@ -262,6 +262,35 @@ contours : ContourSet
         },
         py::arg("contours"), py::kw_only(), KeywordText(checks));
     define(
+        m, "without_lines",
+        R"(The contours without closed ones whose points lie on one line, which enclose nothing, as `segment` takes them.
+
+Where no other contour shows the object, they stay.
+
+Parameters
+----------
+contours : ContourSet
+    As `check_contours` accepts them.
+@options
+
+Returns
+-------
+ContourSet
+
+Examples
+--------
+>>> plane = kontur.Plane([0, 0, 0], [0, 0, 1])
+>>> square = kontur.Contour([[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]], plane)
+>>> line = kontur.Contour([[20, 0, 0], [29, 0, 0], [25, 0, 0]], plane)
+>>> len(kontur.without_lines(kontur.ContourSet([square, line])).contours)
+1
+)",
+        [checks](ContourSet contours, const py::kwargs& options) {
+            leave_out_lines(contours, checks.parse("without_lines", options));
+            return contours;
+        },
+        py::arg("contours"), py::kw_only(), KeywordText(checks));
+    define(
         m, "contour_problems", R"(Every reason to refuse the contours, one sentence each; empty when they can be segmented.
 
 Parameters

@@ -12,7 +12,8 @@ SOURCES = ROOT / "src"
 
 # Names that say the same in another way, and options structs, which are keywords in Python.
 SAME = {
-    "make_plane": "Plane", "make_affine": "Grid", "select_mask": "Mask", "drop_duplicate_points": "without_duplicate_points", "read_contour": "read_contours",
+    "make_plane": "Plane", "make_affine": "Grid", "select_mask": "Mask", "drop_duplicate_points": "without_duplicate_points", "leave_out_lines": "without_lines",
+    "read_contour": "read_contours",
     "gradient": "ImplicitFunction", "contains": "EdgeMap", "volume_ml": "Mask", "point_count": "ContourSet", "bounding_box": "ContourSet",
     "smallest_ball": "ContourSet", "diameter_mm": "ContourSet", "Ball3": "ContourSet",
     "sample": "Image", "Result": "Segmentation", "Filling": "fill_labels", "DicomSeg": "read_dicom_seg", "DicomAlgorithm": "write_dicom_seg", "LabelName": "write_image",

@@ -52,9 +52,14 @@ def off_plane(planes):
     points_of(planes, 8)[3][2] += 2.5
 
 
-def zero_area(planes):
+def a_line_among_others(planes):
     planes[2]["contours"][0]["points"] = [[12, -7 + t, 10] for t in (0, 1, 2, 3, 1.5)]
     planes[2].update(circle("x", 0) | {"contours": planes[2]["contours"]})
+
+
+def only_a_line(planes):
+    a_line_among_others(planes)
+    planes[:] = planes[2:3]
 
 
 def far_away(planes):
@@ -70,7 +75,7 @@ def far_away(planes):
         (no_contour, ["no contour"]),
         (two_points, ["contour 2 has 2 points", "at least 3"]),
         (off_plane, ["contour 9", "2.5 mm", "limit"]),
-        (zero_area, ["contour 3", "no area"]),
+        (only_a_line, ["contour 1", "no area"]),
         (far_away, ["360 contour points", "outside"]),
     ],
 )
@@ -82,6 +87,16 @@ def test_contours_that_cannot_be_segmented(folder, spoil, words):
     assert code == 65
     for word in words:
         assert word in sentence
+
+
+def test_a_contour_without_area_is_left_out_where_others_show_the_object(folder):
+    planes = ball_planes()
+    a_line_among_others(planes)
+    write_planes(folder / "line.json", planes)
+    result = kontur("segment", "line.json", "--image", IMAGE, "--output", OUT, cwd=folder)
+    assert result.returncode == 0, result.stderr
+    said = result.stdout + result.stderr
+    assert "contour 3 has no area" in said and "left out" in said
 
 
 @pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity", "1e999", '"12"', "null"])

@@ -83,7 +83,12 @@ TEST(ContourCheck, ErrorsNameTheContourAndThePlace) {
     Contour infinite = rectangle(axial_at(4), -5, 5, -5, 5);
     infinite.points[1].y = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(only(ball_and(infinite), Kind::not_finite).severity, Severity::error);
-    EXPECT_EQ(only(ball_and(rectangle(axial_at(4), -5, 5, 0, 0.001)), Kind::no_area).severity, Severity::error);
+    ContourSet line;
+    line.contours.push_back(rectangle(axial_at(4), -5, 5, 0, 0.001));
+    EXPECT_EQ(only(line, Kind::no_area).severity, Severity::error);
+    const Finding left_out = only(ball_and(line.contours.front()), Kind::no_area);
+    EXPECT_EQ(left_out.severity, Severity::warning) << "others show the object";
+    EXPECT_EQ(left_out.text, "contour 4 has no area: it is 0.001 mm wide; it is left out");
 
     Contour open_hole = rectangle(axial_at(4), -5, 5, -5, 5);
     open_hole.closed = false;

@@ -243,6 +243,7 @@ TEST(Segment, RefusesInputThatCannotBeSegmented) {
     refused(invalid_input, "off its plane",
             [](ContourSet& c, Grid&, SegmentOptions&) { c.contours[0].points[7] += c.contours[0].plane.normal; });
     refused(invalid_input, "no area", [](ContourSet& c, Grid&, SegmentOptions&) {
+        c.contours.resize(1);
         for (std::size_t i = 0; i < 60; ++i)
             c.contours[0].points[i] = c.contours[0].plane.origin + static_cast<double>(i) * c.contours[0].plane.u;
     });

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "kontur/drawing/tidy.h"
@@ -28,6 +29,17 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
         notes.push_back(fmt::format("contours {} and {} overlap in part", a + 1, b + 1));
 }
 
+/// Contours that run back along themselves enclose nothing. Where there are no others, `tidy` refuses them.
+void leave_out_spikes(ContourSet& set, double spike_tolerance_mm, std::vector<std::string>& notes) {
+    const auto is_nothing = [&](const Contour& contour) { return is_only_spikes(contour, spike_tolerance_mm); };
+    if (std::none_of(set.contours.begin(), set.contours.end(),
+                     [&](const Contour& contour) { return !contour.hole && !is_nothing(contour); }))
+        return;
+    const std::size_t left_out = std::erase_if(set.contours, is_nothing);
+    if (left_out > 0)
+        notes.push_back(fmt::format("{} contours that run back along themselves, and enclose nothing, were left out", left_out));
+}
+
 void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
     if (tidied.spike_points > 0)
         notes.push_back(fmt::format("{} points of spikes, which enclose nothing, were left out", tidied.spike_points));
@@ -44,11 +56,14 @@ Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     if (const std::size_t dropped = drop_duplicate_points(contours); dropped > 0)
         notes.push_back(fmt::format("{} repeated points were left out", dropped));
     check_contours(contours);
+    for (std::string& note : leave_out_lines(contours)) notes.push_back(std::move(note));
+    const double drawn_mm = smallest_ball(contours).diameter();
+    const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
+    leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);
     note_filling(apply_fill_rule(contours, rule), notes);
     crossings = find_crossings(contours);
     tidied = contours;
-    const double drawn_mm = smallest_ball(contours).diameter();
-    note_tidied(tidy(tidied, {1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm}), notes);
+    note_tidied(tidy(tidied, tidy_options), notes);
     ball = smallest_ball(tidied);
 }
 

@@ -13,8 +13,8 @@ namespace kontur {
 
 /// What was drawn, without repeated points and with its holes known, and what all stages ask of it, found once.
 struct Drawing {
-    /// Leaves out repeated points, checks (check_contours, which throws) and finds the holes (apply_fill_rule; the contours'
-    /// indices are those after it).
+    /// Leaves out repeated points, checks (check_contours, which throws), leaves out contours that enclose nothing
+    /// (leave_out_lines) and finds the holes (apply_fill_rule); the contours' indices are those after all this.
     Drawing(ContourSet drawn, FillRule rule = FillRule::even_odd);
 
     ContourSet contours;

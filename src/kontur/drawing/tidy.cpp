@@ -40,6 +40,12 @@ std::vector<Vec3> without_spikes_around(const std::vector<Vec3>& ring, double to
     return kept;
 }
 
+std::vector<Vec3> points_without_spikes(const Contour& contour, double tolerance) {
+    return contour.closed ? without_spikes_around(contour.points, tolerance) : without_spikes(contour.points, tolerance);
+}
+
+std::size_t least_points(const Contour& contour) { return contour.closed ? 3 : 2; }
+
 /// For each point the tolerance up to which Douglas and Peucker's method keeps it; infinity for those it starts from.
 class Significance {
 public:
@@ -117,6 +123,10 @@ void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
 
 }  // namespace
 
+bool is_only_spikes(const Contour& contour, double spike_tolerance_mm) {
+    return points_without_spikes(contour, spike_tolerance_mm).size() < least_points(contour);
+}
+
 Tidied tidy(ContourSet& set, const TidyOptions& options) {
     check_not_below_0("the tolerance for spikes", options.spike_tolerance_mm, " mm");
     check_not_below_0("the tolerance for thinning", options.thin_tolerance_mm, " mm");
@@ -124,9 +134,8 @@ Tidied tidy(ContourSet& set, const TidyOptions& options) {
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         Contour& contour = set.contours[c];
         const std::size_t before = contour.points.size();
-        contour.points = contour.closed ? without_spikes_around(contour.points, options.spike_tolerance_mm)
-                                        : without_spikes(contour.points, options.spike_tolerance_mm);
-        if (contour.points.size() < (contour.closed ? 3u : 2u))
+        contour.points = points_without_spikes(contour, options.spike_tolerance_mm);
+        if (contour.points.size() < least_points(contour))
             throw Error(ErrorKind::invalid_input,
                         "contour " + std::to_string(c + 1) + " is nothing but a path back along itself");
         tidied.spike_points += before - contour.points.size();

@@ -21,6 +21,9 @@ struct Tidied {
     double thinned_mm = 0;  ///< no thinned point lies farther than this from the polygon that was kept
 };
 
+/// Whether a contour is nothing but a path back along itself: `tidy` would leave nothing of it.
+bool is_only_spikes(const Contour& contour, double spike_tolerance_mm);
+
 /// Takes out what carries no shape: spikes, whose tip and way back enclose nothing, and the excess of contours with more
 /// than `most_points` points. Thinning keeps the corners that Douglas and Peucker (1973) would; shorter contours keep every
 /// point. O(n log n) for n points of a drawn line, O(n^2) at worst. Throws Error(invalid_input), naming the contour, when

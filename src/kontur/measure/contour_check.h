@@ -23,7 +23,7 @@ enum class FindingKind {
     too_few_points,   ///< fewer than 3 different ones (open contours: 2)
     not_finite,       ///< a coordinate is NaN or infinite
     off_plane,        ///< a point lies too far off its contour's plane
-    no_area,          ///< all points lie on one line
+    no_area,          ///< all points lie on one line: an error only where no other contour shows the object
     unusable,         ///< refused by `check_contours` for another reason, such as a hole that is open
     repeated_points,  ///< edges of length zero
     spike,            ///< the path turns and runs back on itself

@@ -303,6 +303,23 @@ private:
 
 }  // namespace
 
+namespace {
+
+bool shows_the_object(const ContourSet& set) {
+    return std::any_of(set.contours.begin(), set.contours.end(), [](const Contour& contour) { return !contour.hole; });
+}
+
+/// Beside others, contours without area are no reason to refuse the set.
+void leave_out_lines_only(std::vector<Finding>& findings) {
+    for (Finding& finding : findings) {
+        if (finding.kind != FindingKind::no_area) continue;
+        finding.severity = Severity::warning;
+        finding.text += "; it is left out";
+    }
+}
+
+}  // namespace
+
 std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCheckOptions& options) {
     check_tolerances(options.limits);
     if (options.disagreement_mm) check_not_below_0("how far contours may disagree", *options.disagreement_mm, " mm");
@@ -313,6 +330,7 @@ std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCh
             sound.set.contours.push_back(set.contours[c]);
             sound.index.push_back(c);
         }
+    if (shows_the_object(sound.set)) leave_out_lines_only(findings);
     for (const std::string& problem : set_problems(set))
         findings.push_back({findings.empty() && set.contours.empty() ? FindingKind::no_contours : FindingKind::unusable,
                             Severity::error, problem});

@@ -47,11 +47,17 @@ Vec3 farthest_from(const Vec3& from, const std::vector<Vec3>& points) {
                              [&](const Vec3& a, const Vec3& b) { return distance(from, a) < distance(from, b); });
 }
 
-void check_area(const Contour& contour, double limit_mm, const std::string& owner) {
-    const double measured = width_mm(contour.points);
-    if (!(measured > limit_mm))
+/// Files round to absolute lengths; beside a contour of a micrometre they are no small ones.
+double line_limit_mm(const Contour& contour, const ContourCheckOptions& options) {
+    return std::min(options.line_tolerance_mm, 1e-3 * bounding_box(contour.points).diagonal());
+}
+
+void check_area(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
+    if (!contour.closed) return;
+    const double measured = width_mm(contour.points), limit = line_limit_mm(contour, options);
+    if (!(measured > limit))
         refuse(fmt::format("{} has no area: its {} points lie within {:.2g} mm of one line; the limit is {:g} mm", owner,
-                           contour.points.size(), measured, limit_mm));
+                           contour.points.size(), measured, limit));
 }
 
 void check_meaning(const Contour& contour, const std::string& owner) {
@@ -74,12 +80,11 @@ void check_contour(const Contour& contour, const ContourCheckOptions& options, c
                            contour.points.size() == 1 ? "" : "s", least));
     check_all_finite(contour.points, owner);
     check_plane(contour.plane, "the plane of " + owner);
-    // Files round to absolute lengths; beside a contour of a micrometre they are no small ones.
-    const double size_mm = bounding_box(contour.points).diagonal();
-    check_on_plane(contour, std::min(options.plane_tolerance_mm, 0.1 * size_mm), owner);
-    if (contour.closed) check_area(contour, std::min(options.line_tolerance_mm, 1e-3 * size_mm), owner);
+    check_on_plane(contour, std::min(options.plane_tolerance_mm, 0.1 * bounding_box(contour.points).diagonal()), owner);
     check_meaning(contour, owner);
 }
+
+std::string contour_name(std::size_t index) { return fmt::format("contour {}", index + 1); }
 
 /// Some contour must have the object on its inside.
 void check_encloses(const std::vector<Contour>& contours) {
@@ -109,6 +114,13 @@ std::optional<std::string> refusal(const Check& check) {
     } catch (const Error& error) {
         return error.what();
     }
+}
+
+/// Some contour shows the object though closed ones without area are left out.
+bool shows_without_lines(const ContourSet& set, const ContourCheckOptions& options) {
+    return std::any_of(set.contours.begin(), set.contours.end(), [&](const Contour& contour) {
+        return !contour.hole && !refusal([&] { check_area(contour, options, ""); });
+    });
 }
 
 bool is_inside(const Grid& grid, const Vec3& index) {
@@ -202,10 +214,15 @@ void check_tolerances(const ContourCheckOptions& options) {
 
 std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options) {
     check_tolerances(options);
+    const bool lines_may_go = shows_without_lines(set, options);
     std::vector<std::string> problems;
-    for (std::size_t i = 0; i < set.contours.size(); ++i)
-        if (const auto problem = contour_problem(set.contours[i], fmt::format("contour {}", i + 1), options))
-            problems.push_back(*problem);
+    for (std::size_t i = 0; i < set.contours.size(); ++i) {
+        const auto problem = refusal([&] {
+            check_contour(set.contours[i], options, contour_name(i));
+            if (!lines_may_go) check_area(set.contours[i], options, contour_name(i));
+        });
+        if (problem) problems.push_back(*problem);
+    }
     const std::vector<std::string> others = set_problems(set);
     problems.insert(problems.end(), others.begin(), others.end());
     return problems;
@@ -213,7 +230,23 @@ std::vector<std::string> contour_problems(const ContourSet& set, const ContourCh
 
 std::optional<std::string> contour_problem(const Contour& contour, const std::string& name,
                                            const ContourCheckOptions& options) {
-    return refusal([&] { check_contour(contour, options, name); });
+    return refusal([&] {
+        check_contour(contour, options, name);
+        check_area(contour, options, name);
+    });
+}
+
+std::vector<std::string> leave_out_lines(ContourSet& set, const ContourCheckOptions& options) {
+    if (!shows_without_lines(set, options)) return {};
+    std::vector<std::string> notes;
+    std::vector<Contour> kept;
+    for (std::size_t i = 0; i < set.contours.size(); ++i) {
+        if (const auto problem = refusal([&] { check_area(set.contours[i], options, contour_name(i)); }))
+            notes.push_back(*problem + "; it was left out, and contours after it count one less");
+        else kept.push_back(std::move(set.contours[i]));
+    }
+    set.contours = std::move(kept);
+    return notes;
 }
 
 std::vector<std::string> set_problems(const ContourSet& set) {

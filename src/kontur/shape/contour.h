@@ -94,8 +94,9 @@ inline constexpr double kFarthestSurfacePoint = 100;
 
 /// Throws Error(invalid_input), naming the contour (counted from 1), the number and the limit, when the set cannot be
 /// segmented: no contour, none but holes, a closed contour with fewer than 3 points or an open one with fewer than 2, a NaN
-/// or infinite coordinate, a point off its plane by more than the tolerance, a closed contour whose points lie on one line
-/// (zero area), `hole` or `end` on an open contour, `inside` on a closed one, `end` on a hole, a weight out of its range.
+/// or infinite coordinate, a point off its plane by more than the tolerance, `hole` or `end` on an open contour, `inside` on
+/// a closed one, `end` on a hole, a weight out of its range, nothing but closed contours whose points lie on one line (zero
+/// area) where there are some; beside others such a contour is no reason (leave_out_lines).
 /// Interior, exterior and surface points must be finite, outward directions and the normals of empty planes of length 1, and
 /// surface points no farther from the contours than `kFarthestSurfacePoint` times the diagonal of their box.
 void check_contours(const ContourSet& set, const ContourCheckOptions& options = {});
@@ -103,12 +104,16 @@ void check_contours(const ContourSet& set, const ContourCheckOptions& options = 
 /// Every reason of `check_contours` to refuse the set, at most one for each contour; empty when it can be segmented.
 std::vector<std::string> contour_problems(const ContourSet& set, const ContourCheckOptions& options = {});
 
-/// The first of them that a contour by itself is to blame for; `name` says which it is.
+/// What a contour by itself is to blame for, zero area included; `name` says which it is.
 std::optional<std::string> contour_problem(const Contour& contour, const std::string& name,
                                            const ContourCheckOptions& options = {});
 
 /// Those that no single contour is to blame for.
 std::vector<std::string> set_problems(const ContourSet& set);
+
+/// Takes closed contours without area, which enclose nothing, out of a set that check_contours accepts with these options.
+/// One sentence for each, counted as they were before.
+std::vector<std::string> leave_out_lines(ContourSet& set, const ContourCheckOptions& options = {});
 
 /// Number of contour points outside of the grid's voxels (their outer faces belong to the grid).
 std::size_t points_outside(const ContourSet& set, const Grid& grid);

@@ -52,6 +52,7 @@ ContourSet contour_set(const State& state, Id structure) {
     ContourSet set;
     set.name = structure_of(state, structure).name;
     set.empty_planes = structure_of(state, structure).empty_planes;
+    set.surface = structure_of(state, structure).surface_points;
     for (const auto& [id, contour] : state.contours)
         if (contour->structure == structure) set.contours.push_back({contour->plane, contour->points, true, contour->hole});
     return set;

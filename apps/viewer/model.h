@@ -55,6 +55,7 @@ struct Structure {
     bool visible = true;
     std::vector<Plane> empty_planes{};  ///< in which nothing of it is seen
     std::optional<double> smoothing{};  ///< of the fit (SegmentOptions); unset: the usual one
+    std::vector<SurfacePoint> surface_points{};  ///< that its surface passes
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };

@@ -100,10 +100,17 @@ json to_json(const Plane& plane) {
             {"normal", to_json(plane.normal)}};
 }
 
+json to_json(const SurfacePoint& point) {
+    json told{{"at", to_json(point.position)}};
+    if (point.outward) told["outward"] = to_json(*point.outward);
+    return told;
+}
+
 json to_json(const Structure& s) {
     json told{{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}};
     if (s.smoothing) told["smoothing"] = *s.smoothing;
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
+    for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
     return told;
 }
 
@@ -208,6 +215,19 @@ std::vector<Plane> Members::planes(const char* key, std::size_t most) const {
     return planes;
 }
 
+std::vector<SurfacePoint> Members::surface_points(const char* key) const {
+    const json& array = at(key);
+    if (!array.is_array() || array.size() > kMostSurfacePoints)
+        refuse(fmt::format("'{}' is no array of at most {} points", key, kMostSurfacePoints));
+    std::vector<SurfacePoint> points;
+    for (const json& item : array) {
+        const Members point(item, limits_);
+        points.push_back({point.point("at"), {}});
+        if (point.has("outward")) points.back().outward = unit_vector(point, "outward");
+    }
+    return points;
+}
+
 Stretch Members::stretch(const char* key) const {
     const std::string word = text(key, 16);
     for (const Stretch kind : {Stretch::free, Stretch::line, Stretch::spline, Stretch::wire})
@@ -236,6 +256,7 @@ Structure structure_from_json(const json& value) {
     Structure structure{m.id("id"), m.text("name", kMostNameBytes), m.color("color"), m.flag("visible")};
     if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes");
     if (m.has("smoothing")) structure.smoothing = m.smoothing("smoothing");
+    if (m.has("surface_points")) structure.surface_points = m.surface_points("surface_points");
     return structure;
 }
 

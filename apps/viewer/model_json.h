@@ -46,7 +46,7 @@ nlohmann::json to_json(const ControlPoint& point);
 nlohmann::json to_json(const DrawnContour& contour);
 
 /// Of one structure.
-constexpr std::size_t kMostEmptyPlanes = 1000;
+constexpr std::size_t kMostEmptyPlanes = 1000, kMostSurfacePoints = 1000;
 Structure structure_from_json(const nlohmann::json& value);
 DrawnContour contour_from_json(const nlohmann::json& value, const Limits& limits = {});
 
@@ -72,6 +72,7 @@ public:
     std::vector<Vec3> points(const char* key) const;
     /// An orthonormal plane; cosines up to 1e-3 off are corrected.
     Plane plane(const char* key) const;
+    std::vector<SurfacePoint> surface_points(const char* key) const;
     std::vector<Plane> planes(const char* key, std::size_t most = kMostEmptyPlanes) const;
     Stretch stretch(const char* key) const;
     /// The number of an image, from 0; 0 where it is missing.

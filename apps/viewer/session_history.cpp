@@ -25,6 +25,10 @@ json changes_json(const std::vector<Change<Row>>& changes) {
 }
 
 /// Whether both ask the same of the surface.
+bool same_surface(const Structure& a, const Structure& b) {
+    return a.empty_planes == b.empty_planes && a.smoothing == b.smoothing && a.surface_points == b.surface_points;
+}
+
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
     return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure;
 }
@@ -117,9 +121,7 @@ std::set<Id> Session::touched_surfaces(const Commit& commit) const {
     if (commit.use_image)
         for (const auto& [id, structure] : project_.state().structures) touched.insert(id);
     for (const auto& change : commit.structures)
-        if (!change.before || !change.after || change.before->empty_planes != change.after->empty_planes ||
-            change.before->smoothing != change.after->smoothing)
-            touched.insert(change.id);
+        if (!change.before || !change.after || !same_surface(*change.before, *change.after)) touched.insert(change.id);
     for (const auto& change : commit.contours) {
         if (change.before && change.after && same_surface(*change.before, *change.after)) continue;
         for (const auto& side : {change.before, change.after})
@@ -133,7 +135,9 @@ SurfaceTask Session::surface_task(Id structure) const {
     task.structure = structure;
     const State& state = project_.state();
     if (const auto own = state.structures.find(structure); own != state.structures.end()) {
+        task.set.name = own->second.name;
         task.set.empty_planes = own->second.empty_planes;
+        task.set.surface = own->second.surface_points;
         task.smoothing = own->second.smoothing;
     }
     const auto add = [&](const DrawnContour& contour) {
@@ -150,8 +154,6 @@ SurfaceTask Session::surface_task(Id structure) const {
     };
     for (const auto& [id, contour] : state.contours) add(shown(id, *contour));
     if (draft_ && !state.contours.contains(draft_->id)) add(*draft_);
-    if (const auto found = state.structures.find(structure); found != state.structures.end())
-        task.set.name = found->second.name;
     return task;
 }
 

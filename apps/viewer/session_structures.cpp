@@ -92,6 +92,7 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
         Structure structure{project_.new_id(), name_from(set.name), next_color(state), true, set.empty_planes};
+        structure.surface_points = set.surface;
         if (structure.name.empty()) structure.name = free_name(state);
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});

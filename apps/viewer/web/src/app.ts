@@ -34,7 +34,7 @@ import { SecondImageCard } from "./ui/second_image_card";
 import { openStatistics } from "./ui/statistics";
 import { Notices, StatusBar } from "./ui/status";
 import { Toolbar } from "./ui/toolbar";
-import { valuesText } from "./ui/values";
+import { placeText, valuesText } from "./ui/values";
 import { SliceView } from "./view/slice_view";
 
 /** Puts the parts of the page together, and hands the server's events to them. */
@@ -118,6 +118,7 @@ export class App {
     });
     const panel = new Panel({
       ...shared,
+      points: this.editor.points,
       call: (name, args = {}) => this.editor.edits.make(name, args),
       identity: this.identity.element,
       secondImage: this.secondCard.element,
@@ -180,6 +181,9 @@ export class App {
     editor.on(["tool", "hover"], () => this.tellHint());
     editor.measuring.measurements.on(["changed"], each((view) => view.paint()));
     editor.measuring.measurements.on(["changed"], () => this.keeper.saveSoon());
+    editor.points.on(["points"], each((view) => view.paint()));
+    editor.points.on(["points"], () => this.surface.pointsChanged());
+    editor.points.on(["points"], () => this.tellHint());
     editor.drawing.on(["sketch"], each((view) => view.paint()));
     editor.drawing.on(["sketch"], () => this.tellHint());
     editor.proposals.on(["proposal"], each((view) => view.paint()));
@@ -417,7 +421,7 @@ export class App {
   private async askValue(at: Vec3): Promise<void> {
     const { values } = await this.socket.call<{ values: (number | null)[] }>("value", { at });
     const { session, second } = this;
-    if (session) this.status.setCursor(`${place(at)}  ·  ${valuesText(values, session, second.info)}`);
+    if (session) this.status.setCursor(`${placeText(at)}  ·  ${valuesText(values, session, second.info)}`);
   }
 
   /** Esc: first what the pointer does, then the sketch, then the tool, then the selection. */
@@ -477,9 +481,4 @@ export class App {
     });
     window.addEventListener("pagehide", save);
   }
-}
-
-function place(p: Vec3): string {
-  const letters = [["R", "L"], ["A", "P"], ["I", "S"]] as const;
-  return p.map((value, i) => `${letters[i]![value >= 0 ? 1 : 0]} ${Math.abs(value).toFixed(1)}`).join("  ") + " mm";
 }

@@ -42,6 +42,7 @@ export class Scene {
   private readonly lines = new THREE.Group();
   private readonly planes = new THREE.Group();
   private readonly marks = new THREE.Group();
+  private readonly points = new THREE.Group();
   private readonly box: THREE.LineSegments; // the image's edges, while there is no surface
   private readonly extent_mm: number;
   private readonly center: Vec3;
@@ -70,7 +71,7 @@ export class Scene {
     });
     this.center = scale(corners.reduce(add), 1 / corners.length);
     this.extent_mm = Math.max(...corners.map((corner) => distance(corner, this.center)));
-    this.scene.add(new THREE.HemisphereLight(0xdfe8f5, 0x2a2f38, 1.5), this.light, this.lines, this.planes, this.marks);
+    this.scene.add(new THREE.HemisphereLight(0xdfe8f5, 0x2a2f38, 1.5), this.light, this.lines, this.planes, this.marks, this.points);
     this.scene.add((this.box = this.imageBox()));
     this.controls = new TrackballControls(this.camera, canvas);
     Object.assign(this.controls, { rotateSpeed: 3, zoomSpeed: 1.2, panSpeed: 0.9, staticMoving: true });
@@ -195,11 +196,15 @@ export class Scene {
   setMarks(places: readonly Vec3[]): void {
     if (places.length === 0 && this.marks.children.length === 0) return;
     this.clear(this.marks);
-    for (const place of places) {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), this.markMaterial());
-      ball.position.copy(vector(place));
-      this.marks.add(ball);
-    }
+    for (const place of places) this.marks.add(ball(place, this.markMaterial()));
+    this.pace.changed(true);
+  }
+
+  /** Single points that surfaces pass: seen where the surface is. */
+  setPoints(points: readonly { at: Vec3; color: string; selected: boolean }[]): void {
+    if (points.length === 0 && this.points.children.length === 0) return;
+    this.clear(this.points);
+    for (const { at, color, selected } of points) this.points.add(ball(at, this.pointMaterial(selected ? "#ffffff" : tinted(color, 0.6))));
     this.pace.changed(true);
   }
 
@@ -246,11 +251,17 @@ export class Scene {
   }
 
   /** Where a ray through this place of the canvas (0 to 1) meets a surface. */
-  pick(x: number, y: number): Vec3 | null {
+  pick(x: number, y: number): { structure: number; at: Vec3 } | null {
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2(2 * x - 1, 1 - 2 * y), this.camera);
-    const hit = ray.intersectObjects([...this.surfaces.values()].map(({ mesh }) => mesh).filter((mesh) => mesh.visible))[0];
-    return hit ? hit.point.toArray() : null;
+    let nearest: { structure: number; at: Vec3; distance: number } | null = null;
+    for (const [structure, { mesh, fine }] of this.surfaces) {
+      if (!mesh.visible) continue;
+      mesh.geometry = fine; // a rough one is millimetres off
+      const hit = ray.intersectObject(mesh)[0];
+      if (hit && hit.distance < (nearest?.distance ?? Infinity)) nearest = { structure, at: hit.point.toArray(), distance: hit.distance };
+    }
+    return nearest;
   }
 
   private radius = 100;
@@ -306,7 +317,7 @@ export class Scene {
 
   /** Marks keep their size on the screen. */
   private sizeMarks(): void {
-    for (const mark of this.marks.children) mark.scale.setScalar(MARK_PIXELS * this.mm_per_pixel);
+    for (const mark of [...this.marks.children, ...this.points.children]) mark.scale.setScalar(MARK_PIXELS * this.mm_per_pixel);
   }
 
   /** The mark that is nearest to this place of the canvas, in pixels, if that is within `reach`. */
@@ -347,12 +358,22 @@ export class Scene {
     return this.material("mark", () => new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
   }
 
+  private pointMaterial(color: string): THREE.MeshBasicMaterial {
+    return this.material(`point ${color}`, () => new THREE.MeshBasicMaterial({ color }));
+  }
+
   private imageBox(): THREE.LineSegments {
     const ends: THREE.Vector3[] = [];
     for (let a = 0; a < 8; ++a)
       for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
     return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.lineMaterial("#56606c", 0.5));
   }
+}
+
+function ball(center: Vec3, material: THREE.Material): THREE.Mesh {
+  const made = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), material);
+  made.position.copy(vector(center));
+  return made;
 }
 
 function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {

@@ -12,6 +12,7 @@ import type { Vec3 } from "../geometry/vec";
 import { button, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
 import { PLANE_COLORS } from "../view/palette";
+import type { Editor } from "../tools/editor";
 import { CLICK_PIXELS } from "../tools/gesture";
 import { BAND_STOPS, bandColors, bandScale } from "./band";
 import { OrientationCube, SIDES } from "./cube";
@@ -21,12 +22,13 @@ export interface SurfaceViewServices {
   navigation: Navigation;
   project: Project;
   theme: Theme;
+  editor: Editor;
   http: Http;
   failed(error: unknown): void;
   goTo(p: Vec3): void;
 }
 
-const MARK_REACH_PIXELS = { finger: 22, other: 9 };
+const REACH_PIXELS = { finger: 22, other: 9 };
 
 /** The pane of the 3D view. Without WebGL it says so, and the rest of the page works on. */
 export class SurfaceView {
@@ -65,7 +67,7 @@ export class SurfaceView {
     this.ramp.style.background = `linear-gradient(to right, ${BAND_STOPS.join()})`;
     this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.bar, this.scale, this.cube.element);
     this.cube.element.hidden = true;
-    this.watchMarks();
+    this.watchClicks();
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
@@ -111,7 +113,13 @@ export class SurfaceView {
         selected: project.selection?.contour === contour.id,
       })),
     );
+    this.pointsChanged();
     this.showHint();
+  }
+
+  pointsChanged(): void {
+    const { editor, project } = this.services;
+    this.scene?.setPoints(editor.points.shown().map((point) => ({ at: point.at, color: project.structures.get(point.structure)!.color, selected: editor.points.isSelected(point) })));
   }
 
   /** Fetches meshes that are newer than those shown. */
@@ -202,25 +210,39 @@ export class SurfaceView {
     this.bar.style.width = `${pixels}px`;
   }
 
-  /** A click on a mark goes to the place. */
-  private watchMarks(): void {
+  /** A click on a mark goes to the place; elsewhere on a surface it is the tool's. */
+  private watchClicks(): void {
     let pressed: PointerEvent | null = null;
-    const markBelow = (event: PointerEvent): Vec3 | null => {
-      const box = this.canvas.getBoundingClientRect();
-      const reach = event.pointerType === "touch" ? MARK_REACH_PIXELS.finger : MARK_REACH_PIXELS.other;
-      return this.scene?.markAt(event.clientX - box.left, event.clientY - box.top, reach) ?? null;
-    };
+    const isStill = (event: PointerEvent) => pressed?.pointerId === event.pointerId && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < CLICK_PIXELS;
     this.canvas.addEventListener("pointerdown", (event) => {
-      pressed = event.isPrimary ? event : null;
+      pressed = event.isPrimary && event.button === 0 ? event : null;
     });
     this.canvas.addEventListener("pointermove", (event) => {
-      if (event.buttons === 0) this.canvas.style.cursor = markBelow(event) ? "pointer" : "";
+      if (pressed && !isStill(event)) pressed = null; // it turns the view, even if it comes back
+      if (event.buttons === 0) this.canvas.style.cursor = this.markBelow(event) ? "pointer" : this.services.editor.tool.clickSurface ? "crosshair" : "";
     });
     this.canvas.addEventListener("pointerup", (event) => {
-      const isClick = pressed?.pointerId === event.pointerId && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < CLICK_PIXELS;
-      const mark = isClick ? markBelow(event) : null;
-      if (mark) this.services.goTo(mark);
+      if (isStill(event)) this.click(event);
+      pressed = null;
     });
+  }
+
+  private click(event: PointerEvent): void {
+    const { editor } = this.services;
+    const mark = this.markBelow(event);
+    if (mark) return this.services.goTo(mark);
+    const hit = editor.tool.clickSurface && !editor.isBare ? this.surfaceBelow(event) : null;
+    if (hit) editor.tool.clickSurface!(editor, { ...hit, reach_mm: reachOf(event) * this.scene!.mm_per_pixel });
+  }
+
+  private markBelow(event: PointerEvent): Vec3 | null {
+    const box = this.canvas.getBoundingClientRect();
+    return this.scene?.markAt(event.clientX - box.left, event.clientY - box.top, reachOf(event)) ?? null;
+  }
+
+  private surfaceBelow(event: MouseEvent): { structure: number; at: Vec3 } | null {
+    const box = this.canvas.getBoundingClientRect();
+    return this.scene?.pick((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height) ?? null;
   }
 
   private showHint(): void {
@@ -241,9 +263,8 @@ export class SurfaceView {
   }
 
   private pick(event: MouseEvent): void {
-    const box = this.canvas.getBoundingClientRect();
-    const hit = this.scene?.pick((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
-    if (hit) this.services.goTo(hit);
+    const hit = this.surfaceBelow(event);
+    if (hit) this.services.goTo(hit.at);
   }
 
   private resized(): void {
@@ -251,6 +272,8 @@ export class SurfaceView {
     this.scene?.resize(box.width, box.height);
   }
 }
+
+const reachOf = ({ pointerType }: PointerEvent): number => (pointerType === "touch" ? REACH_PIXELS.finger : REACH_PIXELS.other);
 
 function hasWebGl(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");

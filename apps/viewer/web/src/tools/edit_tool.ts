@@ -25,18 +25,26 @@ export const editTool: Tool<"edit"> = {
   },
   movesPlanes: true,
   hint: ({ project }, hover) => (hover && "outline" in hover ? OUTLINE : project.selection ? SELECTED : LOOKING),
-  press: ({ edits, outlines, planeLines }, { view, screen, pointer, hit }, modifiers) => {
+  press: ({ edits, outlines, planeLines, points }, place, modifiers) => {
+    const { view, screen, pointer, hit } = place;
+    const point = points.at(place);
+    if (point) return points.grab(screen, pointer, point);
     if (hit) return edits.press(screen, pointer, hit, modifiers);
     const isHandle = planeLines.at(view, screen, pointer)?.on === "turn";
     return (isHandle ? null : outlines.press(view, screen, pointer)) ?? planeLines.press(view, screen, pointer);
   },
-  hover: ({ outlines, planeLines }, { view, screen, pointer, hit }) => {
+  hover: ({ outlines, planeLines, points }, place) => {
+    const { view, screen, pointer, hit } = place;
+    const point = points.at(place);
+    if (point) return { point, view };
     if (hit) return { contour: hit, view };
     const line = planeLines.at(view, screen, pointer);
     const outline = line?.on === "turn" ? null : outlines.at(view, screen, pointer);
     if (outline) return { outline, view };
     return line && { line, view };
   },
+  remove: ({ points }) => points.removeSelected(),
+  leave: ({ points }) => points.deselect(),
   cursor: usualCursor,
   paint: (painter, { outlines, project }, view, hover) => {
     if (!hover || !("outline" in hover) || hover.view !== view) return;

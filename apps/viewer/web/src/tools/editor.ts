@@ -18,6 +18,7 @@ import { Proposals } from "./proposals";
 import { Pushing } from "./pushing";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
 import type { EditorServices } from "./services";
+import { SurfacePoints } from "./surface_points";
 import type { Hover, Tool, ToolContext } from "./tool";
 
 /** Hands presses and moves on a view to the tool that the user has chosen. */
@@ -33,6 +34,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly planeLines: PlaneLines;
   readonly pushing: Pushing;
   readonly proposals: Proposals;
+  readonly points: SurfacePoints;
   readonly measuring = new Measuring();
 
   constructor(
@@ -46,6 +48,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.edits = new ContourEdits(navigation, project, this.drawing, drafts, services);
     this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
     this.pushing = new Pushing(project, this.drawing, this.edits, this.outlines, drafts, services);
+    this.points = new SurfacePoints(project, this.edits, services);
     this.proposals = new Proposals(navigation, project, this.drawing, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);
     this.drawing.on(["resumed"], () => this.takeToolOfSketch());

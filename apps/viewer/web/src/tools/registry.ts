@@ -3,13 +3,14 @@ import { editTool } from "./edit_tool";
 import { freehandTool } from "./freehand_tool";
 import { measureTool } from "./measure_tool";
 import { moveTool } from "./move_tool";
+import { pointTool } from "./point_tool";
 import { pushTool } from "./push_tool";
 import { redrawTool } from "./redraw_tool";
 import { splineTool } from "./spline_tool";
 import type { Tool } from "./tool";
 import { wireTool } from "./wire_tool";
 
-const ALL = [editTool, wireTool, freehandTool, splineTool, redrawTool, moveTool, pushTool, measureTool] as const;
+const ALL = [editTool, wireTool, freehandTool, splineTool, redrawTool, moveTool, pushTool, pointTool, measureTool] as const;
 
 export type ToolName = (typeof ALL)[number]["id"];
 

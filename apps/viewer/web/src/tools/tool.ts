@@ -14,6 +14,7 @@ import type { Place } from "./place";
 import type { PlaneLines } from "./plane_lines";
 import type { Pushing } from "./pushing";
 import type { Sketch } from "./sketch";
+import type { PointOfSurface, SurfacePlace, SurfacePoints } from "./surface_points";
 
 /** What a tool works with. */
 export interface ToolContext {
@@ -24,11 +25,12 @@ export interface ToolContext {
   outlines: OutlineEdits;
   planeLines: PlaneLines;
   pushing: Pushing;
+  points: SurfacePoints;
   measuring: Measuring;
 }
 
 /** What the pointer would take. */
-export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { brush: Point2; view: ViewName } | { measure: boolean; at: Point2; view: ViewName } | null;
+export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { point: PointOfSurface; view: ViewName } | { brush: Point2; view: ViewName } | { measure: boolean; at: Point2; view: ViewName } | null;
 
 export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D", "Touch"] as const;
 export type HelpSection = (typeof HELP_SECTIONS)[number];
@@ -60,6 +62,8 @@ export interface Tool<Id extends string = string> {
   press(context: ToolContext, place: Place, modifiers: Modifiers): Gesture | null;
   /** The pointer is here, and no button is held. */
   hover(context: ToolContext, place: Place): Hover;
+  /** A click on a surface in the 3D view. */
+  clickSurface?(context: ToolContext, place: SurfacePlace): void;
   /** The wheel with Ctrl, where it does not zoom; above 1: larger. */
   wheel?(context: ToolContext, factor: number): void;
   /** Del and Backspace, where they mean something to the tool; false where they do not. */
@@ -75,7 +79,7 @@ export interface Tool<Id extends string = string> {
 
 export function usualCursor(hover: Hover): string {
   if (!hover || "brush" in hover || "measure" in hover) return "crosshair";
-  if ("outline" in hover) return "grab";
+  if ("outline" in hover || "point" in hover) return "grab";
   if ("contour" in hover) return hover.contour.on === "point" ? "grab" : "pointer";
   return hover.line.on === "turn" ? "alias" : "move";
 }

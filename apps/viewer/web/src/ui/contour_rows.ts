@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Vec3 } from "../geometry/vec";
 import { between, groupsOf, isGrouped } from "../model/contour_list";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Contour, Structure, ViewName } from "../net/protocol";
+import type { SurfacePoints } from "../tools/surface_points";
 import { PLANE_COLORS } from "../view/palette";
 import { placeOf, type InPlane } from "./contour_names";
 import { button, el, eye } from "./dom";
@@ -12,6 +14,8 @@ export interface RowServices {
   navigation: Navigation;
   project: Project;
   call(name: string, args?: Record<string, unknown>): void;
+  points: SurfacePoints;
+  goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
   show(contour: InPlane): void;
 }

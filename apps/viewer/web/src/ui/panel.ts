@@ -24,7 +24,6 @@ export interface PanelServices extends RowServices, ActionServices {
   /** Shows where to draw next. */
   suggest(): void;
   addStructure(): void;
-  goTo(p: Vec3): void;
 }
 
 /** Structures with their contours, and how well the surface fits them. */
@@ -56,6 +55,7 @@ export class Panel {
       this.quality,
     );
     project.on(["structures", "contours", "selection"], () => this.update());
+    services.points.on(["points"], () => this.update());
     services.editor.proposals.on(["proposal"], () => this.update(false));
     project.on(["surfaces", "stages"], () => this.update(false)); // a list made anew for each would take a click away
   }

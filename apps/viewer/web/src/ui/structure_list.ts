@@ -6,6 +6,7 @@ import { ContourRows, type RowServices } from "./contour_rows";
 import { button, el, eye, listen } from "./dom";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "./icons";
+import { surfacePointRows } from "./surface_points";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye
 const DOUBLE_CLICK_MS = 500; // what desktops begin with
@@ -103,7 +104,7 @@ export class StructureList {
     row!.setAttribute("title", isActive ? "New contours go into this structure" : "Click: new contours go into this structure");
     row!.querySelector(".name")!.setAttribute("aria-current", String(isActive));
     for (const old of contours) old.remove();
-    if (this.isOpen(structure)) entry.append(...this.rows.rowsOf(structure, this.contoursOf(structure)), ...emptyPlaneRows(structure, this.services));
+    if (this.isOpen(structure)) entry.append(...this.rows.rowsOf(structure, this.contoursOf(structure)), ...emptyPlaneRows(structure, this.services), ...surfacePointRows(structure, this.services));
   }
 
   private colorField(structure: Structure): HTMLInputElement {

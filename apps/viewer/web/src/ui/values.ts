@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Vec3 } from "../geometry/vec";
 import type { FurtherImage, Session } from "../net/protocol";
 import { shortName } from "./second_image_card";
 
@@ -13,4 +14,10 @@ export function valuesText(values: readonly (number | null)[], { image, identity
   const own = valueText(first, image.unit);
   if (!second) return own;
   return `${shortName(identity, "first")} ${own}  ·  ${shortName(second.identity, "second")} ${valueText(other, second.unit)}`;
+}
+
+/** "R 12.0  P 3.4  S 20.1 mm": which way from the frame's origin, and how far. */
+export function placeText(p: Vec3): string {
+  const letters = [["R", "L"], ["A", "P"], ["I", "S"]] as const;
+  return p.map((value, i) => `${letters[i]![value >= 0 ? 1 : 0]} ${Math.abs(value).toFixed(1)}`).join("  ") + " mm";
 }

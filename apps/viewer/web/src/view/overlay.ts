@@ -72,6 +72,19 @@ export class OverlayPainter {
     contour.control.forEach(({ at }, i) => this.handle(toScreen(this.screen, at), i === state.point, i === state.hoveredPoint, color));
   }
 
+  /** A single point that a surface passes: square, unlike the points of lines. */
+  surfacePoint(at: Vec3, color: string, state: { selected: boolean; hovered: boolean }): void {
+    const [x, y] = toScreen(this.screen, at);
+    const r = this.scale * (state.selected || state.hovered ? 5.2 : 4);
+    const path = new Path2D();
+    path.rect(x - r, y - r, 2 * r, 2 * r);
+    this.ctx.lineJoin = "miter";
+    this.stroke(path, SHADE, 4.4);
+    this.ctx.fillStyle = state.selected ? "#ffffff" : color;
+    this.ctx.fill(path);
+    this.stroke(path, state.selected ? color : "#ffffff", 1.6);
+  }
+
   /** The contour that is being drawn. */
   sketch(placed: readonly Vec3[], rubber: readonly Vec3[], points: readonly Vec3[], color: string, closes: boolean): void {
     this.ctx.lineJoin = "round";

@@ -44,6 +44,7 @@ export class SliceVectors {
     if (slice && areParallel(slice.plane, screen.axes)) this.paintSurfaces(painter, screen, slice);
     this.paintLines(painter, screen);
     this.paintContours(painter, screen);
+    this.paintPoints(painter, screen);
     this.paintRings(painter, screen);
     this.paintProposal(painter, screen);
     this.paintSketch(painter, screen);
@@ -97,6 +98,13 @@ export class SliceVectors {
         hoveredPoint: hovered && hover.on === "point" ? hover.index : null,
       });
     }
+  }
+
+  private paintPoints(painter: OverlayPainter, screen: Screen): void {
+    const { editor, navigation, project } = this.services;
+    const hover = editor.hover && "point" in editor.hover && editor.hover.view === this.name ? editor.hover.point : null;
+    for (const point of editor.points.lyingIn(screen, navigation.step(this.name)))
+      painter.surfacePoint(point.at, project.structures.get(point.structure)?.color ?? "#888888", { selected: editor.points.isSelected(point), hovered: hover?.at === point.at });
   }
 
   private paintMeasurements(painter: OverlayPainter, screen: Screen): void {

@@ -231,6 +231,7 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
     if (update.kind == EditorUpdate::Kind::progress) return show_progress(structure, edit, update);
     SurfaceTask task;
     Alone known;
+    bool is_held_back = false;
     {
         const std::scoped_lock lock(mutex_);
         Follower& follower = followers_[structure];
@@ -239,19 +240,24 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
         tasks.erase(tasks.begin(), tasks.lower_bound(edit));
         task = tasks.at(edit);
         known = std::exchange(follower.without_image, {});
+        is_held_back = update.asks_image && follower.shows_image;
     }
     Alone alone = heard(task, update, std::move(known));
     Surface& surface = alone.surface;
     const bool is_final = update.kind != EditorUpdate::Kind::preview && !update.asks_image;
     if (is_final && hand_over(task, alone)) return;
-    if (is_finished(surface.stage) && surface.revision == 0) {
+    if (is_finished(surface.stage) && surface.revision == 0 && !is_held_back) {
         surface.revision = next_revision();
         listener_.outlines(structure, surface.revision, cutters(surface));
     }
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[structure];
     if (update.asks_image) follower.without_image = alone;
-    if (update.kind == EditorUpdate::Kind::preview) surface.revision = std::exchange(follower.ahead, 0);
+    if (is_held_back) return;
+    if (update.kind == EditorUpdate::Kind::preview) {
+        surface.revision = std::exchange(follower.ahead, 0);
+        follower.shows_image = update.surface.shown_before > 0;
+    }
     const bool is_newest = follower.tasks.size() == 1 && !follower.is_outdated;
     // Of contours that have changed meanwhile it is only on the way to their surface.
     if (!is_newest && is_finished(surface.stage)) surface.stage = SurfaceStage::preview;

@@ -130,6 +130,8 @@ private:
         bool is_working = false;
         bool is_outdated = false;            ///< there will be another task
         Alone without_image;                 ///< of the task for which the image is asked
+        bool shows_image = false;            ///< the preview follows what the image said before: until it has been asked
+                                             ///< again nothing else is shown, which would jump there and back
         std::int64_t ahead = 0;              ///< revision of the preview whose outlines have been told
         std::string_view stage;              ///< what the status line was told last ...
         int tenths = 0;                      ///< ... and how far it was

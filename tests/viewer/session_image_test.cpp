@@ -170,6 +170,38 @@ TEST(SessionImage, WhereItDoesNotHelpTheSurfaceStaysAndKeepsItsRevision) {
     EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);
 }
 
+TEST(SessionImage, BetweenAPreviewThatFollowsItAndItsAnswerNothingElseIsShown) {
+    for (const auto& [image, shown] :
+         {std::pair{image_of_body(), std::vector<std::string>{"outdated", "preview", "refined"}},
+          {image_of_noise(), {"outdated", "preview", "asking", "refined"}}}) {
+        Visit here(image);
+        here.told_surfaces();
+        const Id contour = here.greeting()["contours"][0]["id"];
+        here.call({{"call", "contour.translate"}, {"id", contour}, {"by", {0.5, 0, 0}}});
+        const std::vector<json> told = here.told_surfaces();
+        ASSERT_EQ(stages(told), shown);
+        const Segmentation made = here.segmented(true);
+        EXPECT_EQ(told.back()["image"]["text"], sentence(made.report.image));
+        EXPECT_EQ(told.back()["revision"], here.surface()["revision"]);
+        EXPECT_GT(told.back()["revision"], told[1]["revision"]);
+        EXPECT_EQ(here.exported_mask(), made.mask.values);
+        EXPECT_EQ(here.slice()["outlines"][0].contains("without_image"), made.report.image.verdict == ImageVerdict::used);
+    }
+}
+
+TEST(SessionImage, WhatThePreviewFollowedIsTakenBackWhereTheImageIsNotUsedAnyMore) {
+    Visit here(image_of_body());
+    here.told_surfaces();
+    // Of three planes nobody can tell whether the image helps.
+    here.call({{"call", "contour.remove"}, {"ids", {here.greeting()["contours"][0]["id"]}}});
+    const std::vector<json> told = here.told_surfaces();
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "refined"}));
+    EXPECT_EQ(told.back()["image"]["verdict"], "unknown");
+    EXPECT_GT(told.back()["revision"], told[1]["revision"]);
+    EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);
+    EXPECT_FALSE(here.slice()["outlines"][0].contains("without_image"));
+}
+
 TEST(SessionImage, IsNotAskedWhereItCannotTellBorders) {
     for (const auto& image : {label_map(), test::flat_image()}) {
         Visit here(image);

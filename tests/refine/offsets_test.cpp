@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "kontur/phantom/random.h"
 #include "kontur/solve/gaussian_posterior.h"
@@ -121,6 +122,23 @@ TEST(Offsets, ImageThatIsKnownToBeWrongCountsLess) {
     OffsetEvidence e = evidence(1, 24, 0.25, [](double u) { return -8 * (u - 2) * (u - 2); });
     e.image_sd_mm = {1};  // as wrong as the contours alone: halfway
     EXPECT_NEAR(find_offsets(std::span(&point, 1), {}, e).mean_mm[0], 1, 0.05);
+}
+
+TEST(Offsets, NeighboursThatErrTogetherCountAsOne) {
+    for (const int count : {1, 4, 25}) {
+        const std::vector<MovingPoint> points(static_cast<std::size_t>(count),
+                                              {.position = {}, .normal = {1, 0, 0}, .distance_mm = 5, .prior_mm = 1});
+        OffsetEvidence e = evidence(count, 24, 0.25, [](double u) { return -8 * (u - 2) * (u - 2); });
+        e.image_sd_mm.assign(points.size(), 1);
+        EXPECT_NEAR(find_offsets(points, {}, e).mean_mm[0], 1, 0.05) << count;
+    }
+}
+
+TEST(Offsets, AnImageThatIsNotBelievedMovesNothing) {
+    const MovingPoint point{.position = {}, .normal = {1, 0, 0}, .distance_mm = 5, .prior_mm = 1};
+    OffsetEvidence e = evidence(1, 24, 0.25, [](double u) { return -8 * (u - 2) * (u - 2); });
+    e.image_sd_mm = {std::numeric_limits<double>::infinity()};
+    EXPECT_EQ(find_offsets(std::span(&point, 1), {}, e).mean_mm[0], 0);
 }
 
 }  // namespace

@@ -20,8 +20,7 @@ constexpr std::size_t kReach = 2;            // planes off on either side
 constexpr std::size_t kMostPlanes = 24, kLeastTriples = 4;
 // Of the error of a straight line over the gap: the median over 39 structures drawn exactly in axial planes.
 constexpr double kGrowth = 1.55;
-constexpr double kDeviation = 1.4826;  // standard deviation over the median of absolute values of a normal distribution
-constexpr double kLeastError = 1e-4;   // of the diameter: what lines are not better known than
+constexpr double kLeastError = 1e-4;  // of the diameter: what lines are not better known than
 constexpr int kShares = 40;
 
 /// What was drawn in a plane of a stack, in the stack's (u, v).
@@ -122,7 +121,7 @@ void add_triples(const std::vector<Section>& stack, std::size_t middle, double l
                 const double from = depths[below - low][p], to = depths[above - low][p], slope = (to - from) / (a + b);
                 errors.push_back(std::abs(b * from + a * to) / (a + b) / std::hypot(1, slope));
             }
-            const double error = kDeviation * median(std::move(errors));
+            const double error = kDeviationOfMedian * median(std::move(errors));
             triples.push_back({error * error + least_mm * least_mm, 1 + (a * a + b * b) / ((a + b) * (a + b)), a * b});
         }
 }

@@ -43,8 +43,8 @@ std::vector<double> caps(const std::vector<double>& correlations, std::size_t n,
     if (evidence.image_sd_mm.empty()) return most;
     for (std::size_t i = 0; i < n; ++i) {
         double shared = 0;
-        for (std::size_t j = 0; j < n; ++j) shared += correlations[j + n * i] * correlations[j + n * i];
-        most[i] = std::min(most[i], 1 / (std::pow(evidence.image_sd_mm[i], 2) * std::sqrt(shared)));
+        for (std::size_t j = 0; j < n; ++j) shared += correlations[j + n * i];
+        most[i] = std::min(most[i], 1 / (std::pow(evidence.image_sd_mm[i], 2) * shared));
     }
     return most;
 }

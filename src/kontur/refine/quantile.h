@@ -10,6 +10,8 @@ namespace kontur {
 /// type 7). At least one value; none NaN. O(n).
 double quantile(std::vector<double> values, double fraction);
 double median(std::vector<double> values);
+/// The standard deviation over the median of absolute values of a normal distribution.
+inline constexpr double kDeviationOfMedian = 1.4826;
 
 /// The same of values in ascending order. O(1).
 double quantile_of_sorted(std::span<const double> sorted, double fraction);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kontur/refine/movement.h"
+
+namespace kontur {
+
+/// A point of a drawn contour and how far the surface through the contours of the other planes passes from it.
+struct HeldOut {
+    Vec3 position;        ///< mm
+    double distance_mm;   ///< to the nearest contour of the other planes
+    double without_mm;    ///< error of what the contours alone make, along the normal, positive outwards
+    double with_mm;       ///< and of what the image makes of it
+    double reachable_mm;  ///< as much of the error without the image as walls let it mend
+    std::size_t plane = 0;
+
+    /// How far the image moves the surface here.
+    double moved_mm() const { return without_mm - with_mm; }
+};
+
+/// How much is true of the offsets that the image tells: least squares of the errors of the contours alone on them. What the
+/// hand adds to an error has nothing to do with the image and takes no part.
+struct ToldByImage {
+    double told_and_true = 0, told = 0;  ///< sums of products, weighted
+
+    void add(double error_mm, double moved_mm, double weight);
+    double share() const { return told > 0 ? told_and_true / told : 0; }
+};
+
+/// Measured on the drawn contours themselves: how far off the surface between them is, without the image and with it.
+class HeldOutErrors {
+public:
+    /// `held_out`: points at least a voxel from the other planes' contours; at least 10. Larger errors count as `limit_mm`.
+    /// `hand_mm`: standard deviation of the drawn lines themselves, which no surface and no image can know.
+    HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm, double hand_mm,
+                  std::size_t planes, std::int64_t intensities);
+
+    double without_mm() const { return without_mm_; }  ///< means of the absolute errors
+    double with_mm() const { return with_mm_; }
+    std::size_t planes() const { return planes_; }
+    std::int64_t intensities() const { return intensities_; }  ///< read from the image
+    /// The error is lower with the image, by more than chance makes it in so few planes.
+    bool image_helps() const;
+    Beliefs beliefs() const;
+
+private:
+    bool helps_planes() const;
+    double error_of_share() const;
+    double image_sd(const MovingPoint& point) const;
+    double limited(double error_mm) const;
+    void add(const HeldOut& point, double weight, ToldByImage& sums) const;
+    std::vector<const HeldOut*> nearest(const Vec3& place) const;
+
+    std::vector<HeldOut> held_out_;
+    Beliefs beliefs_;
+    double limit_mm_, voxel_mm_, hand_mm_;
+    std::size_t planes_;
+    std::int64_t intensities_;
+    double without_mm_ = 0, with_mm_ = 0;
+    double median_without_ = 0, median_distance_ = 0;
+    ToldByImage told_;           ///< a point, on the average
+    double error_of_share_ = 0;  ///< standard error of its share
+};
+
+}  // namespace kontur

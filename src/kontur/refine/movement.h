@@ -27,8 +27,9 @@ struct DrawnOnImage {
 
 /// What is known of the offsets before the image is looked at, and how far it is trusted.
 struct Beliefs {
-    std::function<double(double distance_mm)> prior_mm;          ///< standard deviation of an offset
-    std::function<double(const MovingPoint& point)> image_mm{};  ///< how wrong the image is; unset: not known
+    std::function<double(double distance_mm)> prior_mm;  ///< standard deviation of an offset
+    /// How wrong the image is; infinite: it is not believed there; unset: not known.
+    std::function<double(const MovingPoint& point)> image_mm{};
 };
 
 /// Points of a surface and how far the image moves them.

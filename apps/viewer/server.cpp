@@ -333,6 +333,7 @@ private:
         stream_.expires_after(patience);
         beast::error_code error;
         co_await http::async_read_header(stream_, buffer_, *parser_, into(error));
+        if (!slot_) co_return asio::error::operation_aborted;  // dropped just as the header came
         is_waiting_ = false;
         last_sign_ = core_.last_use = Clock::now();
         co_return error;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kontur/fit/fit.h"
+#include "kontur/function/implicit_function.h"
 #include "support/contour_sets.h"
 
 namespace kontur {
@@ -37,6 +38,37 @@ TEST(ActiveBounds, ABoundIsKeptFromBothSidesAsCloselyAsItsNoiseAllows) {
         bound.noise_mm = 1e4;
         EXPECT_NEAR(fitted_with(bound).function.value(at), free, 0.05);
     }
+}
+
+std::size_t held(const ActiveBounds& bounds) {
+    std::vector<PointConstraint> points;
+    bounds.append_to(points);
+    return points.size();
+}
+
+TEST(ActiveBounds, HoldAtFirstWhereFIsFarthestOffInASurroundingAsWideAsThatIsFarFromTheDrawing) {
+    const std::vector<BoundaryPoint> drawn{{.position = {0, 0, 0}}};
+    // f is 0, and may be -1 at most at 10 mm from what was drawn, -1.1 in the middle of them, and -2 at 1 mm on the other side.
+    std::vector<Bound> bounds;
+    for (int i = -5; i <= 5; ++i)
+        bounds.push_back({.position = {10, 1.0 * i, 0}, .most_mm = i == 0 ? -1.1 : -1.0, .noise_mm = 0.1});
+    bounds.push_back({.position = {-1, 0, 0}, .most_mm = -2, .noise_mm = 0.1});
+    ActiveBounds active(bounds, drawn);
+    EXPECT_TRUE(active.update(ImplicitFunction(), 1e-3, {}));
+    EXPECT_EQ(held(active), 2u) << "the worst on either side";
+    EXPECT_TRUE(active.update(ImplicitFunction(), 1e-3, {}));
+    EXPECT_EQ(held(active), bounds.size()) << "what they do not keep is held next";
+}
+
+TEST(ActiveBounds, WhatIsLittleBesideANoiseDoesNotCount) {
+    const std::vector<BoundaryPoint> drawn{{.position = {0, 0, 0}}};
+    const auto counts = [&](double most_mm, double noise_mm) {
+        const std::vector<Bound> bounds{{.position = {10, 0, 0}, .most_mm = most_mm, .noise_mm = noise_mm}};
+        return ActiveBounds(bounds, drawn).update(ImplicitFunction(), 1e-3, {});
+    };
+    EXPECT_TRUE(counts(-0.01, 0.1));
+    EXPECT_FALSE(counts(-0.01, 1));
+    EXPECT_FALSE(counts(-1e-4, 1e-6)) << "the solver's tolerance";
 }
 
 }  // namespace

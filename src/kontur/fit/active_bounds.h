@@ -5,18 +5,21 @@
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/drawing/boundary_point.h"
 #include "kontur/drawing/bounds.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/function/implicit_function.h"
 
 namespace kontur {
 
-/// The bounds, and at which limit of theirs f is held. Keeps a reference to them.
+/// The bounds, and at which limit of theirs f is held. Keeps a reference to them and to the drawn points.
 class ActiveBounds {
 public:
-    explicit ActiveBounds(const std::vector<Bound>& bounds);
+    ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn);
 
-    /// Holds f where it leaves its interval, and lets it go where it keeps it by itself; true if that changed anything.
+    /// Holds f where it leaves its interval by more than counts, and lets it go where it keeps it by itself; true if another
+    /// solve would move f by more than counts: than the tolerance, and than 3 % of the bound's noise, which says how well it
+    /// is known. The first are held only where f is farthest off in a surrounding as wide as it is far to what was drawn.
     bool update(const ImplicitFunction& function, double tolerance_mm, const Work& work);
 
     bool holds_any() const;
@@ -25,7 +28,17 @@ public:
 private:
     enum class Held : std::uint8_t { no, at_least, at_most };
 
+    /// A bound whose interval f leaves.
+    struct Left {
+        double excess_mm;
+        std::size_t bound;
+        Held limit;
+    };
+
+    std::vector<Left> farthest_off(std::vector<Left> left) const;
+
     const std::vector<Bound>& bounds_;
+    const std::vector<BoundaryPoint>& drawn_;
     std::vector<Vec3> positions_;
     std::vector<Held> held_;
 };

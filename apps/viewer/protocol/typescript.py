@@ -51,7 +51,7 @@ def comment(kind, indent=""):
 def declaration(name, kind, more=""):
     if isinstance(kind, str) or "members" not in kind:
         constant = "constant" in kind and f"export const {kind['constant']}: readonly {name}[] = {json.dumps(kind['words'])};\n"
-        return comment(kind) + f"export type {name} = {typescript(kind)};\n" + (constant or "")
+        return comment(kind) + f"export type {name} = {typescript(kind, read_only=True)};\n" + (constant or "")
     lines = [comment(of, "  ") + f"  {quoted(member)}: {typescript(of)};\n" for member, of in kind["members"].items()]
     return comment(kind) + f"export interface {name} {{\n{more}{''.join(lines)}}}\n"
 

@@ -119,7 +119,7 @@ export class App {
     const panel = new Panel({
       ...shared,
       points: this.editor.points,
-      call: (name, args = {}) => this.editor.edits.make(name, args),
+      call: (name, args) => this.editor.edits.make(name, args),
       identity: this.identity.element,
       secondImage: this.secondCard.element,
       suggest: () => void this.suggest(),
@@ -316,7 +316,7 @@ export class App {
   /** A new structure is for what is drawn next. */
   private async addStructure(): Promise<void> {
     try {
-      const { structure } = await this.socket.call<{ structure: { id: number } }>("structure.add");
+      const { structure } = await this.socket.call("structure.add", {});
       this.project.select(null);
       this.project.activate(structure.id);
     } catch (error) {
@@ -330,7 +330,7 @@ export class App {
       return void this.notices.show("warning", "Not all is saved yet. Save it (Enter), or give it up (Esc), before another image is opened.");
     if (this.keeper.isWaiting) this.keeper.save();
     try {
-      await this.socket.call("ping"); // after what was asked before: the page's own state, too
+      await this.socket.call("ping", {}); // after what was asked before: the page's own state, too
       await this.http.close();
     } catch (error) {
       this.saving.failed(error);
@@ -419,7 +419,7 @@ export class App {
   }
 
   private async askValue(at: Vec3): Promise<void> {
-    const { values } = await this.socket.call<{ values: (number | null)[] }>("value", { at });
+    const { values } = await this.socket.call("value", { at });
     const { session, second } = this;
     if (session) this.status.setCursor(`${placeText(at)}  ·  ${valuesText(values, session, second.info)}`);
   }

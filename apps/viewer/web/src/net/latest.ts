@@ -9,7 +9,7 @@ export class Latest<Request> {
   private running: Promise<void> | null = null;
 
   constructor(
-    private readonly carryOut: (request: Request) => Promise<void>,
+    private readonly carryOut: (request: Request) => Promise<unknown>,
     private readonly merge: (old: Request, next: Request) => Request = (_, next) => next,
   ) {}
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ServerError } from "./http";
+import type { Arguments, CallName, Result } from "./calls";
 import { Latest } from "./latest";
 import type { ServerEvent } from "./protocol";
 
@@ -26,7 +27,7 @@ export interface SocketHandlers {
 const RETRY_MS = 1000;
 const TICK_MS = 2500;
 const TICKS_UNTIL_SILENT = 4; // in which signs of life are asked for
-const READING_CALLS = new Set(["path", "value", "ping", "page.save", "draft.drop"]);
+const READING_CALLS = new Set<CallName>(["path", "value", "ping", "page.save", "draft.drop"]);
 
 /**
  * Calls and events over one WebSocket, which is opened again when it is lost. One that is silent is kept: should the server go
@@ -39,7 +40,7 @@ export class Socket {
   private greeted = false;
   /** Ticks since anything came. They count what the clock does not: a laptop that sleeps, or a tab that is held back, has fewer. */
   private quietTicks = 0;
-  private readonly pings = new Latest<void>(() => this.call("ping"));
+  private readonly pings = new Latest<void>(() => this.call("ping", {}));
   /** Calls are answered in order: while one takes long no ping is, but the server is there. */
   private readonly knocks = new Latest<void>(async () => {
     await this.handlers.knock();
@@ -75,13 +76,14 @@ export class Socket {
     this.socket = socket;
   }
 
-  call<Result>(name: string, args: Record<string, unknown> = {}): Promise<Result> {
-    const edits = !READING_CALLS.has(name) && args["draft"] !== true;
+  call<Name extends CallName>(name: Name, args: Arguments<Name>): Promise<Result<Name>> {
+    const isDraft = "draft" in args && args.draft === true;
+    const edits = !READING_CALLS.has(name) && !isDraft;
     // Before it is known what the project holds, an edit could repeat one that had arrived when the connection was lost.
     if (!this.greeted || this.socket?.readyState !== WebSocket.OPEN)
       return Promise.reject(new ServerError("offline", "Not connected to kontur: nothing was changed.", edits));
     const seq = this.nextSeq++;
-    const reply = new Promise<Result>((resolve, reject) =>
+    const reply = new Promise<Result<Name>>((resolve, reject) =>
       void this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }),
     );
     this.socket.send(JSON.stringify({ seq, call: name, ...args }));

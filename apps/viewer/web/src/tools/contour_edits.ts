@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub, type Vec3 } from "../geometry/vec";
+import type { Arguments, CallName, Edit } from "../net/calls";
 import type { Contour } from "../net/protocol";
-import type { Edit } from "./drafts";
 import { Edits } from "./edits";
 import type { Gesture, Modifiers } from "./gesture";
 import { inView, type ContourHit } from "./hit";
@@ -11,12 +11,14 @@ import { isContourHidden } from "./sight";
 /** Changes contours that are there, by gestures and by commands. */
 export class ContourEdits extends Edits {
   /** Carries out a call that changes the project, after the sketches that are on their way. */
-  make(name: string, args: Record<string, unknown>): void {
+  make<Name extends CallName>(name: Name, args: Arguments<Name>): void {
     const { drawing, project, services } = this;
     if (drawing.outbox.isSending) return drawing.outbox.afterSending(() => this.make(name, args));
     drawing.forgetLeft();
-    services.call<{ contour?: Contour }>(name, args).then(
-      ({ contour }) => contour && services.made(contour),
+    services.call(name, args).then(
+      (result: object) => {
+        if ("contour" in result) services.made(result.contour as Contour);
+      },
       (error: unknown) => {
         project.refused();
         services.failed(error);

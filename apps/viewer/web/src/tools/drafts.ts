@@ -2,15 +2,9 @@
 import { gap, type Point2 } from "../geometry/screen";
 import type { Project } from "../model/project";
 import { Latest } from "../net/latest";
-import type { Contour } from "../net/protocol";
+import type { Arguments, Edit, EditName } from "../net/calls";
 import { DRAG_PIXELS, type Gesture } from "./gesture";
 import type { EditorServices } from "./services";
-
-/** A call that changes a contour, or adds one. */
-export interface Edit {
-  name: string;
-  args: Record<string, unknown>;
-}
 
 /** Edits that the surface follows while the hand is at them, and that are not made before it lets go. */
 export class Drafts {
@@ -51,13 +45,13 @@ export class Drafts {
     this.drop();
     void this.edits.idle().then(() => {
       this.project.draft = null;
-      this.services.call("draft.drop").catch(this.services.failed);
+      this.services.call("draft.drop", {}).catch(this.services.failed);
     });
   }
 
-  private async ask({ name, args }: Edit): Promise<void> {
+  private async ask<Name extends EditName>({ name, args }: { name: Name; args: Arguments<Name> }): Promise<void> {
     try {
-      const { contour, carried } = await this.services.call<{ contour: Contour; carried?: Contour[] }>(name, { ...args, draft: true });
+      const { contour, carried } = await this.services.call(name, { ...args, draft: true });
       this.project.setDraft(contour, carried);
     } catch (error) {
       this.services.failed(error);

@@ -176,7 +176,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   }
 
   path(sketch: Sketch, control: readonly SketchPoint[], closed = false): Promise<PathResult> {
-    return this.services.call<PathResult>("path", { plane: this.pixelPlane(sketch), control, closed });
+    return this.services.call("path", { plane: this.pixelPlane(sketch), control, closed });
   }
 
   private pointsChanged(): void {

@@ -82,7 +82,7 @@ export class Outbox {
 
   private async send(sketch: Sketch): Promise<void> {
     try {
-      const contour = await (sketch.redraws === undefined ? this.addContour(sketch) : this.redraw(sketch));
+      const contour = await (sketch.redraws === undefined ? this.addContour(sketch) : this.redraw(sketch, sketch.redraws));
       this.sending.delete(sketch);
       this.services.made(contour);
       if (!this.drawing.sketch) this.project.select({ contour: contour.id, point: null });
@@ -98,7 +98,7 @@ export class Outbox {
     if (!this.project.structures.has(sketch.structure)) sketch.structure = await this.addStructure();
     // Those placed a moment ago may not lie on the edge yet; those that do stay there.
     if (sketch.points.some((point) => point.kind === "wire")) sketch.adopt((await this.drawing.path(sketch, sketch.points)).control);
-    const { contour } = await this.services.call<{ contour: Contour }>("contour.add", {
+    const { contour } = await this.services.call("contour.add", {
       structure: sketch.structure,
       plane: this.drawing.pixelPlane(sketch),
       control: sketch.points,
@@ -108,12 +108,12 @@ export class Outbox {
     return contour;
   }
 
-  private async redraw(sketch: Sketch): Promise<Contour> {
-    return (await this.services.call<{ contour: Contour }>("contour.redraw", { id: sketch.redraws, path: sketch.line() })).contour;
+  private async redraw(sketch: Sketch, id: number): Promise<Contour> {
+    return (await this.services.call("contour.redraw", { id, path: sketch.line() })).contour;
   }
 
   private async addStructure(): Promise<number> {
-    const { structure } = await this.services.call<{ structure: { id: number } }>("structure.add");
+    const { structure } = await this.services.call("structure.add", {});
     return structure.id;
   }
 

@@ -4,7 +4,7 @@ import { add, dot, scale, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import { VIEW_NAMES, type Contour, type Suggestion, type ViewName } from "../net/protocol";
+import { VIEW_NAMES, type Contour, type ViewName } from "../net/protocol";
 import type { Drawing } from "./drawing";
 import { isHoleOf } from "./free_outlines";
 import type { EditorServices } from "./services";
@@ -65,7 +65,7 @@ export class Proposals extends Emitter<"proposal"> {
     if (!project.surfaces.get(structure.id)?.uncertainty) return services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null;
     if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };
     try {
-      const { planes } = await services.call<{ planes: Suggestion[] }>("suggest", { structure: structure.id, skip: this.skipped.planes });
+      const { planes } = await services.call("suggest", { structure: structure.id, skip: this.skipped.planes });
       const [best] = planes;
       if (!best) return services.tell(`No other plane is suggested for ${structure.name}: it needs a finished surface, and planes that are not drawn yet.`), null;
       this.skipped.planes.push(best.plane);
@@ -87,7 +87,7 @@ export class Proposals extends Emitter<"proposal"> {
   async propose(structure: number, plane: Plane, instead?: Contour): Promise<void> {
     this.asked = plane;
     try {
-      const { lines } = await this.services.call<{ lines: Vec3[][] }>("outline", { structure, plane });
+      const { lines } = await this.services.call("outline", { structure, plane });
       if (this.asked !== plane) return; // another one was asked for, or none is wanted any more
       const there = lines.filter((line) => line.length >= 3);
       if (there.length === 0 && instead) there.push(instead.points.map((p) => projected(plane, p)));

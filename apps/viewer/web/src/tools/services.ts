@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Screen } from "../geometry/screen";
+import type { Caller } from "../net/calls";
 import type { Contour, ViewName } from "../net/protocol";
 import type { ShownOutlines } from "./free_outlines";
 import type { Sketch } from "./sketch";
@@ -12,7 +13,7 @@ export interface Remedy {
 
 /** What the tools need of the page around them. */
 export interface EditorServices {
-  call<Result>(name: string, args?: Record<string, unknown>): Promise<Result>;
+  call: Caller;
   screenOf(view: ViewName): Screen | null;
   /** What is shown of computed surfaces on the view's slice; null before that has come. */
   outlinesOf(view: ViewName): ShownOutlines | null;

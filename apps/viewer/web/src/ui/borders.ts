@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { chosenSentence, foundAbout, inWords, pairsToShow, percent, ruleAbout } from "../model/borders";
 import type { Project } from "../model/project";
+import type { Maker } from "../net/calls";
 import type { BorderRule, Relation } from "../net/protocol";
 import { openDialog } from "./dialogs";
 import { button, el } from "./dom";
 
 export interface BorderServices {
   project: Project;
-  call(name: string, args?: Record<string, unknown>): void;
+  call: Maker;
 }
 
 /** Whether structures share borders, which rules were chosen for the user, and a way to others. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Project } from "../model/project";
+import type { Maker } from "../net/calls";
 import type { Contour } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { button, el } from "./dom";
@@ -8,7 +9,7 @@ import { ICONS } from "./icons";
 export interface ActionServices {
   project: Project;
   editor: Editor;
-  call(name: string, args?: Record<string, unknown>): void;
+  call: Maker;
   /** Proposes the outline that many slices further on. */
   propose(steps: number): void;
 }

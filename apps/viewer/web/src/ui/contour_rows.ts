@@ -3,6 +3,7 @@ import type { Vec3 } from "../geometry/vec";
 import { between, groupsOf, isGrouped } from "../model/contour_list";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
+import type { Maker } from "../net/calls";
 import type { Contour, Structure, ViewName } from "../net/protocol";
 import type { SurfacePoints } from "../tools/surface_points";
 import { PLANE_COLORS } from "../view/palette";
@@ -13,7 +14,7 @@ import { ICONS } from "./icons";
 export interface RowServices {
   navigation: Navigation;
   project: Project;
-  call(name: string, args?: Record<string, unknown>): void;
+  call: Maker;
   points: SurfacePoints;
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */

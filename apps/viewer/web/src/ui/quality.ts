@@ -2,6 +2,7 @@
 import { coincide } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
+import type { Maker } from "../net/calls";
 import type { Conflict, Contour, Surface } from "../net/protocol";
 import { distinct, settled } from "../tools/settling";
 import { contourName } from "./contour_names";
@@ -18,7 +19,7 @@ export interface QualityServices {
   suggest(): void;
   /** What is proposed is empty; null while nothing is. */
   nothingHere: (() => void) | null;
-  call(name: string, args: Record<string, unknown>): void;
+  call: Maker;
 }
 
 /** How well the surface fits its contours: figures, and places to go to where it does not. */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Maker } from "../net/calls";
 import type { Project } from "../model/project";
 import { el } from "./dom";
 
@@ -19,7 +20,7 @@ const OWN_KEYS = /^(Arrow|Page|Home$|End$)/;
 
 export interface SmoothingServices {
   project: Project;
-  call(name: string, args?: Record<string, unknown>): void;
+  call: Maker;
 }
 
 /** How closely the active structure's surface follows its lines; hidden before it has any. */

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Maker } from "../net/calls";
 import type { Project } from "../model/project";
 import { el } from "./dom";
 
 export interface UseImageServices {
   project: Project;
-  call(name: string, args?: Record<string, unknown>): void;
+  call: Maker;
 }
 
 /** Whether the image is asked between the contours; hidden where it cannot tell borders, and before anything is drawn. */

@@ -30,7 +30,8 @@ export function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3)
   project.start(session({ contours }));
   const navigation = started();
   const editor = new Editor(navigation, project, {
-    call: (name, args = {}) => {
+    call: (name, given) => {
+      const args = given as Record<string, unknown>;
       calls.push({ name, args: structuredClone(args) }); // the sketch goes on
       if (server.refusal) return Promise.reject(server.refusal);
       const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));

@@ -14,7 +14,7 @@ interface Job {
 
 function jobs(): { started: Job[]; latest: Latest<number> } {
   const started: Job[] = [];
-  const latest = new Latest<number>((request) => new Promise((finish) => started.push({ request, finish })));
+  const latest = new Latest<number>((request) => new Promise<void>((finish) => started.push({ request, finish })));
   return { started, latest };
 }
 
@@ -122,14 +122,14 @@ const failure = (call: Promise<unknown>): Promise<string> => call.then(() => "do
 test("of a connection's calls none is sent before the session is known, and lost edits are told as such", async (context) => {
   const { socket, told } = connecting(context);
   socket.open();
-  assert.equal(await failure(socket.call("undo")), "offline, an edit");
-  assert.equal(await failure(socket.call("value")), "offline");
+  assert.equal(await failure(socket.call("undo", {})), "offline, an edit");
+  assert.equal(await failure(socket.call("value", { at: [0, 0, 0] })), "offline");
   assert.equal(FakeWebSocket.last.sent.length, 0);
   FakeWebSocket.last.tell(session());
-  const first = failure(socket.call("undo"));
+  const first = failure(socket.call("undo", {}));
   FakeWebSocket.last.answer();
   assert.equal(await first, "done");
-  const under_way = [socket.call("undo"), socket.call("contour.pull", { draft: true })].map(failure);
+  const under_way = [socket.call("undo", {}), socket.call("contour.pull", { id: 1, from: [0, 0, 0], to: [1, 0, 0], draft: true })].map(failure);
   FakeWebSocket.last.close();
   assert.deepEqual(await Promise.all(under_way), ["lost, an edit", "lost"]);
   assert.deepEqual(told, ["connecting", "open", "session", "1", "0 acknowledged", "1", "lost", "0"]);
@@ -149,7 +149,7 @@ test("a connection over which nothing comes for 10 s is silent until something d
   }
   assert.equal(last.sent.length, 9);
   assert.deepEqual(told.splice(0), ["open", "session"]);
-  const edit = failure(socket.call("undo"));
+  const edit = failure(socket.call("undo", {}));
   for (let i = 0; i < 3; ++i) timers.tick();
   assert.deepEqual(told.splice(0), ["1"]);
   for (let i = 0; i < 9; ++i) timers.tick();
@@ -165,7 +165,7 @@ test("a server that takes long over a call, and answers otherwise, is not silent
   const { socket, told, timers } = connecting(context, () => new Promise((answer) => knocks.push(answer)));
   socket.open();
   FakeWebSocket.last.tell(session());
-  void socket.call("undo");
+  void socket.call("undo", {});
   for (let i = 0; i < 9; ++i) {
     for (let n = 0; n < 3; ++n) timers.tick();
     assert.equal(knocks.length, 1, "one at a time");
@@ -184,7 +184,7 @@ test("events are a sign of life while a call takes long", (context) => {
   const { socket, told, timers } = connecting(context);
   socket.open();
   FakeWebSocket.last.tell(session());
-  void socket.call("undo");
+  void socket.call("undo", {});
   for (let i = 0; i < 9; ++i) {
     timers.tick();
     timers.tick();
@@ -198,7 +198,7 @@ test("a silent connection that is lost is opened again, and silent only after as
   const { socket, told, timers } = connecting(context);
   socket.open();
   FakeWebSocket.last.tell(session());
-  const edit = failure(socket.call("undo"));
+  const edit = failure(socket.call("undo", {}));
   for (let i = 0; i < 4; ++i) timers.tick();
   FakeWebSocket.last.close();
   assert.equal(await edit, "lost, an edit");

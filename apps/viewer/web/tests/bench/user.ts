@@ -155,6 +155,19 @@ export class User {
     await this.waits(CHOOSE_MS);
   }
 
+  /** Has it shown where a contour tells most, looks at the outline that is expected there, and takes it. */
+  async acceptsProposal(): Promise<void> {
+    const { page } = this.viewer;
+    await this.viewer.surfaceShown();
+    const before = await this.viewer.contours();
+    await page.keyboard.press("g");
+    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
+    await this.viewer.slicesShown();
+    await this.waits(LOOK_MS);
+    await page.keyboard.press("Enter");
+    await this.viewer.waitForContours(before + 1);
+  }
+
   /** Goes around it in one stroke, which sways from side to side. */
   async strokesAround(view: string, line: readonly Place[]): Promise<void> {
     const { page } = this.viewer;

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { describe, test } from "node:test";
+import { BROWSER, EMULATES_MEDIA, launch } from "./browsers";
 import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -38,6 +39,8 @@ async function prepare(): Promise<void> {
   await viewer.page.locator(".contour-row").first().click();
   await viewer.surfaceShown();
 }
+
+const theme = ({ page }: Viewer) => page.evaluate(() => document.documentElement.dataset["theme"]);
 
 /** By the keyboard: the list that a click opens is the browser's own. */
 async function choose(theme: string): Promise<void> {
@@ -85,20 +88,34 @@ describe("axe finds nothing in the theme", () => {
       await viewer.page.keyboard.press("Escape");
     });
 
-  test("that was chosen last, in the next page, too, until the system's is chosen again", async () => {
+  test("that was chosen last, in the next page, too", async () => {
     await open();
     const { page } = viewer;
     await choose("light");
     await page.reload();
     await viewer.ready();
-    const theme = () => page.evaluate(() => document.documentElement.dataset["theme"]);
-    assert.equal(await theme(), "light");
+    assert.equal(await theme(viewer), "light");
+  });
+
+  test("of the system, where those are chosen", EMULATES_MEDIA, async () => {
+    await open();
+    const { page } = viewer;
     await choose("system");
     for (const colorScheme of ["light", "dark"] as const) {
       await page.emulateMedia({ colorScheme });
       await page.waitForFunction((wanted) => document.documentElement.dataset["theme"] === wanted, colorScheme);
     }
     assert.deepEqual(viewer.complaints, []);
+  });
+
+  test("of the system, where none were ever chosen", { skip: BROWSER === "firefox" ? false : "Chromium is asked by the test before" }, async () => {
+    await open();
+    for (const scheme of ["light", "dark"] as const) {
+      const browser = await launch({ webgl: false, scheme });
+      const other = await Viewer.open(browser, visits.server.address);
+      assert.equal(await theme(other), scheme);
+      await browser.close();
+    }
   });
 });
 
@@ -125,7 +142,7 @@ describe("the keyboard alone", () => {
 });
 
 describe("the system's wishes", () => {
-  test("are heard: more contrast, forced colours, less motion", async () => {
+  test("are heard: more contrast, forced colours, less motion", EMULATES_MEDIA, async () => {
     await open();
     const { page } = viewer;
     const line = () => page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--line").trim());

@@ -18,7 +18,10 @@ export const onlyChromium = (why: string) => ({ skip: BROWSER === "chromium" ? f
 
 export interface Wish {
   webgl: boolean;
+  /** What the system asks of all pages. Of Firefox alone: Playwright emulates media in Chromium only. */
+  scheme?: "dark" | "light";
 }
+export const EMULATES_MEDIA = onlyChromium("Playwright does not emulate media in Firefox");
 export const NO_WEBGL: Wish = { webgl: false };
 
 export function launch(wish: Wish = { webgl: true }): Promise<Browser> {
@@ -32,7 +35,7 @@ function launchChromium({ webgl }: Wish): Promise<Browser> {
 }
 
 /** As it is, by WebDriver BiDi. Without a window Firefox has no WebGL, so it gets a screen of its own. */
-async function launchFirefox({ webgl }: Wish): Promise<Browser> {
+async function launchFirefox({ webgl, scheme }: Wish): Promise<Browser> {
   const folder = mkdtempSync(join(tmpdir(), "kontur-downloads-"));
   const browser = await firefox.launch({
     channel: "moz-firefox",
@@ -40,6 +43,7 @@ async function launchFirefox({ webgl }: Wish): Promise<Browser> {
     headless: false,
     firefoxUserPrefs: {
       "webgl.disabled": !webgl,
+      "layout.css.prefers-color-scheme.content-override": scheme ? ["dark", "light"].indexOf(scheme) : 2, // 2: the system's
       "browser.download.folderList": 2,
       "browser.download.dir": folder,
       "browser.download.alwaysOpenPanel": false, // which would take the keyboard from the page

@@ -17,7 +17,6 @@
 #include "viewer/import_doubts.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
-#include "viewer/statistics.h"
 #include "viewer/status_line.h"
 #include "viewer/structure_exports.h"
 #include "viewer/temporary_files.h"
@@ -107,27 +106,6 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
     }
     download.bytes = read_bytes(path);
     return download;
-}
-
-std::string Session::statistics(const std::stop_token& stop) {
-    const StatusLine line(status_teller(), "Measuring");
-    nlohmann::json rows = nlohmann::json::array();
-    for (const FittedStructure& one : fit_structures(state(), *image_, true, line.work(stop))) {
-        const Statistics found = viewer::statistics(*one.made.mesh, one.made.mask, *image_);
-        rows.push_back({{"structure", one.structure.id},
-                        {"name", one.structure.name},
-                        {"contours", one.set.contours.size()},
-                        {"volume_ml", found.volume_ml},
-                        {"surface_cm2", found.surface_cm2},
-                        {"diameter_mm", found.diameter_mm},
-                        {"diameter", {to_json(found.from), to_json(found.to)}},
-                        {"extent_mm", to_json(found.extent_mm)},
-                        {"voxels", found.voxels},
-                        {"mean", found.mean},
-                        {"deviation", found.deviation},
-                        {"range", {found.least, found.most}}});
-    }
-    return to_text({{"unit", unit()}, {"structures", std::move(rows)}});
 }
 
 ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {

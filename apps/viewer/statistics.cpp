@@ -51,7 +51,11 @@ double area_mm2(const TriangleMesh& mesh) {
     return 0.5 * twice;
 }
 
-void add_values(Statistics& found, const Mask& mask, const Image& image) {
+}  // namespace
+
+ValueStatistics value_statistics(const Mask& mask, const Image& image) {
+    if (!(mask.grid == image.grid)) throw Error(ErrorKind::invalid_input, "the mask does not lie on the image's grid");
+    ValueStatistics found;
     double mean = 0, squares = 0;  // Welford 1962
     for (std::size_t n = 0; n < mask.values.size(); ++n) {
         if (mask.values[n] == 0) continue;
@@ -63,24 +67,20 @@ void add_values(Statistics& found, const Mask& mask, const Image& image) {
         mean += before / static_cast<double>(++found.voxels);
         squares += before * (value - mean);
     }
-    if (found.voxels == 0) return;
+    if (found.voxels == 0) return found;
     found.mean = mean;
     found.deviation = std::sqrt(squares / static_cast<double>(found.voxels));
+    return found;
 }
 
-}  // namespace
-
-Statistics statistics(const TriangleMesh& mesh, const Mask& mask, const Image& image) {
-    if (!(mask.grid == image.grid)) throw Error(ErrorKind::invalid_input, "the mask does not lie on the image's grid");
+Statistics statistics(const TriangleMesh& mesh) {
     Statistics found;
     found.volume_ml = signed_volume_mm3(mesh) / 1000;
     found.surface_cm2 = area_mm2(mesh) / 100;
-    if (!mesh.points.empty()) {
-        std::tie(found.from, found.to) = farthest(mesh.points);
-        found.diameter_mm = distance(found.from, found.to);
-        found.extent_mm = bounding_box(mesh.points).size();
-    }
-    add_values(found, mask, image);
+    if (mesh.points.empty()) return found;
+    std::tie(found.from, found.to) = farthest(mesh.points);
+    found.diameter_mm = distance(found.from, found.to);
+    found.extent_mm = bounding_box(mesh.points).size();
     return found;
 }
 

@@ -165,7 +165,17 @@ void share_surfaces(std::vector<FittedStructure>& all, const std::vector<Structu
 /// Null where the image is not to be asked.
 const Image* asked(const State& state, const Image& image) { return state.use_image ? &image : nullptr; }
 
-std::vector<FittedStructure> fit_together(const State& state, const Image& image, bool with_mesh, const Work& work) {
+/// Whether `segment` makes a mask of the contours on this grid.
+bool reaches_into(const Grid& grid, const ContourSet& set) {
+    try {
+        check_contours_inside(set, grid);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+std::vector<FittedStructure> fit_together(const State& state, const Image& image, const Grid& grid, bool with_mesh, const Work& work) {
     std::vector<FittedStructure> all;
     std::vector<ContourSet> sets;
     std::vector<Id> ids;
@@ -181,7 +191,7 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     options.segment.mesh = with_mesh;
     for (const FittedStructure& one : all) options.smoothing.push_back(one.structure.smoothing);
     options.rules = rules_among(state.borders, ids);
-    Together together = segment_together(sets, image.grid, asked(state, image), options, work);
+    Together together = segment_together(sets, grid, asked(state, image), options, work);
     for (std::size_t n = 0; n < all.size(); ++n) {
         Mask whole = whole_mask(together, n);
         all[n].made = std::move(together.structures[n]);
@@ -194,14 +204,14 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     return all;
 }
 
-std::vector<FittedStructure> fit_each(const State& state, const Image& image, bool with_mesh, const Work& work) {
+std::vector<FittedStructure> fit_each(const State& state, const Image& image, const Grid& grid, bool with_mesh, const Work& work) {
     std::vector<FittedStructure> all;
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);
         if (set.contours.empty()) continue;
         const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh};
         try {
-            Segmentation made = segment(set, image.grid, asked(state, image), options, work);
+            Segmentation made = segment(set, grid, asked(state, image), options, work);
             all.push_back({structure, std::move(set), std::move(made)});
         } catch (const Error& error) {
             throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
@@ -213,9 +223,17 @@ std::vector<FittedStructure> fit_each(const State& state, const Image& image, bo
 }  // namespace
 
 std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work) {
-    auto all = (state.borders.shared ? fit_together : fit_each)(state, image, with_mesh, work);
+    auto all = (state.borders.shared ? fit_together : fit_each)(state, image, image.grid, with_mesh, work);
     if (all.empty()) throw Error(ErrorKind::invalid_input, "no structure has contours");
     return all;
+}
+
+std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& state, const Image& image, const Work& work) {
+    State within = state;
+    for (const auto& [id, structure] : state.structures)
+        if (!reaches_into(grid, contour_set(state, id)))
+            std::erase_if(within.contours, [&](const auto& item) { return item.second->structure == id; });
+    return (state.borders.shared ? fit_together : fit_each)(within, image, grid, false, work);
 }
 
 FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work) {

@@ -37,6 +37,10 @@ struct FittedStructure {
 /// structure's name.
 std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work);
 
+/// The same on another grid, for the values of another image there: masks only, and only of the structures whose contours
+/// reach into the grid. Those on the image's own grid are the same.
+std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& state, const Image& image, const Work& work);
+
 /// One of them; only where borders are shared are the others fitted, too.
 FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "support/expect_error.h"
@@ -241,6 +242,73 @@ TEST(SecondImage, AContourGoesOnFollowingTheImageThatItWasDrawnOn) {
     here.call({{"call", "image.remove"}, {"image", 1}});
     EXPECT_GT(off_the_ball_mm(move()["points"]), 2)
         << "without it the first image counts, in which there is nothing to follow";
+}
+
+/// A ball of 8 mm around the origin of `test::kPlane`, from three circles; `shift` mm along x.
+ContourSet drawn_ball(const std::string& name, double shift) {
+    ContourSet set;
+    set.name = name;
+    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        Contour contour{make_plane(test::kPlane.origin + Vec3{shift, 0, 0}, normal), {}, true, false};
+        for (int n = 0; n < 60; ++n)
+            contour.points.push_back(contour.plane.from_uv(8 * std::cos(n * std::numbers::pi / 30), 8 * std::sin(n * std::numbers::pi / 30)));
+        set.contours.push_back(contour);
+    }
+    return set;
+}
+
+TEST(SecondImage, StatisticsAreThoseOfTheVoxelsOfItsOwnGridInsideTheSurface) {
+    for (const bool shares : {false, true}) {
+        Visit here;
+        here.session.add_structures("Import", {drawn_ball("Ball", 0)});
+        here.call({{"call", "borders.set"}, {"shared", shares}});
+        EXPECT_FALSE(json::parse(here.session.statistics()).contains("second"));
+        here.session.put_second_image(opened_ball());
+        const json told = json::parse(here.session.statistics());
+        EXPECT_EQ(told["second"]["unit"], "SUV (g/ml)");
+        const json& found = told["structures"][0]["second"];
+        // By hand, in the ball that was drawn: a fit of three circles is not that ball to the last voxel.
+        const auto image = ball();
+        double sum = 0, squares = 0, count = 0;
+        for (std::int64_t k = 0; k < image->grid.size.k; ++k)
+            for (std::int64_t j = 0; j < image->grid.size.j; ++j)
+                for (std::int64_t i = 0; i < image->grid.size.i; ++i) {
+                    const double away = distance(image->grid.center_mm(i, j, k), test::kPlane.origin);
+                    if (away >= 8) continue;
+                    const double value = 8 / (1 + std::exp(away - kRadius_mm));
+                    ++count, sum += value, squares += value * value;
+                }
+        EXPECT_NEAR(found["voxels"].get<double>() / count, 1, 0.04);
+        EXPECT_NEAR(found["mean"].get<double>(), sum / count, 0.03);
+        EXPECT_NEAR(found["deviation"].get<double>(), std::sqrt(squares / count - sum * sum / count / count), 0.05);
+        EXPECT_EQ(found["points_beyond"], 0);
+        EXPECT_NEAR(told["structures"][0]["voxels"].get<double>(), 4.0 / 3 * std::numbers::pi * 512, 100) << "of the first image's";
+    }
+}
+
+TEST(SecondImage, OnTheFirstImagesGridStatisticsUseTheFirstImagesVoxels) {
+    Visit here;
+    here.session.add_structures("Import", {drawn_ball("Ball", 0)});
+    OpenedImage ramp{std::make_shared<const Image>(Image{test::flat_image()->grid, std::vector<float>(64000, 3)}), "ramp", {"/images/ramp.nii", "ramp", {}}, {}};
+    here.session.put_second_image(std::move(ramp));
+    const json row = json::parse(here.session.statistics())["structures"][0];
+    EXPECT_EQ(row["second"]["voxels"], row["voxels"]);
+    EXPECT_EQ(row["second"]["mean"], 3);
+}
+
+TEST(SecondImage, AStructureThatLiesBeyondItHasNoVoxelsThere) {
+    Visit here;
+    here.session.add_structures("Import", {drawn_ball("Beyond", 10), drawn_ball("Partly", 2), drawn_ball("Within", -7)});
+    OpenedImage half = opened_ball();
+    const Grid grid{{20, 30, 40}, {}};  // up to x = 19.5
+    half.image = std::make_shared<const Image>(Image{grid, std::vector<float>(20 * 30 * 40, 2)});
+    here.session.put_second_image(std::move(half));
+    const json rows = json::parse(here.session.statistics())["structures"];
+    EXPECT_EQ(rows[0]["second"], (json{{"voxels", 0}}));
+    EXPECT_GT(rows[1]["second"]["points_beyond"].get<int>(), 0);
+    EXPECT_GT(rows[1]["second"]["voxels"].get<int>(), 200);
+    EXPECT_LT(rows[1]["second"]["voxels"].get<int>(), rows[1]["voxels"].get<int>());
+    EXPECT_EQ(rows[2]["second"]["mean"], 2);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Vec3 } from "../geometry/vec";
 import type { Http } from "../net/http";
-import type { Statistics, StructureStatistics } from "../net/protocol";
+import type { SecondStatistics, Statistics, StructureStatistics } from "../net/protocol";
 import { comparison } from "./comparison";
 import { openDialog } from "./dialogs";
 import { button, el } from "./dom";
@@ -14,9 +14,23 @@ interface Column {
   value(row: StructureStatistics): number | string;
 }
 
+const withUnit = (head: string, unit: string): string => (unit === "" ? head : `${head}, ${unit}`);
+
+/** Of the second image's values: empty where a structure lies beyond it. */
+function secondColumns({ modality, unit }: NonNullable<Statistics["second"]>): Column[] {
+  const name = modality || "Second image";
+  const column = (head: string, of: (second: SecondStatistics) => number | undefined, unit_ = unit): Column => ({ head: withUnit(`${name}: ${head}`, unit_), value: ({ second }) => (second && of(second)) ?? "" });
+  return [
+    column("mean", ({ mean }) => mean),
+    column("deviation", ({ deviation }) => deviation),
+    column("least", ({ range }) => range?.[0]),
+    column("most", ({ range }) => range?.[1]),
+    column("voxels", ({ voxels }) => voxels, ""),
+  ];
+}
+
 /** The unit stands once, in the head. */
-export function columns(unit: string): Column[] {
-  const of = unit === "" ? "" : `, ${unit}`;
+export function columns({ unit, second }: Pick<Statistics, "unit" | "second">): Column[] {
   return [
     { head: "Structure", value: ({ name }) => name },
     { head: "Contours", value: ({ contours }) => contours },
@@ -26,18 +40,19 @@ export function columns(unit: string): Column[] {
     { head: "Extent R-L, mm", value: ({ extent_mm }) => extent_mm[0] },
     { head: "Extent A-P, mm", value: ({ extent_mm }) => extent_mm[1] },
     { head: "Extent S-I, mm", value: ({ extent_mm }) => extent_mm[2] },
-    { head: `Mean${of}`, value: ({ mean }) => mean },
-    { head: `Deviation${of}`, value: ({ deviation }) => deviation },
-    { head: `Least${of}`, value: ({ range }) => range[0] },
-    { head: `Most${of}`, value: ({ range }) => range[1] },
+    { head: withUnit("Mean", unit), value: ({ mean }) => mean },
+    { head: withUnit("Deviation", unit), value: ({ deviation }) => deviation },
+    { head: withUnit("Least", unit), value: ({ range }) => range[0] },
+    { head: withUnit("Most", unit), value: ({ range }) => range[1] },
     { head: "Voxels", value: ({ voxels }) => voxels },
+    ...(second ? secondColumns(second) : []),
   ];
 }
 
 /** As RFC 4180 has it. */
-export function asCsv({ unit, structures }: Statistics): string {
+export function asCsv({ structures, ...images }: Statistics): string {
   const field = (value: string | number) => (typeof value === "number" ? String(value) : /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
-  const shown = columns(unit);
+  const shown = columns(images);
   return [shown.map(({ head }) => field(head)), ...structures.map((row) => shown.map(({ value }) => field(value(row))))].map((line) => line.join(",") + "\r\n").join("");
 }
 
@@ -51,7 +66,7 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void): void {
   http.statistics(abort.signal).then(
     (found) => {
       status.textContent = "Volume, area and lengths are the surface's; values those of the voxels whose centres lie inside. A click on a diameter shows where it ends.";
-      content.replaceChildren(table(found, (p) => (dialog.close(), goTo(p))));
+      content.replaceChildren(table(found, (p) => (dialog.close(), goTo(p))), ...beyond(found.structures).map((text) => el("p", { class: "warning-text", "data-test": "beyond-second" }, text)));
       const save = button({ label: "Save as CSV", title: "Save the table as CSV", class: "choice", test: "statistics-csv", click: () => download(new Blob([asCsv(found)], { type: "text/csv" }), "statistics.csv") });
       dialog.append(el("div", { class: "dialog-buttons" }, save));
       if (found.structures.length > 1) dialog.append(comparison(http, found.structures, abort.signal));
@@ -60,9 +75,18 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void): void {
   );
 }
 
+/** Which values of the second image are not all that the structure has, or none. */
+export function beyond(structures: readonly StructureStatistics[]): string[] {
+  return structures.flatMap(({ name, second }) => {
+    if (!second) return [];
+    if (second.voxels === 0) return [`${name} holds no voxel of the second image.`];
+    return second.points_beyond ? [`${name} reaches beyond the second image, whose values are those of the part within.`] : [];
+  });
+}
+
 /** Structures side by side: what is compared stands in one row. */
-function table({ unit, structures }: Statistics, goTo: (p: Vec3) => void): HTMLTableElement {
-  const rows = columns(unit).map(({ head, value }) => {
+function table({ structures, ...images }: Statistics, goTo: (p: Vec3) => void): HTMLTableElement {
+  const rows = columns(images).map(({ head, value }) => {
     const cells = structures.map((row) => {
       const shown = value(row);
       const text = typeof shown === "number" ? (Number.isInteger(shown) ? String(shown) : rounded(shown)) : shown;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kontur/io/dcmtk.h"
+#include "kontur/io/dicom_suv.h"
 
 namespace kontur {
 namespace {
@@ -30,7 +31,7 @@ std::string readable_date(const std::string& stored) {
 /// PS3.3 C.8.9.1 (Units of PET), C.8.8.3 (DoseUnits), C.11.1 (RescaleType).
 std::string unit_of(DcmItem& item, const std::string& modality) {
     static constexpr std::array<std::pair<const char*, const char*>, 8> kUnits{{{"BQML", "Bq/ml"},
-                                                                                {"GML", "SUV (g/ml)"},
+                                                                                {"GML", kSuvUnit},
                                                                                 {"CM2ML", "SUV (cm2/ml)"},
                                                                                 {"CNTS", "counts"},
                                                                                 {"PROPCNTS", "counts"},

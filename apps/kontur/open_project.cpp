@@ -13,6 +13,9 @@
 #include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom_suv.h"
+#include "kontur/io/frame_needed.h"
+#include "kontur/io/image.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
 #include "viewer/same_space.h"
@@ -108,6 +111,62 @@ void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& o
     tell_series(input, opened);
 }
 
+Image times(const Image& image, double factor) {
+    std::vector<float> values;
+    std::visit([&](const auto& samples) {
+        values.reserve(samples.size());
+        for (const auto sample : samples) values.push_back(static_cast<float>(factor * static_cast<double>(sample)));
+    }, image.samples);
+    return {image.grid, std::move(values)};
+}
+
+/// PET in Bq/ml is shown as SUV, where its files tell how.
+void turn_into_suv(viewer::OpenedImage& opened, Opened& result) {
+    const auto scale = opened.series ? suv_scale(opened.series->files.front()) : std::nullopt;
+    if (!scale) return;
+    opened.notes.push_back(scale->told);
+    result.notes.push_back(scale->told);
+    if (scale->suv_per_bqml == 0) return;
+    opened.image = std::make_shared<const Image>(times(*opened.image, scale->suv_per_bqml));
+    opened.identity.unit = kSuvUnit;
+}
+
+/// How many volumes there are beside the one that was chosen: frames of a file, or volumes of a DICOM series.
+int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
+    if (opened.series && input.options.dicom.volume) {
+        const auto all = list_dicom_series(input.path);
+        return static_cast<int>(std::count_if(all.begin(), all.end(), [&](const DicomSeries& one) { return one.series_uid == opened.series->series_uid; }));
+    }
+    if (!input.options.frame) return 1;
+    ReadImageOptions options = input.options;
+    options.frame.reset();
+    options.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
+    try {
+        read_image(input.path, options);
+    } catch (const FrameNeeded& error) {
+        return static_cast<int>(error.frames());
+    } catch (const Error&) {
+    }
+    return 1;
+}
+
+/// The other volumes are read when somebody looks at them.
+viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opened) {
+    const bool is_series = opened.series && input.options.dicom.volume;
+    const auto own = is_series ? *input.options.dicom.volume - 1 : input.options.frame.value_or(0);
+    const auto read = [input, is_series](int time) {
+        ImageInput other = input;
+        if (is_series) other.options.dicom.volume = time + 1;
+        else other.options.frame = time;
+        Opened told;  // what there is to say was said of the one that was opened
+        viewer::OpenedImage image;
+        open_file(other, {}, image, told);
+        turn_into_suv(image, told);
+        return image.image;
+    };
+    return {count_times(input, opened), static_cast<int>(own), read};
+}
+
 viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Opened& result) {
     viewer::OpenedImage opened;
     if (is_example(input.path)) {
@@ -116,9 +175,11 @@ viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Opened
         opened.reference.path = viewer::kExample;
     } else {
         open_file(input, work, opened, result);
+        opened.times = times_of(input, opened);
     }
     work.report("look at values", 1);
     opened.reference.fingerprint = viewer::fingerprint(*opened.image);
+    turn_into_suv(opened, result);  // by its file's values it is known again
     return opened;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/io/dicom_suv.h"
 #include "viewer/model_json.h"
 
 namespace kontur::viewer {
@@ -15,25 +16,18 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kSuv = "SUV (g/ml)";
-
 Window from_zero_to(double most) { return {most / 2, most}; }
 
 std::vector<WindowPreset> emission_presets(const Image& image, const std::string& unit) {
     const double largest = value_range(image).second;
     std::vector<WindowPreset> presets{{"Automatic", emission_window(image, unit)}};
-    if (unit == kSuv)
+    if (unit == kSuvUnit)
         for (const int suv : {5, 7, 10, 15}) presets.push_back({"SUV 0 to " + std::to_string(suv), from_zero_to(suv)});
     presets.push_back({"From 0 to the largest", from_zero_to(largest > 0 ? largest : 1)});
     return presets;
 }
 
 }  // namespace
-
-void check_time(int time) {
-    if (time >= kTimes)
-        throw Error(ErrorKind::invalid_input, fmt::format("there is no time {}: the last one is time {}", time, kTimes - 1));
-}
 
 std::string unit_of(const DicomIdentity& identity, const Image& image) {
     if (!identity.modality.empty()) return identity.unit;
@@ -59,7 +53,7 @@ Window emission_window(const Image& image, const std::string& unit) {
         most = *at;
     }
     if (!(most > 0)) most = value_range(image).second;
-    if (unit == kSuv) most = std::max(most, kLeastSuv);
+    if (unit == kSuvUnit) most = std::max(most, kLeastSuv);
     return from_zero_to(most > 0 ? most : 1);
 }
 
@@ -103,7 +97,6 @@ json to_json(const FurtherImage& shown, int number) {
             {"spacing_mm", to_json(grid.spacing_mm())},
             {"unit", shown.unit},
             {"range", {shown.range.first, shown.range.second}},
-            {"times", kTimes},
             {"notes", shown.opened.notes},
             {"identity", to_json(shown.opened.identity)},
             {"emission", is_emission(shown.opened.identity)},

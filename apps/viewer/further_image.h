@@ -12,11 +12,6 @@
 
 namespace kontur::viewer {
 
-/// How many volumes of an image follow each other in time: of a file with several one is chosen when it is opened.
-constexpr int kTimes = 1;
-/// Throws Error(invalid_input) for a time that images do not have.
-void check_time(int time);
-
 /// An image that is shown beside the one that a project is drawn on, and how it is shown at first.
 struct FurtherImage {
     OpenedImage opened;

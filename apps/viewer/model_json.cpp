@@ -202,7 +202,10 @@ Plane Members::plane(const char* key) const {
 
 int Members::image(const char* key) const { return has(key) ? static_cast<int>(integer(key, 0, kMostImages - 1)) : 0; }
 
-int Members::time() const { return has("time") ? static_cast<int>(integer("time", 0, 99'999)) : 0; }
+std::optional<int> Members::time() const {
+    if (!has("time")) return std::nullopt;
+    return static_cast<int>(integer("time", 0, 99'999));
+}
 
 std::vector<Plane> Members::planes(const char* key, std::size_t most) const {
     const json& array = at(key);

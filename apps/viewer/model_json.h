@@ -77,8 +77,8 @@ public:
     Stretch stretch(const char* key) const;
     /// The number of an image, from 0; 0 where it is missing.
     int image(const char* key) const;
-    /// The member `time`, from 0; 0 where it is missing.
-    int time() const;
+    /// The member `time`, from 0; unset where it is missing.
+    std::optional<int> time() const;
     std::string color(const char* key) const;
 
 private:

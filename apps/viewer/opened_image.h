@@ -10,6 +10,7 @@
 #include "kontur/io/dicom_series.h"
 #include "kontur/shape/volume.h"
 #include "viewer/image_reference.h"
+#include "viewer/time_axis.h"
 
 namespace kontur::viewer {
 
@@ -22,6 +23,7 @@ struct OpenedImage {
     std::string frame_of_reference_uid{};  ///< of DICOM images; "" when none is named
     std::optional<DicomSeries> series{};   ///< what DICOM files that are made of the project refer to
     DicomIdentity identity{};              ///< whose image it is; of other files all is empty
+    Times times{};                         ///< the others in time, where there are any
 };
 
 }  // namespace kontur::viewer

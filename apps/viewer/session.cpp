@@ -27,6 +27,7 @@ std::string notice_event(std::string_view level, const std::string& text) {
 
 Session::Session(OpenedImage opened, const std::filesystem::path& project)
     : image_(std::move(opened.image)),
+      times_(image_, std::move(opened.times)),
       title_(std::move(opened.title)),
       frame_of_reference_uid_(std::move(opened.frame_of_reference_uid)),
       series_(std::move(opened.series)),

@@ -188,6 +188,8 @@ private:
     nlohmann::json further_images() const;
     /// 0: the project's own. Throws Error(invalid_input) for a number that none has.
     std::shared_ptr<const Image> image_numbered(int number) const;
+    /// The project's own image at another time; unset: at its own.
+    std::shared_ptr<const Image> image_at(std::optional<int> time) { return times_.image(time.value_or(times_.own())); }
     nlohmann::json page_state();
     nlohmann::json surface_event(const Surface& surface) const;
     SurfaceEvidence evidence_of(const Surface& surface) const;
@@ -200,6 +202,7 @@ private:
     }
 
     const std::shared_ptr<const Image> image_;
+    TimeAxis times_;
     const std::string title_;
     const std::string frame_of_reference_uid_;
     const std::optional<DicomSeries> series_;

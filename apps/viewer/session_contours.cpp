@@ -67,7 +67,6 @@ Commit one_contour(const std::string& label, const State& state, const DrawnCont
 
 json Session::path(const Members& m) {
     const Members plane(m.at("plane"));
-    check_time(m.time());
     SketchOptions options;
     options.closed = m.flag_or("closed", false);
     options.snap = m.flag_or("snap", true);

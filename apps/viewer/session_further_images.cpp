@@ -87,8 +87,8 @@ std::shared_ptr<const Image> Session::image_numbered(int number) const {
 
 json Session::value(const Members& m) {
     const Vec3 at = m.point("at");
-    check_time(m.time());
-    json values{value_json(*image_, mm_to_index_, at)};
+    const std::shared_ptr<const Image> image = image_at(m.time());
+    json values{value_json(*image, image->grid.index_to_mm.inverse(), at)};
     if (const auto second = second_image()) values.push_back(value_json(*second->opened.image, second->mm_to_index, at));
     return {{"values", std::move(values)}};
 }

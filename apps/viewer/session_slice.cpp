@@ -28,7 +28,8 @@ struct SliceRequest {  // NOLINT(bugprone-exception-escape)
     std::string page, view;
     json plane;
     Reslice raster;
-    int image = 0, time = 0;  ///< their numbers
+    int image = 0;  ///< its number
+    std::optional<int> time{};
     Window window;
     enum class Pixels { none, shades, values } pixels;
     bool outlines;
@@ -186,8 +187,7 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
 
 std::string Session::slice(std::string_view text) {
     const SliceRequest request = parse(text);
-    const std::shared_ptr<const Image> image = image_numbered(request.image);
-    check_time(request.time);
+    const std::shared_ptr<const Image> image = request.image == 0 ? image_at(request.time) : image_numbered(request.image);
     if (request.outlines) watch({request.page, request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{

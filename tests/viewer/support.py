@@ -76,7 +76,7 @@ class Server:
         assert status == 200, data
         size = struct.unpack_from("<I", data)[0]
         head = json.loads(data[4 : 4 + size])
-        types = {"u8": "u1", "u32": "<u4", "f32": "<f4"}
+        types = {"u8": "u1", "u16": "<u2", "u32": "<u4", "f32": "<f4"}
         arrays = {
             name: numpy.frombuffer(data, types[a["type"]], a["count"], 4 + size + a["offset"])
             for name, a in head["arrays"].items()

@@ -13,6 +13,7 @@ import { VIEW_NAMES, type Contour, type FurtherImage, type Outlines, type Server
 import { Socket, type ConnectionState } from "./net/socket";
 import { ArrangementKeeper } from "./page/arrangement";
 import { AddImageDialog } from "./start/add_image";
+import { Cine } from "./page/cine";
 import { PageKeeper, type SavedPage } from "./page/saved_page";
 import { Saving } from "./page/saving";
 import { StartPage } from "./start/start_page";
@@ -31,6 +32,7 @@ import { IdentityCard } from "./ui/identity";
 import { importFile, openImport } from "./ui/imports";
 import { crosshairOnto, Panel, viewAlong } from "./ui/panel";
 import { SecondImageCard } from "./ui/second_image_card";
+import { TimeCard } from "./ui/time_card";
 import { openStatistics } from "./ui/statistics";
 import { Notices, StatusBar } from "./ui/status";
 import { Toolbar } from "./ui/toolbar";
@@ -45,6 +47,7 @@ export class App {
   private readonly sizes = new PaneSizes();
   private readonly second = new SecondImage();
   private readonly views = new Map<ViewName, SliceView>();
+  private readonly cine = new Cine(this.navigation, () => Promise.all([...this.views.values()].map((view) => view.idle())));
   private readonly editor: Editor;
   private active: ViewName = "axial";
   private readonly http: Http;
@@ -121,6 +124,7 @@ export class App {
       points: this.editor.points,
       call: (name, args) => this.editor.edits.make(name, args),
       identity: this.identity.element,
+      time: new TimeCard(this.navigation, this.cine).element,
       secondImage: this.secondCard.element,
       suggest: () => void this.suggest(),
       openStatistics: () => openStatistics(this.http, (p) => this.goTo(p)),
@@ -131,6 +135,7 @@ export class App {
     });
     this.keyboard = new Keyboard({
       ...shared,
+      cine: this.cine,
       focused: () => this.active,
       toggleSingle: (pane) => this.toggleSingle(pane),
       undo: () => this.undo(),
@@ -157,6 +162,7 @@ export class App {
     const { navigation, project, editor } = this;
     const each = (act: (view: SliceView) => void) => () => this.views.forEach(act);
     navigation.on(["planes", "window"], each((view) => view.refresh(true)));
+    navigation.on(["time"], each((view) => view.refresh(true)));
     navigation.on(["planes"], () => this.surface.planesChanged());
     navigation.on(["layout"], () => this.lay());
     navigation.on(["layout"], () => this.arrangement.keepSoon());
@@ -419,8 +425,8 @@ export class App {
   }
 
   private async askValue(at: Vec3): Promise<void> {
-    const { values } = await this.socket.call("value", { at });
-    const { session, second } = this;
+    const { session, second, navigation } = this;
+    const { values } = await this.socket.call("value", { at, ...(navigation.isAway && { time: navigation.time }) });
     if (session) this.status.setCursor(`${placeText(at)}  ·  ${valuesText(values, session, second.info)}`);
   }
 

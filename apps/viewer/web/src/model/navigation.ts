@@ -31,7 +31,7 @@ const ZOOM_LIMITS: [number, number] = [0.25, 40];
 const FIT_MARGIN = 1.06;
 
 /** Where the user is in the image. All slice planes go through the crosshair. */
-export class Navigation extends Emitter<"planes" | "window" | "layout"> {
+export class Navigation extends Emitter<"planes" | "window" | "layout" | "time"> {
   crosshair: Vec3 = [0, 0, 0];
   cameras = {} as Record<ViewName, Camera>;
   window: Window = { center: 0, width: 1 };
@@ -40,6 +40,8 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
   big: PaneName = "axial"; // the pane that is big in "big-slice", or alone in "single"
   /** As they are shown, the slices as they were taken first. */
   order: readonly ViewName[] = VIEW_NAMES;
+  /** Which of the volumes that follow each other is seen, from 0. */
+  time = 0;
   private image: ImageInfo | null = null;
   private views!: Record<ViewName, ViewGeometry>;
 
@@ -54,12 +56,35 @@ export class Navigation extends Emitter<"planes" | "window" | "layout"> {
     this.layout = saved?.layout ?? LAYOUT_NAMES.find((name) => name === state?.layout) ?? "overview";
     this.big = saved?.big ?? PANES.find((name) => name === state?.big) ?? session.first_view;
     this.linked = saved?.linked ?? false;
-    this.emit("planes", "window", "layout");
+    this.time = session.image.time;
+    this.emit("planes", "window", "layout", "time");
   }
 
   /** False until the server has said what the image is. */
   get hasImage(): boolean {
     return this.image !== null;
+  }
+
+  get times(): number {
+    return this.image?.times ?? 1;
+  }
+
+  /** The time that contours belong to. */
+  get ownTime(): number {
+    return this.image?.time ?? 0;
+  }
+
+  /** Another time is seen than the one that contours belong to. */
+  get isAway(): boolean {
+    return this.time !== this.ownTime;
+  }
+
+  /** After the last one comes the first. */
+  setTime(time: number): void {
+    const next = ((time % this.times) + this.times) % this.times;
+    if (next === this.time) return;
+    this.time = next;
+    this.emit("time");
   }
 
   saved(): SavedNavigation {

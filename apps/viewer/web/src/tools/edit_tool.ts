@@ -24,21 +24,24 @@ export const editTool: Tool<"edit"> = {
     ],
   },
   movesPlanes: true,
+  looksAround: true,
   hint: ({ project }, hover) => (hover && "outline" in hover ? OUTLINE : project.selection ? SELECTED : LOOKING),
-  press: ({ edits, outlines, planeLines, points }, place, modifiers) => {
+  press: ({ edits, navigation, outlines, planeLines, points }, place, modifiers) => {
     const { view, screen, pointer, hit } = place;
+    if (navigation.isAway) return planeLines.press(view, screen, pointer);
     const point = points.at(place);
     if (point) return points.grab(screen, pointer, point);
     if (hit) return edits.press(screen, pointer, hit, modifiers);
     const isHandle = planeLines.at(view, screen, pointer)?.on === "turn";
     return (isHandle ? null : outlines.press(view, screen, pointer)) ?? planeLines.press(view, screen, pointer);
   },
-  hover: ({ outlines, planeLines, points }, place) => {
+  hover: ({ navigation, outlines, planeLines, points }, place) => {
     const { view, screen, pointer, hit } = place;
+    const line = planeLines.at(view, screen, pointer);
+    if (navigation.isAway) return line && { line, view };
     const point = points.at(place);
     if (point) return { point, view };
     if (hit) return { contour: hit, view };
-    const line = planeLines.at(view, screen, pointer);
     const outline = line?.on === "turn" ? null : outlines.at(view, screen, pointer);
     if (outline) return { outline, view };
     return line && { line, view };

@@ -90,13 +90,23 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
-    if (this.isBare) return null;
+    if (this.isBare || this.isAnotherTime()) return null;
     return this.tool.press(this, this.place(view, screen, pointer), modifiers);
+  }
+
+  /** Whether the tool would edit what belongs to another time than the one that is seen. Says so, and offers to go there. */
+  isAnotherTime(): boolean {
+    const { navigation } = this;
+    if (!navigation.isAway || this.tool.looksAround) return false;
+    const own = navigation.ownTime;
+    this.services.tell(`Contours belong to frame ${own + 1}; frame ${navigation.time + 1} is only to be looked at.`, { label: `Go to frame ${own + 1}`, act: () => navigation.setTime(own) });
+    return true;
   }
 
   moved(view: ViewName, screen: Screen, pointer: Point2): void {
     this.pointer = { view, at: pointer };
-    this.setHover(this.tool.hover(this, this.place(view, screen, pointer)));
+    const isIdle = this.navigation.isAway && !this.tool.looksAround;
+    this.setHover(isIdle ? null : this.tool.hover(this, this.place(view, screen, pointer)));
   }
 
   left(): void {

@@ -55,6 +55,8 @@ export interface Tool<Id extends string = string> {
   readonly stretch?: StretchKind;
   /** It takes the lines of other planes: they are bright, and have handles. */
   readonly movesPlanes?: boolean;
+  /** It may be used where another time is seen than the one that contours belong to. */
+  readonly looksAround?: boolean;
   /** Whether it is the tool to go on with this sketch. */
   resumes?(sketch: Sketch): boolean;
   /** What can be done next, for the status line. */

@@ -2,6 +2,7 @@
 import { nextDrawnSlice } from "../model/drawn_slices";
 import type { Navigation, PaneName } from "../model/navigation";
 import type { Project } from "../model/project";
+import type { Cine } from "../page/cine";
 import type { SecondImage } from "../model/second_image";
 import type { ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
@@ -14,6 +15,7 @@ export interface CommandServices {
   project: Project;
   second: SecondImage;
   editor: Editor;
+  cine: Cine;
   /** The view that keys are for. */
   focused(): ViewName;
   toggleSingle(pane: PaneName): void;
@@ -49,6 +51,7 @@ export const HELD_KEYS: readonly HeldKey[] = [
 ];
 
 const KEY_ZOOM = 1.2;
+const ONE_FRAME = "The image has one frame.";
 
 const scroll = (steps: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.scroll(focused(), steps) });
 const zoom = (factor: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.zoomAt(focused(), navigation.crosshair, factor) });
@@ -82,6 +85,17 @@ export const COMMANDS: readonly Command[] = [
     help: ["Look around", "N, Shift + N", "the next, the previous slice with a contour"],
     run: (page, isShifted) => goToDrawnSlice(page, isShifted ? -1 : 1),
   },
+  {
+    keys: ["t"],
+    help: ["Look around", "T", "play an image of several frames, or pause"],
+    run: ({ cine, tell }) => void (cine.toggle() || tell(ONE_FRAME)),
+  },
+  {
+    keys: ["."],
+    help: ["Look around", ". and ,", "the next frame, and the one before"],
+    run: ({ cine, tell }) => void (cine.step(1) || tell(ONE_FRAME)),
+  },
+  { keys: [","], run: ({ cine, tell }) => void (cine.step(-1) || tell(ONE_FRAME)) },
   { keys: ["Home"], help: ["Look around", "Home", "all views back to where they began"], run: ({ navigation }) => navigation.resetAll() },
   { keys: ["Enter"], help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()) },
   {

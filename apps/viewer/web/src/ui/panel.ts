@@ -19,6 +19,7 @@ import { UseImageSwitch } from "./use_image";
 export interface PanelServices extends RowServices, ActionServices {
   /** Whose image it is. */
   identity: HTMLElement;
+  time: HTMLElement;
   secondImage: HTMLElement;
   openStatistics(): void;
   /** Shows where to draw next. */
@@ -43,6 +44,7 @@ export class Panel {
     const measure = button({ icon: ICONS.statistics, title: "Statistics: volume, surface, diameters, values of all structures", class: "icon-button small", test: "statistics-open", click: services.openStatistics });
     this.element.append(
       services.identity,
+      services.time,
       services.secondImage,
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
       this.list.filter,

@@ -13,7 +13,7 @@ export const shortName = ({ modality }: Pick<Identity, "modality">, else_: strin
 const short = (value: number): string => String(Number(value.toPrecision(3)));
 
 /** They move the slider, not the slice; the other keys are the page's while it has the keyboard. */
-function keepSliderKeys(event: KeyboardEvent): void {
+export function keepSliderKeys(event: KeyboardEvent): void {
   if (/^(Arrow|Page)|^(Home|End)$/.test(event.key)) event.stopPropagation();
 }
 

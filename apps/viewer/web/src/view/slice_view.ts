@@ -124,8 +124,8 @@ export class SliceView {
     const needsPixels = this.image.isEmpty || wanted !== this.asked;
     const needsSecond = this.second.needs(this.planeKey());
     if (pixels && !needsPixels && !needsSecond) return;
-    const isOtherWindow = needsPixels && !this.image.isEmpty && this.planeKey() === this.askedPlane;
-    if (needsPixels) [this.asked, this.askedPlane] = [wanted, this.planeKey()];
+    const isOtherWindow = needsPixels && !this.image.isEmpty && this.imageKey() === this.askedPlane;
+    if (needsPixels) [this.asked, this.askedPlane] = [wanted, this.imageKey()];
     if (isOtherWindow && !needsSecond && this.valuesComing === this.askedPlane) return; // shown in the window that there is then
     if (isOtherWindow && !needsSecond && !this.requests.busy && this.image.window(this.services.navigation.window)) return;
     const wantsValues = isOtherWindow && !this.isTooCoarse();
@@ -135,6 +135,11 @@ export class SliceView {
     window.clearTimeout(this.crossingsTimer);
     this.crossingsTimer = 0;
     void this.requests.idle().then(() => (this.element.dataset["pending"] = String(this.crossingsTimer !== 0)));
+  }
+
+  /** Settles when all that was asked for has come. */
+  idle(): Promise<void> {
+    return this.requests.idle();
   }
 
   /** The second image is to be seen, or not, or another one, or in other colours. */
@@ -236,9 +241,14 @@ export class SliceView {
     return [...origin, ...u, ...v, mm_per_pixel, this.width, this.height].map((value) => value.toFixed(6)).join();
   }
 
+  /** Of what is seen of the image, in whatever window. */
+  private imageKey(): string {
+    return `${this.planeKey()} ${this.services.navigation.time}`;
+  }
+
   private pixelKey(): string {
     const { center, width } = this.services.navigation.window;
-    return [this.planeKey(), center.toFixed(6), width.toFixed(6)].join();
+    return [this.imageKey(), center.toFixed(6), width.toFixed(6)].join();
   }
 
   /** The plane's values come in steps that the window would show: then only the server can show it. */
@@ -257,11 +267,11 @@ export class SliceView {
     const plane = slicePlane(screen, ratio);
     const width = Math.max(1, Math.round(screen.width * ratio));
     const height = Math.max(1, Math.round(screen.height * ratio));
-    const { window } = this.services.navigation;
-    const key = this.planeKey();
+    const { window, time, isAway } = this.services.navigation;
+    const key = this.imageKey();
     try {
       const raster = { view: this.name, plane, width, height };
-      const [reply, laySecond] = await Promise.all([this.services.http.slice({ ...raster, window, pixels, outlines: true }), this.second.ask(raster, key)]);
+      const [reply, laySecond] = await Promise.all([this.services.http.slice({ ...raster, window, pixels, outlines: true, ...(isAway && { time }) }), this.second.ask(raster, this.planeKey())]);
       this.slice = {
         plane,
         header: reply.header,

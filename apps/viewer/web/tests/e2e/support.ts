@@ -39,12 +39,13 @@ const STRAIGHT: Steps = [[2, 0, 0], [0, 2, 0], [0, 0, 4]];
 /** Turned by 25 degrees about x, and the slices shifted against each other as a tilted gantry does. */
 export const SHEARED: Steps = [[2, 0, 0], [0, 1.81, 0.85], [0.6, -0.7, 3.8]];
 
-/** A NIfTI image of 96 x 80 x 40 voxels with a ball of 100 in the middle of space, in a little noise. */
-export function writeBallImage(path: string, steps: Steps = STRAIGHT, radius_mm = BALL_RADIUS_MM): void {
+/** A NIfTI image of 96 x 80 x 40 voxels with a ball of 100 in the middle of space, in a little noise; with several radii as many frames. */
+export function writeBallImage(path: string, steps: Steps = STRAIGHT, ...radii_mm: number[]): void {
+  const radii = radii_mm.length > 0 ? radii_mm : [BALL_RADIUS_MM];
   const size = [96, 80, 40] as const;
-  const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2]);
+  const file = Buffer.alloc(352 + 2 * size[0] * size[1] * size[2] * radii.length);
   file.writeInt32LE(348, 0);
-  [3, ...size, 1, 1, 1, 1].forEach((value, i) => file.writeInt16LE(value, 40 + 2 * i));
+  [radii.length > 1 ? 4 : 3, ...size, radii.length, 1, 1, 1].forEach((value, i) => file.writeInt16LE(value, 40 + 2 * i));
   file.writeInt16LE(4, 70); // 16-bit integers
   file.writeInt16LE(16, 72);
   [1, ...steps.map((step) => Math.hypot(...step))].forEach((value, i) => file.writeFloatLE(value, 76 + 4 * i));
@@ -60,7 +61,8 @@ export function writeBallImage(path: string, steps: Steps = STRAIGHT, radius_mm 
   let seed = 1;
   const noise = () => (seed = (seed * 16807) % 2147483647) % 21;
   let at = 352;
-  for (let k = 0; k < size[2]; ++k)
+  for (const radius_mm of radii)
+   for (let k = 0; k < size[2]; ++k)
     for (let j = 0; j < size[1]; ++j)
       for (let i = 0; i < size[0]; ++i) {
         const place = first.map((from, axis) => from + i * steps[0][axis]! + j * steps[1][axis]! + k * steps[2][axis]!);

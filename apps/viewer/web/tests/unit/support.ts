@@ -33,7 +33,7 @@ export function session(changes: Partial<Session> = {}): Session {
   const corners = Array.from({ length: 8 }, (_, k): Vec3 => [k & 1 ? 100 : -100, k & 2 ? 80 : -80, k & 4 ? 50.5 : -50.5]);
   return {
     event: "session", version: "1", title: "image", project: "image.kontur",
-    image: { size: [100, 80, 51], spacing_mm: [2, 2, 2], corners, center: [0, 0, 0], unit: "HU", range: [-1000, 1000], times: 1, notes: [] }, images: [],
+    image: { size: [100, 80, 51], spacing_mm: [2, 2, 2], corners, center: [0, 0, 0], unit: "HU", range: [-1000, 1000], times: 1, time: 0, notes: [] }, images: [],
     identity: { patient_name: "", patient_id: "", birth_date: "", study_date: "", study_description: "", series_number: "", series_description: "", modality: "" }, has_dicom: false,
     window: { center: 40, width: 400 }, presets: [],
     views: { axial: view("Axial", AXIAL, [-50, 50]), sagittal: view("Sagittal", SAGITTAL, [-100, 100]), coronal: view("Coronal", CORONAL, [-80, 80]), oblique: view("Oblique", SKEW, [-90, 90]) },

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image of several frames: one is drawn on, the others are looked at.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { before, describe, test } from "node:test";
+import type { Browser } from "playwright-core";
+import { launch } from "./browsers";
+import { circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from "./support";
+
+const folder = temporaryFolder();
+const RADII_MM = [40, 32, 24, 16];
+let browser: Browser, server: Server, viewer: Viewer;
+cleanUp(folder, () => [browser, server]);
+
+before(async () => {
+  const path = join(folder.path, "beating.nii");
+  writeBallImage(path, undefined, ...RADII_MM);
+  browser = await launch();
+  server = await Server.start(folder.path, path, "--frame", "1");
+  viewer = await Viewer.open(browser, server.address);
+  await viewer.closeHint();
+});
+
+const frame = () => viewer.page.locator("[data-test=time-frame]").textContent();
+
+/** Whether the ball reaches this far from the middle in the frame that is seen, as the status line says. */
+async function reaches(mm: number): Promise<boolean> {
+  await viewer.slicesShown();
+  const right = await viewer.pixels("axial", mm);
+  await viewer.page.mouse.move(...(await viewer.at("axial", right + 3, 0)));
+  await viewer.page.waitForTimeout(150);
+  await viewer.page.mouse.move(...(await viewer.at("axial", right, 0)));
+  await viewer.page.waitForTimeout(250);
+  const text = (await viewer.page.locator(".cursor").textContent())!;
+  return Number(/·\s*(-?\d+)/.exec(text)![1]) > 60;
+}
+
+/** The shade of the slice at a place on its way out from the middle, between the two sizes of neighbouring frames. */
+async function brightAt(mm: number): Promise<boolean> {
+  await viewer.slicesShown();
+  const [x, y] = [await viewer.pixels("axial", mm) * Math.SQRT1_2, -(await viewer.pixels("axial", mm)) * Math.SQRT1_2];
+  return viewer.page.evaluate(([right, down]) => {
+    const canvas = document.querySelector<HTMLCanvasElement>("[data-view=axial] canvas")!;
+    const ratio = canvas.width / canvas.clientWidth;
+    return canvas.getContext("2d")!.getImageData(canvas.width / 2 + right * ratio, canvas.height / 2 + down * ratio, 1, 1).data[0]! > 120;
+  }, [x, y] as const);
+}
+
+describe("an image of several frames", () => {
+  test("begins with the one that was opened; keys and slider show the others, in all slices and in the status line", async () => {
+    const { page } = viewer;
+    assert.equal(await frame(), "2 / 4");
+    assert.deepEqual([await brightAt(28), await brightAt(36)], [true, false]);
+    await page.keyboard.press(".");
+    assert.equal(await frame(), "3 / 4");
+    assert.deepEqual([await brightAt(20), await brightAt(28)], [true, false]);
+    assert.deepEqual([await reaches(20), await reaches(28)], [true, false]);
+    await page.keyboard.press(",");
+    await page.keyboard.press(",");
+    assert.equal(await frame(), "1 / 4");
+    assert.equal(await brightAt(36), true);
+    await page.keyboard.press(",");
+    assert.equal(await frame(), "4 / 4", "before the first comes the last");
+    const slider = page.locator("[data-test=time-slider]");
+    await slider.focus();
+    await page.keyboard.press("ArrowLeft");
+    assert.equal(await frame(), "3 / 4");
+    await page.click("[data-test=own-time]");
+    assert.equal(await frame(), "2 / 4");
+    assert.equal(await page.locator("[data-test=own-time]").isHidden(), true);
+    assert.equal(await brightAt(28), true);
+  });
+
+  test("is drawn on where it was opened, and nowhere else", async () => {
+    const { page } = viewer;
+    await page.keyboard.press(".");
+    await page.keyboard.press("f");
+    const ring = circle(await viewer.pixels("axial", RADII_MM[1]!), 48);
+    await viewer.drag("axial", ring);
+    const notice = page.locator(".notice", { hasText: "Contours belong to frame 2; frame 3 is only to be looked at." });
+    await notice.waitFor();
+    assert.equal(await viewer.contours(), 0);
+    await notice.locator("button", { hasText: "Go to frame 2" }).click();
+    assert.equal(await frame(), "2 / 4");
+    await viewer.drag("axial", ring);
+    await viewer.waitForContours(1);
+    await viewer.surfaceShown();
+    await page.keyboard.press("v");
+    await page.keyboard.press(".");
+    await viewer.drag("axial", [[await viewer.pixels("axial", 32), 0], [await viewer.pixels("axial", 50), 0]]);
+    await viewer.slicesShown();
+    await viewer.waitForStep("undo", "Draw a contour");
+    await page.keyboard.press(",");
+  });
+
+  test("is played by T, and paused by it", async () => {
+    const { page } = viewer;
+    await page.keyboard.press("t");
+    const seen = new Set<string | null>();
+    for (let n = 0; n < 200 && seen.size < 4; ++n) {
+      seen.add(await frame());
+      await page.waitForTimeout(20);
+    }
+    assert.equal(seen.size, 4);
+    assert.equal(await page.locator("[data-test=play]").getAttribute("aria-label"), "Pause (T)");
+    await page.keyboard.press("t");
+    const stopped = await frame();
+    await page.waitForTimeout(400);
+    assert.equal(await frame(), stopped);
+    assert.deepEqual(viewer.complaints, []);
+  });
+});

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Navigation } from "../../src/model/navigation";
+import { Cine } from "../../src/page/cine";
+import { editing } from "./editing";
+import { session } from "./support";
+
+function beating(times: number, time: number): Navigation {
+  const plain = session();
+  const navigation = new Navigation();
+  navigation.start({ ...plain, image: { ...plain.image, times, time } }, null);
+  return navigation;
+}
+
+const settled = () => new Promise((resolve) => setImmediate(resolve));
+
+test("a cine goes on when the frame is there and the eye has had its time, from the last to the first", async () => {
+  const navigation = beating(3, 1);
+  const waiting: (() => void)[] = [];
+  const wait = () => new Promise<void>((resolve) => waiting.push(resolve));
+  const cine = new Cine(navigation, wait, wait);
+  assert.equal(cine.toggle(), true);
+  const times: number[] = [];
+  for (let n = 0; n < 3; ++n) {
+    await settled();
+    times.push(navigation.time);
+    waiting.shift()!();
+    await settled();
+    assert.equal(navigation.time, times.at(-1), "half of what is waited for is not enough");
+    waiting.shift()!();
+  }
+  assert.deepEqual(times, [2, 0, 1]);
+  cine.step(1);
+  await settled();
+  const stopped = navigation.time;
+  waiting.forEach((go) => go());
+  await settled();
+  assert.deepEqual([cine.isPlaying, navigation.time], [false, stopped]);
+});
+
+test("an image of one frame is not played", () => {
+  const cine = new Cine(beating(1, 0), () => Promise.resolve());
+  assert.deepEqual([cine.toggle(), cine.step(1), cine.isPlaying], [false, false, false]);
+});
+
+test("at another time than that of the contours tools that edit say so, and Edit and Measure look around", () => {
+  const all = editing("freehand");
+  const { navigation, editor, press, drag, edits, complaints, remedies } = all;
+  const plain = session();
+  navigation.start({ ...plain, image: { ...plain.image, times: 5, time: 2 } }, null);
+  navigation.setTime(4);
+  assert.equal(press([100, 100]), null);
+  assert.match(complaints.at(-1)!, /belong to frame 3; frame 5 is only/);
+  editor.choose("edit");
+  drag([220, 180], [260, 180]); // on the contour's line
+  assert.deepEqual(edits(), []);
+  editor.choose("measure");
+  drag([100, 200], [150, 200]);
+  assert.equal(editor.measuring.measurements.all.length, 1);
+  editor.choose("freehand");
+  remedies.at(-1)!.act();
+  assert.equal(navigation.isAway, false);
+  assert.notEqual(press([100, 100]), null);
+});

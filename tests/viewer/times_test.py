@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Images with several volumes in time: one is drawn on, the others are looked at."""
+import json
+import pathlib
+import subprocess
+import sys
+
+import nibabel
+import numpy
+from support import Page, running
+
+SUPPORT = pathlib.Path(__file__).parents[1] / "support"
+
+
+def write_beating(path, frames=4):
+    values = numpy.zeros((20, 18, 16, frames), numpy.int16)
+    for time in range(frames):
+        values[..., time] = 100 * time + numpy.arange(20)[:, None, None]
+    nibabel.save(nibabel.Nifti1Image(values, numpy.diag([2.0, 2.0, 2.0, 1.0])), path)
+
+
+def value(page, **more):
+    return page.do("value", at=[-6, -10, 12], **more)["values"][0]  # voxel 3, 5, 6 in LPS
+
+
+def slice_values(server, **more):
+    plane = {"origin": [-6, -10, 12], "u": [1, 0, 0], "v": [0, 1, 0], "normal": [0, 0, 1], "mm_per_pixel": 2}
+    body = {"plane": plane, "width": 1, "height": 1, "pixels": "values", **more}
+    head, _ = server.binary("POST", "/api/slice", json.dumps(body).encode())
+    return head["values"]["first"]
+
+
+def test_other_times_of_a_file_are_seen_while_one_is_drawn_on(tmp_path):
+    write_beating(tmp_path / "beating.nii.gz")
+    with running(tmp_path, tmp_path / "beating.nii.gz", "--frame", "2") as server:
+        page = Page(server)
+        image = page.session["image"]
+        assert (image["times"], image["time"]) == (4, 2)
+        assert value(page) == 203 and slice_values(server) == 203
+        for time in (0, 3, 2, 0):
+            assert value(page, time=time) == 100 * time + 3
+            assert slice_values(server, time=time) == 100 * time + 3
+        status, _, reply = server.request("POST", "/api/slice", json.dumps({"plane": {"origin": [0, 0, 0], "u": [1, 0, 0], "v": [0, 1, 0], "normal": [0, 0, 1], "mm_per_pixel": 1}, "width": 1, "height": 1, "pixels": "values", "time": 4}).encode())
+        assert status == 400 and "there is no time 4: the last one is time 3" in reply.decode()
+
+
+def test_a_file_of_one_volume_has_one_time(tmp_path):
+    write_beating(tmp_path / "still.nii.gz", frames=1)
+    for words in ([], ["--frame", "0"]):
+        with running(tmp_path, tmp_path / "still.nii.gz", *words) as server:
+            image = Page(server).session["image"]
+            assert (image["times"], image["time"]) == (1, 0)
+
+
+def test_volumes_of_a_series_are_its_times(tmp_path):
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "echoes", tmp_path / "made"], check=True)
+    folder = tmp_path / "made" / "dicom"
+    values = []
+    for volume in (1, 2):
+        with running(tmp_path, folder, "--volume", str(volume), "--project", tmp_path / f"{volume}.kontur") as server:
+            page = Page(server)
+            image = page.session["image"]
+            assert (image["times"], image["time"]) == (2, volume - 1)
+            values.append([page.do("value", at=image["center"], **more)["values"][0] for more in ({}, {"time": 0}, {"time": 1})])
+    (own, first, second), (own_of_second, *others) = values
+    assert own == first and own_of_second == second and others == [first, second]
+    assert first != second

@@ -12,7 +12,7 @@ export class Cine extends Emitter<"playing"> {
     private readonly navigation: Navigation,
     /** Settles when what is seen of this time is there. */
     private readonly shown: () => Promise<unknown>,
-    private readonly rest: (ms: number) => Promise<unknown> = (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
+    private readonly rest: (ms: number) => Promise<unknown> = (ms) => new Promise((resolve) => void setTimeout(resolve, ms)),
   ) {
     super();
   }

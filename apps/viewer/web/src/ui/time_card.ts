@@ -18,8 +18,8 @@ export class TimeCard {
     private readonly cine: Cine,
   ) {
     this.play = button({ icon: ICONS.play, title: "", class: "icon-button small", test: "play", click: () => void cine.toggle() });
-    this.back = button({ label: "", title: "Contours belong to this frame; others are only to be looked at", class: "choice", test: "own-time", click: () => this.show(navigation.ownTime) });
-    this.element.append(el("div", { class: "time-row" }, this.play, this.slider, this.frame), this.back);
+    this.back = button({ icon: ICONS.reset, title: "", class: "icon-button small", test: "own-time", click: () => this.show(navigation.ownTime) });
+    this.element.append(this.play, this.slider, this.frame, this.back);
     navigation.on(["time"], () => this.update());
     cine.on(["playing"], () => this.update());
   }
@@ -35,10 +35,14 @@ export class TimeCard {
     this.slider.max = String(navigation.times);
     this.slider.value = String(navigation.time + 1);
     this.frame.textContent = `${navigation.time + 1} / ${navigation.times}`;
-    this.back.hidden = !navigation.isAway;
-    this.back.textContent = `Back to frame ${navigation.ownTime + 1}`;
-    this.play.title = cine.isPlaying ? "Pause (T)" : "Play the frames (T)";
-    this.play.setAttribute("aria-label", this.play.title);
+    this.back.disabled = !navigation.isAway;
+    name(this.back, `Back to frame ${navigation.ownTime + 1}, which contours belong to`);
+    name(this.play, cine.isPlaying ? "Pause (T)" : "Play the frames (T)");
     this.play.replaceChildren(icon(cine.isPlaying ? ICONS.pause : ICONS.play));
   }
+}
+
+function name(control: HTMLButtonElement, title: string): void {
+  control.title = title;
+  control.setAttribute("aria-label", title);
 }

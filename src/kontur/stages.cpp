@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "kontur/base/error.h"
 #include "kontur/fit/sides.h"
+#include "kontur/refine/spread_points.h"
 
 namespace kontur {
 namespace {
@@ -137,15 +139,41 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
     return refine(drawing, prepared, fitted, image, kept ? fit_once : fit_part, {.fit = options.fit}, work);
 }
 
+namespace {
+
+/// Where contours contradict each other the surface may miss one of them, or all: places of it towards which f leads from
+/// contours that are `margin_mm` off it wherever they were looked at.
+std::vector<Vec3> surface_of_missed(const ContourSet& contours, const ImplicitFunction& function, double margin_mm) {
+    constexpr std::size_t kLookedAt = 8;  // points of each contour
+    constexpr int kSteps = 20;
+    const auto misses = [&](const Vec3& p) { return std::abs(function.value(p)) > margin_mm; };
+    std::vector<Vec3> slid;
+    for (const Contour& contour : contours.contours) {
+        ContourSet alone;
+        alone.contours = {contour};
+        std::vector<Vec3> points = along_contours(alone, length_mm(contour) / kLookedAt);
+        if (std::ranges::all_of(points, misses)) slid.insert(slid.end(), points.begin(), points.end());
+    }
+    slide_to_surface(function, slid, {.reach_mm = bounding_box(contours).diagonal() / kSteps, .steps = kSteps}, {});
+    std::erase_if(slid, misses);
+    return slid;
+}
+
+}  // namespace
+
 std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,
-                               const ImplicitFunction& function, double click_margin_mm) {
+                               const ImplicitFunction& function, double margin_mm) {
     std::vector<Vec3> starts = prepared.crossings;
     starts.insert(starts.end(), prepared.between_crossings.begin(), prepared.between_crossings.end());
     for (const BoundaryPoint& point : prepared.points) starts.push_back(point.position);
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
+    if (margin_mm > 0) {
+        const std::vector<Vec3> missed = surface_of_missed(contours, function, margin_mm);
+        starts.insert(starts.end(), missed.begin(), missed.end());
+    }
     for (const Vec3& click : contours.exterior)
-        if (const auto start = surface_near(click, function, click_margin_mm)) starts.push_back(*start);
+        if (const auto start = surface_near(click, function, margin_mm)) starts.push_back(*start);
     return starts;
 }
 

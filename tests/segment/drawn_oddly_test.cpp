@@ -53,6 +53,20 @@ TEST(DrawnOddly, TwiceIsOnce) {
     EXPECT_NEAR(volume_ml(redrawn), once, 0.09 * once) << "again by hand, in the same plane: what either line encloses";
 }
 
+TEST(DrawnOddly, WhatMissesAllContoursIsFoundOnEveryGrid) {
+    // Two circles round one centre, of which the axial one is far too large for the coronal one: the surface passes between.
+    for (const double radius : {4.0, 6.0, 8.0}) {
+        ContourSet set;
+        set.contours = {circle_at({}, 40), circle_at({}, radius, 60, {0, 1, 0})};
+        const Segmentation fine = segmented(set, 1, 10);
+        EXPECT_TRUE(warns(fine.report, "contradict each other"));
+        EXPECT_GT(fine.report.mask_volume_ml, 50);
+        for (const double spacing : {1.5, 2.0, 3.0})
+            EXPECT_NEAR(volume_ml(set, spacing, 10), fine.report.mask_volume_ml, 0.04 * fine.report.mask_volume_ml)
+                << radius << " mm on voxels of " << spacing << " mm";
+    }
+}
+
 TEST(DrawnOddly, TwoPlanesAtTheSamePlaceAreOneEnd) {
     const double once = volume_ml(ball({-30, 0, 30}));
     EXPECT_NEAR(volume_ml(ball({-30.5, -30, 0, 30, 30.5})), once, 0.03 * once);

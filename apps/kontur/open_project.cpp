@@ -113,10 +113,12 @@ void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& o
 
 Image times(const Image& image, double factor) {
     std::vector<float> values;
-    std::visit([&](const auto& samples) {
-        values.reserve(samples.size());
-        for (const auto sample : samples) values.push_back(static_cast<float>(factor * static_cast<double>(sample)));
-    }, image.samples);
+    std::visit(
+        [&](const auto& samples) {
+            values.reserve(samples.size());
+            for (const auto sample : samples) values.push_back(static_cast<float>(factor * static_cast<double>(sample)));
+        },
+        image.samples);
     return {image.grid, std::move(values)};
 }
 
@@ -131,11 +133,12 @@ void turn_into_suv(viewer::OpenedImage& opened, Opened& result) {
     opened.identity.unit = kSuvUnit;
 }
 
-/// How many volumes there are beside the one that was chosen: frames of a file, or volumes of a DICOM series.
+/// How many volumes there are, of which one was chosen: frames of a file, or volumes of a DICOM series.
 int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
     if (opened.series && input.options.dicom.volume) {
         const auto all = list_dicom_series(input.path);
-        return static_cast<int>(std::count_if(all.begin(), all.end(), [&](const DicomSeries& one) { return one.series_uid == opened.series->series_uid; }));
+        return static_cast<int>(std::count_if(
+            all.begin(), all.end(), [&](const DicomSeries& one) { return one.series_uid == opened.series->series_uid; }));
     }
     if (!input.options.frame) return 1;
     ReadImageOptions options = input.options;

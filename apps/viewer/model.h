@@ -53,8 +53,8 @@ struct Structure {
     std::string name;
     std::string color = "#e8b04a";  ///< "#rrggbb"
     bool visible = true;
-    std::vector<Plane> empty_planes{};  ///< in which nothing of it is seen
-    std::optional<double> smoothing{};  ///< of the fit (SegmentOptions); unset: the usual one
+    std::vector<Plane> empty_planes{};           ///< in which nothing of it is seen
+    std::optional<double> smoothing{};           ///< of the fit (SegmentOptions); unset: the usual one
     std::vector<SurfacePoint> surface_points{};  ///< that its surface passes
 
     friend bool operator==(const Structure&, const Structure&) = default;

@@ -53,7 +53,8 @@ json Session::add_surface_point(const Members& m) {
     ContourSet set = contour_set(project_.state(), structure.id);
     if (set.contours.empty()) refuse(structure.name + " has no contour yet, and a point alone makes no surface");
     if (set.surface.size() >= kMostSurfacePoints)
-        refuse(fmt::format("{} has {} surface points; the limit is {}", structure.name, set.surface.size(), kMostSurfacePoints));
+        refuse(fmt::format("{} has {} surface points; the limit is {}", structure.name, set.surface.size(),
+                           kMostSurfacePoints));
     check_is_new(set.surface, m.point("at"), structure);
     set.surface.push_back({m.point("at"), {}});
     check_points(set);

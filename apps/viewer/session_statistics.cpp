@@ -50,7 +50,8 @@ std::string Session::statistics(const std::stop_token& stop) {
     if (second) {
         const Image& other = *second->opened.image;
         const bool is_same_grid = other.grid == image_->grid;
-        const auto refitted = is_same_grid ? std::vector<FittedStructure>{} : fit_structures_on(other.grid, now, *image_, line.work(stop));
+        const auto refitted =
+            is_same_grid ? std::vector<FittedStructure>{} : fit_structures_on(other.grid, now, *image_, line.work(stop));
         const std::vector<FittedStructure>& on_other = is_same_grid ? all : refitted;
         for (json& row : rows) row["second"] = {{"voxels", 0}};
         for (std::size_t n = 0, row = 0; n < on_other.size(); ++n, ++row) {

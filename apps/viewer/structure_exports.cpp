@@ -175,7 +175,8 @@ bool reaches_into(const Grid& grid, const ContourSet& set) {
     }
 }
 
-std::vector<FittedStructure> fit_together(const State& state, const Image& image, const Grid& grid, bool with_mesh, const Work& work) {
+std::vector<FittedStructure> fit_together(const State& state, const Image& image, const Grid& grid, bool with_mesh,
+                                          const Work& work) {
     std::vector<FittedStructure> all;
     std::vector<ContourSet> sets;
     std::vector<Id> ids;
@@ -204,7 +205,8 @@ std::vector<FittedStructure> fit_together(const State& state, const Image& image
     return all;
 }
 
-std::vector<FittedStructure> fit_each(const State& state, const Image& image, const Grid& grid, bool with_mesh, const Work& work) {
+std::vector<FittedStructure> fit_each(const State& state, const Image& image, const Grid& grid, bool with_mesh,
+                                      const Work& work) {
     std::vector<FittedStructure> all;
     for (const auto& [id, structure] : state.structures) {
         ContourSet set = contour_set(state, id);

@@ -14,7 +14,7 @@ namespace kontur::viewer {
 /// Volumes of one file or series that follow each other.
 struct Times {
     int count = 1;
-    int own = 0;  ///< the one that was opened
+    int own = 0;                                                   ///< the one that was opened
     std::function<std::shared_ptr<const Image>(int time)> read{};  ///< another one; may throw as `read_image`
 };
 

@@ -32,8 +32,13 @@ TEST(ModelJson, AContourReturnsToTheLastBit) {
 }
 
 TEST(ModelJson, AStructureReturns) {
-    const Structure structure{
-        12, "Leber \"links\"", "#a0B1c2", false, {make_plane({1, 2, 3}, {0, 0.6, 0.8})}, 1e-4, {{{1, 2, 3.3}, {}}, {{4, 5, 6}, Vec3{0, 0, 1}}}};
+    const Structure structure{12,
+                              "Leber \"links\"",
+                              "#a0B1c2",
+                              false,
+                              {make_plane({1, 2, 3}, {0, 0.6, 0.8})},
+                              1e-4,
+                              {{{1, 2, 3.3}, {}}, {{4, 5, 6}, Vec3{0, 0, 1}}}};
     EXPECT_EQ(structure_from_json(json::parse(to_text(to_json(structure)))), structure);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -251,7 +251,8 @@ ContourSet drawn_ball(const std::string& name, double shift) {
     for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
         Contour contour{make_plane(test::kPlane.origin + Vec3{shift, 0, 0}, normal), {}, true, false};
         for (int n = 0; n < 60; ++n)
-            contour.points.push_back(contour.plane.from_uv(8 * std::cos(n * std::numbers::pi / 30), 8 * std::sin(n * std::numbers::pi / 30)));
+            contour.points.push_back(
+                contour.plane.from_uv(8 * std::cos(n * std::numbers::pi / 30), 8 * std::sin(n * std::numbers::pi / 30)));
         set.contours.push_back(contour);
     }
     return set;
@@ -282,14 +283,18 @@ TEST(SecondImage, StatisticsAreThoseOfTheVoxelsOfItsOwnGridInsideTheSurface) {
         EXPECT_NEAR(found["mean"].get<double>(), sum / count, 0.03);
         EXPECT_NEAR(found["deviation"].get<double>(), std::sqrt(squares / count - sum * sum / count / count), 0.05);
         EXPECT_EQ(found["points_beyond"], 0);
-        EXPECT_NEAR(told["structures"][0]["voxels"].get<double>(), 4.0 / 3 * std::numbers::pi * 512, 100) << "of the first image's";
+        EXPECT_NEAR(told["structures"][0]["voxels"].get<double>(), 4.0 / 3 * std::numbers::pi * 512, 100)
+            << "of the first image's";
     }
 }
 
 TEST(SecondImage, OnTheFirstImagesGridStatisticsUseTheFirstImagesVoxels) {
     Visit here;
     here.session.add_structures("Import", {drawn_ball("Ball", 0)});
-    OpenedImage ramp{std::make_shared<const Image>(Image{test::flat_image()->grid, std::vector<float>(64000, 3)}), "ramp", {"/images/ramp.nii", "ramp", {}}, {}};
+    OpenedImage ramp{std::make_shared<const Image>(Image{test::flat_image()->grid, std::vector<float>(64000, 3)}),
+                     "ramp",
+                     {"/images/ramp.nii", "ramp", {}},
+                     {}};
     here.session.put_second_image(std::move(ramp));
     const json row = json::parse(here.session.statistics())["structures"][0];
     EXPECT_EQ(row["second"]["voxels"], row["voxels"]);

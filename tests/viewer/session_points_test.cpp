@@ -61,7 +61,8 @@ struct Visit {
 TEST(SurfacePoints, TheSurfacePassesAPointAndTheHistoryKnowsIt) {
     Visit visit;
     EXPECT_GT(visit.off(kOut), 3);
-    EXPECT_EQ(visit.point("point.add", kOut)["result"]["structure"]["surface_points"], json::parse(R"([{"at": [30, 30, 30]}])"));
+    EXPECT_EQ(visit.point("point.add", kOut)["result"]["structure"]["surface_points"],
+              json::parse(R"([{"at": [30, 30, 30]}])"));
     EXPECT_LT(visit.off(kOut), 0.5);
     EXPECT_EQ(visit.call({{"call", "undo"}})["result"]["label"], "Point on Ball");
     EXPECT_GT(visit.off(kOut), 3);

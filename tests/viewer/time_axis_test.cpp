@@ -36,7 +36,9 @@ TEST(TimeAxis, RefusesATimeThatThereIsNot) {
 }
 
 TEST(TimeAxis, ATimeThatCannotBeReadIsSaidEachTime) {
-    TimeAxis times(image_of(0), {.count = 2, .read = [](int) -> std::shared_ptr<const Image> { throw Error(ErrorKind::io, "it is gone"); }});
+    TimeAxis times(image_of(0), {.count = 2, .read = [](int) -> std::shared_ptr<const Image> {
+                                     throw Error(ErrorKind::io, "it is gone");
+                                 }});
     for (int n = 0; n < 2; ++n) EXPECT_KONTUR_ERROR(times.image(1), ErrorKind::io, "it is gone");
 }
 

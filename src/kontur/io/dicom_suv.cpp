@@ -15,7 +15,7 @@ namespace kontur {
 namespace {
 
 constexpr double kDay_s = 86400;
-constexpr double kMostHalfLives = 10;          ///< from dose to scan: then a thousandth is left, and nothing is seen
+constexpr double kMostHalfLives = 10;            ///< from dose to scan: then a thousandth is left, and nothing is seen
 constexpr double kSameDayHalfLife_s = 6 * 3600;  ///< of tracers that live longer patients come back on another day
 
 /// Why there is no SUV.
@@ -34,7 +34,8 @@ std::string needed_text(DcmItem& item, const DcmTagKey& tag) {
 double needed_positive(DcmItem& item, const DcmTagKey& tag) {
     const std::vector<double> values = dcmtk::decimals(item, tag);
     if (values.empty()) missing(tag);
-    if (!(values.front() > 0)) throw NoSuv{fmt::format("{} is {:g}; more than 0 is needed", dcmtk::tag_name(tag), values.front())};
+    if (!(values.front() > 0))
+        throw NoSuv{fmt::format("{} is {:g}; more than 0 is needed", dcmtk::tag_name(tag), values.front())};
     return values.front();
 }
 
@@ -54,7 +55,8 @@ std::optional<double> time_of_day_s(std::string_view text) {
     double seconds = digits(text, 4, 2).value_or(0);
     if (text.size() > 7 && text[6] == '.') {
         double divisor = 1;
-        for (std::size_t at = 7; at < text.size() && digits(text, at, 1); ++at) seconds += *digits(text, at, 1) / (divisor *= 10);
+        for (std::size_t at = 7; at < text.size() && digits(text, at, 1); ++at)
+            seconds += *digits(text, at, 1) / (divisor *= 10);
     }
     return 3600.0 * *hours + 60.0 * *minutes + seconds;
 }
@@ -103,12 +105,13 @@ double decayed_share(DcmItem& item, DcmItem& tracer, double& waited) {
     const std::string corrected_to = needed_text(item, DCM_DecayCorrection);
     if (corrected_to == "ADMIN") return 1;
     if (corrected_to != "START")
-        throw NoSuv{fmt::format("{} is \"{}\"; START or ADMIN is needed", dcmtk::tag_name(DCM_DecayCorrection), corrected_to)};
+        throw NoSuv{
+            fmt::format("{} is \"{}\"; START or ADMIN is needed", dcmtk::tag_name(DCM_DecayCorrection), corrected_to)};
     const double half_life = needed_positive(tracer, DCM_RadionuclideHalfLife);
     waited = waited_s(tracer, scan_begin_s(item), half_life);
     if (!(waited >= 0 && waited <= kMostHalfLives * half_life))
-        throw NoSuv{fmt::format("the tracer, whose half-life is {:.4g} min, was given {:.4g} min {} the scan began", half_life / 60,
-                                std::abs(waited) / 60, waited < 0 ? "after" : "before")};
+        throw NoSuv{fmt::format("the tracer, whose half-life is {:.4g} min, was given {:.4g} min {} the scan began",
+                                half_life / 60, std::abs(waited) / 60, waited < 0 ? "after" : "before")};
     return std::exp2(-waited / half_life);
 }
 
@@ -129,9 +132,12 @@ SuvScale scale_of(DcmItem& item) {
     double waited = 0;
     const double left_bq = dose_bq * decayed_share(item, *tracers.front(), waited);
     // Some write MBq, where the standard has Bq: nobody is given so little, or so much.
-    if (!(dose_bq >= 1e5 && dose_bq <= 1e11)) throw NoSuv{fmt::format("{} is {:g} Bq; from 1e5 to 1e11 is plausible", dcmtk::tag_name(DCM_RadionuclideTotalDose), dose_bq)};
+    if (!(dose_bq >= 1e5 && dose_bq <= 1e11))
+        throw NoSuv{fmt::format("{} is {:g} Bq; from 1e5 to 1e11 is plausible", dcmtk::tag_name(DCM_RadionuclideTotalDose),
+                                dose_bq)};
     const double scale = 1000 * weight_kg / left_bq;
-    return {scale, fmt::format("Values are SUV by body weight: 1 g/ml is {:.4g} Bq/ml, of {:g} kg and {:.4g} MBq{}.", 1 / scale, weight_kg, dose_bq / 1e6,
+    return {scale, fmt::format("Values are SUV by body weight: 1 g/ml is {:.4g} Bq/ml, of {:g} kg and {:.4g} MBq{}.",
+                               1 / scale, weight_kg, dose_bq / 1e6,
                                waited > 0 ? fmt::format(" given {:.0f} min before the scan", waited / 60) : "")};
 }
 

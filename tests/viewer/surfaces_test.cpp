@@ -95,6 +95,33 @@ TEST(Surfaces, AThreadLivesNoLongerThanTheContoursItFollows) {
     EXPECT_EQ(surfaces.all().at(3)->stage, SurfaceStage::none);
 }
 
+SurfaceTask two_circles(double radius, double other) {
+    SurfaceTask task{1, {}, {1, 2}};
+    task.set.contours = {test::circle(make_plane({}, {0, 0, 1}), radius, 60), test::circle(make_plane({}, {0, 1, 0}), other, 60)};
+    return task;
+}
+
+TEST(Surfaces, ContoursThatContradictEachOtherHaveOneBetweenThemAndAreNamed) {
+    Surfaces surfaces(deaf());
+    surfaces.follow(two_circles(20, 2));
+    surfaces.wait();
+    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::refined);
+    EXPECT_GT(surfaces.all().at(1)->volume_ml, 1);
+    EXPECT_FALSE(surfaces.all().at(1)->conflicts.empty());
+}
+
+TEST(Surfaces, WhereThereIsNoneTheContradictionsAreNamedAllTheSame) {
+    SurfaceTask task = two_circles(20, 2);
+    task.smoothing = 1e4;
+    Surfaces surfaces(deaf());
+    surfaces.follow(task);
+    surfaces.wait();
+    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::none);
+    ASSERT_EQ(surfaces.all().at(1)->warnings.size(), 1u);
+    EXPECT_TRUE(surfaces.all().at(1)->warnings[0].starts_with("These contours give no surface"));
+    EXPECT_FALSE(surfaces.all().at(1)->conflicts.empty());
+}
+
 TEST(Surfaces, AnImageThatCannotBeAskedTakesNoSurfaceAway) {
     Surfaces surfaces(deaf());
     surfaces.use_image(std::make_shared<const Image>(Image{{{9, 9, 9}, {}}, std::vector<float>(7)}));

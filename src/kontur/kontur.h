@@ -33,7 +33,6 @@
 #include "kontur/io/dicom_identity.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_series.h"
-#include "kontur/io/dicom_suv.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
 #include "kontur/io/markups.h"

@@ -38,7 +38,7 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
         }
     }
     counts = counts || !left.empty();
-    if (are_first) left = farthest_off(std::move(left));
+    if (are_first && !left.empty()) left = farthest_off(std::move(left));
     for (const Left& one : left) held_[one.bound] = one.limit;
     return counts;
 }

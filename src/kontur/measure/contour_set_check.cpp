@@ -301,16 +301,12 @@ private:
     std::vector<Crossing> crossings_;
 };
 
-}  // namespace
-
-namespace {
-
 bool shows_the_object(const ContourSet& set) {
     return std::any_of(set.contours.begin(), set.contours.end(), [](const Contour& contour) { return !contour.hole; });
 }
 
 /// Beside others, contours without area are no reason to refuse the set.
-void leave_out_lines_only(std::vector<Finding>& findings) {
+void tell_lines_as_left_out(std::vector<Finding>& findings) {
     for (Finding& finding : findings) {
         if (finding.kind != FindingKind::no_area) continue;
         finding.severity = Severity::warning;
@@ -330,7 +326,7 @@ std::vector<Finding> check_contour_set(const ContourSet& set, const ContourSetCh
             sound.set.contours.push_back(set.contours[c]);
             sound.index.push_back(c);
         }
-    if (shows_the_object(sound.set)) leave_out_lines_only(findings);
+    if (shows_the_object(sound.set)) tell_lines_as_left_out(findings);
     for (const std::string& problem : set_problems(set))
         findings.push_back({findings.empty() && set.contours.empty() ? FindingKind::no_contours : FindingKind::unusable,
                             Severity::error, problem});

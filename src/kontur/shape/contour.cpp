@@ -52,12 +52,17 @@ double line_limit_mm(const Contour& contour, const ContourCheckOptions& options)
     return std::min(options.line_tolerance_mm, 1e-3 * bounding_box(contour.points).diagonal());
 }
 
+bool lacks_area(const Contour& contour, const ContourCheckOptions& options) {
+    return contour.closed && !(width_mm(contour.points) > line_limit_mm(contour, options));
+}
+
+std::string lack_of_area(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
+    return fmt::format("{} has no area: its {} points lie within {:.2g} mm of one line; the limit is {:g} mm", owner,
+                       contour.points.size(), width_mm(contour.points), line_limit_mm(contour, options));
+}
+
 void check_area(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
-    if (!contour.closed) return;
-    const double measured = width_mm(contour.points), limit = line_limit_mm(contour, options);
-    if (!(measured > limit))
-        refuse(fmt::format("{} has no area: its {} points lie within {:.2g} mm of one line; the limit is {:g} mm", owner,
-                           contour.points.size(), measured, limit));
+    if (lacks_area(contour, options)) refuse(lack_of_area(contour, options, owner));
 }
 
 void check_meaning(const Contour& contour, const std::string& owner) {
@@ -83,8 +88,6 @@ void check_contour(const Contour& contour, const ContourCheckOptions& options, c
     check_on_plane(contour, std::min(options.plane_tolerance_mm, 0.1 * bounding_box(contour.points).diagonal()), owner);
     check_meaning(contour, owner);
 }
-
-std::string contour_name(std::size_t index) { return fmt::format("contour {}", index + 1); }
 
 /// Some contour must have the object on its inside.
 void check_encloses(const std::vector<Contour>& contours) {
@@ -118,9 +121,8 @@ std::optional<std::string> refusal(const Check& check) {
 
 /// Some contour shows the object though closed ones without area are left out.
 bool shows_without_lines(const ContourSet& set, const ContourCheckOptions& options) {
-    return std::any_of(set.contours.begin(), set.contours.end(), [&](const Contour& contour) {
-        return !contour.hole && !refusal([&] { check_area(contour, options, ""); });
-    });
+    return std::any_of(set.contours.begin(), set.contours.end(),
+                       [&](const Contour& contour) { return !contour.hole && !lacks_area(contour, options); });
 }
 
 bool is_inside(const Grid& grid, const Vec3& index) {
@@ -217,9 +219,10 @@ std::vector<std::string> contour_problems(const ContourSet& set, const ContourCh
     const bool lines_may_go = shows_without_lines(set, options);
     std::vector<std::string> problems;
     for (std::size_t i = 0; i < set.contours.size(); ++i) {
+        const std::string name = fmt::format("contour {}", i + 1);
         const auto problem = refusal([&] {
-            check_contour(set.contours[i], options, contour_name(i));
-            if (!lines_may_go) check_area(set.contours[i], options, contour_name(i));
+            check_contour(set.contours[i], options, name);
+            if (!lines_may_go) check_area(set.contours[i], options, name);
         });
         if (problem) problems.push_back(*problem);
     }
@@ -241,8 +244,9 @@ std::vector<std::string> leave_out_lines(ContourSet& set, const ContourCheckOpti
     std::vector<std::string> notes;
     std::vector<Contour> kept;
     for (std::size_t i = 0; i < set.contours.size(); ++i) {
-        if (const auto problem = refusal([&] { check_area(set.contours[i], options, contour_name(i)); }))
-            notes.push_back(*problem + "; it was left out, and contours after it count one less");
+        if (lacks_area(set.contours[i], options))
+            notes.push_back(lack_of_area(set.contours[i], options, fmt::format("contour {}", i + 1)) +
+                            "; it was left out, and contours after it count one less");
         else kept.push_back(std::move(set.contours[i]));
     }
     set.contours = std::move(kept);

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestName = 100;  ///< of imports
+constexpr std::size_t kLongestName = 100;                ///< of imports
 constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 
 /// Told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).

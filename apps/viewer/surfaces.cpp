@@ -197,8 +197,7 @@ void Surfaces::begin_editor(Follower& follower, const SurfaceTask& task) {
     EditorOptions options;
     options.segment.smoothing = task.smoothing;
     follower.editor = std::make_shared<LiveEditor>(
-        options,
-        [this, structure, before](const EditorUpdate& update) { hear(structure, before + update.edit, update); },
+        options, [this, structure, before](const EditorUpdate& update) { hear(structure, before + update.edit, update); },
         [this, structure, before](std::uint64_t edit, const SurfaceBand& band) {
             hear_ahead(structure, before + edit, band);
         });

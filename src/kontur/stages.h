@@ -41,9 +41,9 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
                        const Image& image, const StageOptions& options, const Work& work = {}, KeptFits* kept = nullptr);
 
 /// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
-/// themselves, a place near each exterior point that only just got its side, for it may have made a cavity, and places towards
-/// which f leads from contours that the surface misses altogether, by `margin_mm` (0: not looked for). Not near interior
-/// points: beside the contours nothing bounds what they make.
+/// themselves, a place near each exterior point that only just got its side, for it may have made a cavity, and places
+/// towards which f leads from contours that the surface misses altogether, by `margin_mm` (0: not looked for). Not near
+/// interior points: beside the contours nothing bounds what they make.
 std::vector<Vec3> start_points(const ContourSet& contours, const PreparedContours& prepared,
                                const ImplicitFunction& function, double margin_mm);
 

@@ -48,7 +48,8 @@ std::size_t held(const ActiveBounds& bounds) {
 
 TEST(ActiveBounds, HoldAtFirstWhereFIsFarthestOffInASurroundingAsWideAsThatIsFarFromTheDrawing) {
     const std::vector<BoundaryPoint> drawn{{.position = {0, 0, 0}}};
-    // f is 0, and may be -1 at most at 10 mm from what was drawn, -1.1 in the middle of them, and -2 at 1 mm on the other side.
+    // f is 0, and may be -1 at most at 10 mm from what was drawn, -1.1 in the middle of them, and -2 at 1 mm on the other
+    // side.
     std::vector<Bound> bounds;
     for (int i = -5; i <= 5; ++i)
         bounds.push_back({.position = {10, 1.0 * i, 0}, .most_mm = i == 0 ? -1.1 : -1.0, .noise_mm = 0.1});

@@ -23,7 +23,8 @@ HeldOutErrors errors_with_gains(const std::vector<double>& gains_mm) {
     std::vector<HeldOut> points;
     for (std::size_t plane = 0; plane < gains_mm.size(); ++plane)
         for (int n = 0; n < 20; ++n)
-            points.push_back({Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 2, 2 - gains_mm[plane], 2, plane});
+            points.push_back(
+                {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 2, 2 - gains_mm[plane], 2, plane});
     return errors_of(points);
 }
 

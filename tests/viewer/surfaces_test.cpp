@@ -97,7 +97,8 @@ TEST(Surfaces, AThreadLivesNoLongerThanTheContoursItFollows) {
 
 SurfaceTask two_circles(double radius, double other) {
     SurfaceTask task{1, {}, {1, 2}};
-    task.set.contours = {test::circle(make_plane({}, {0, 0, 1}), radius, 60), test::circle(make_plane({}, {0, 1, 0}), other, 60)};
+    task.set.contours = {test::circle(make_plane({}, {0, 0, 1}), radius, 60),
+                         test::circle(make_plane({}, {0, 1, 0}), other, 60)};
     return task;
 }
 

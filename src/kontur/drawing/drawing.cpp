@@ -37,7 +37,8 @@ void leave_out_spikes(ContourSet& set, double spike_tolerance_mm, std::vector<st
         return;
     const std::size_t left_out = std::erase_if(set.contours, is_nothing);
     if (left_out > 0)
-        notes.push_back(fmt::format("{} contours that run back along themselves, and enclose nothing, were left out", left_out));
+        notes.push_back(
+            fmt::format("{} contours that run back along themselves, and enclose nothing, were left out", left_out));
 }
 
 void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {

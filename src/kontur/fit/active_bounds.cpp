@@ -46,9 +46,8 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
 /// Those that are farther off than any other in their surroundings. Held, they mostly keep f there; holding all at first
 /// takes many solves to let most of them go again.
 std::vector<ActiveBounds::Left> ActiveBounds::farthest_off(std::vector<Left> left) const {
-    std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) {
-        return std::tie(b.excess_mm, a.bound) < std::tie(a.excess_mm, b.bound);
-    });
+    std::sort(left.begin(), left.end(),
+              [](const Left& a, const Left& b) { return std::tie(b.excess_mm, a.bound) < std::tie(a.excess_mm, b.bound); });
     std::vector<Vec3> drawn(drawn_.size());
     std::transform(drawn_.begin(), drawn_.end(), drawn.begin(), [](const BoundaryPoint& p) { return p.position; });
     const PointTree lines(std::move(drawn));

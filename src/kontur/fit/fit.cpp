@@ -61,7 +61,11 @@ constexpr double kSettlingTolerance = 3;
 class Solves {
 public:
     Solves(const PreparedContours& contours, const FitOptions& options, const Work& work)
-        : all_(contours.points), ball_(contours.ball), options_(options), work_(work), bounds_(contours.bounds, contours.points) {}
+        : all_(contours.points),
+          ball_(contours.ball),
+          options_(options),
+          work_(work),
+          bounds_(contours.bounds, contours.points) {}
 
     FittedFunction run() {
         const std::vector<std::size_t> kept = thin(all_, options_.most_points > 0 ? options_.most_points : all_.size());

@@ -27,7 +27,7 @@ struct FitOptions {
     std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
     std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
     std::size_t most_points = 0;         ///< the last fit uses about as many points; 0: all
-    int most_solves = 3;                 ///< with all points, while other bounds should be held than were; 1: whatever is held
+    int most_solves = 3;  ///< with all points, while other bounds should be held than were; 1: whatever is held
     PlaceOptions place;
     SolveOptions solve;
 };
@@ -35,7 +35,7 @@ struct FitOptions {
 /// An implicit function through contours, and how it was found.
 struct FittedFunction {
     ImplicitFunction function;
-    SolveReport report;  ///< of the last solve
+    SolveReport report;                 ///< of the last solve
     int solves = 0;                     ///< of any part of the points
     int full_solves = 0;                ///< of all points
     int iterations = 0;                 ///< over all solves

@@ -109,10 +109,11 @@ export class App {
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
     this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p) });
     this.values = new Latest((p) => this.askValue(p));
+    const inSight = (act: () => void) => () => void (this.editor.isAnotherTime() || act()); // as keys that edit
     this.toolbar = new Toolbar({
       ...shared,
-      undo: () => this.undo(),
-      redo: () => this.redo(),
+      undo: inSight(() => this.undo()),
+      redo: inSight(() => this.redo()),
       openAnother: () => void this.openAnother(),
       addImage: () => this.addImage(),
       openExport: () => openExport({ ...shared, hasDicom: () => this.session?.has_dicom ?? false }),
@@ -126,12 +127,12 @@ export class App {
       identity: this.identity.element,
       time: new TimeCard(this.navigation, this.cine).element,
       secondImage: this.secondCard.element,
-      suggest: () => void this.suggest(),
+      suggest: inSight(() => void this.suggest()),
       openStatistics: () => openStatistics(this.http, (p) => this.goTo(p)),
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),
-      propose: (steps) => void this.editor.proposals.next(this.active, steps),
+      propose: (steps) => inSight(() => void this.editor.proposals.next(this.active, steps))(),
     });
     this.keyboard = new Keyboard({
       ...shared,

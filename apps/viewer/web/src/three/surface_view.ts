@@ -231,7 +231,7 @@ export class SurfaceView {
     const { editor } = this.services;
     const mark = this.markBelow(event);
     if (mark) return this.services.goTo(mark);
-    const hit = editor.tool.clickSurface && !editor.isBare && !editor.isAnotherTime() ? this.surfaceBelow(event) : null;
+    const hit = editor.tool.clickSurface && !editor.isBare && !editor.mayNotEdit() ? this.surfaceBelow(event) : null;
     if (hit) editor.tool.clickSurface!(editor, { ...hit, reach_mm: reachOf(event) * this.scene!.mm_per_pixel });
   }
 

@@ -46,7 +46,7 @@ export const editTool: Tool<"edit"> = {
     if (outline) return { outline, view };
     return line && { line, view };
   },
-  remove: ({ points }) => points.removeSelected(),
+  remove: ({ navigation, points }) => !navigation.isAway && points.removeSelected(),
   leave: ({ points }) => points.deselect(),
   cursor: usualCursor,
   paint: (painter, { outlines, project }, view, hover) => {

@@ -90,14 +90,19 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   press(view: ViewName, screen: Screen, pointer: Point2, modifiers: Modifiers): Gesture | null {
-    if (this.isBare || this.isAnotherTime()) return null;
+    if (this.isBare || this.mayNotEdit()) return null;
     return this.tool.press(this, this.place(view, screen, pointer), modifiers);
   }
 
-  /** Whether the tool would edit what belongs to another time than the one that is seen. Says so, and offers to go there. */
+  /** Whether the tool would edit at another time than that of the contours. Says so. */
+  mayNotEdit(): boolean {
+    return !this.tool.looksAround && this.isAnotherTime();
+  }
+
+  /** Whether another time is seen than the one that contours belong to: they are not edited there. Says so, and offers to go there. */
   isAnotherTime(): boolean {
     const { navigation } = this;
-    if (!navigation.isAway || this.tool.looksAround) return false;
+    if (!navigation.isAway) return false;
     const own = navigation.ownTime;
     this.services.tell(`Contours belong to frame ${own + 1}; frame ${navigation.time + 1} is only to be looked at.`, { label: `Go to frame ${own + 1}`, act: () => navigation.setTime(own) });
     return true;
@@ -129,10 +134,17 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     return true;
   }
 
-  /** Del and Backspace. */
+  /** Del. */
   remove(): void {
-    if (!this.tool.remove?.(this)) this.edits.deleteSelected();
+    if (this.mayNotEdit()) return;
+    if (!this.tool.remove?.(this) && !this.isAnotherTime()) this.edits.deleteSelected();
     this.emit("hover");
+  }
+
+  /** Backspace: of what is being drawn the last point. */
+  removeLast(): void {
+    if (!this.drawing.sketch) this.remove();
+    else if (!this.isAnotherTime()) this.drawing.removeLastPoint();
   }
 
   /** Esc while nothing is drawn: what the tool has begun; false where that is nothing. */
@@ -143,7 +155,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   doubleClick(): void {
-    if (this.drawing.sketch) this.drawing.close();
+    if (this.drawing.sketch && !this.mayNotEdit()) this.drawing.close();
   }
 
   cursor(): string {

@@ -33,6 +33,8 @@ export interface CommandServices {
 export interface Command {
   readonly keys: readonly string[];
   readonly help?: readonly [HelpSection, ...HelpRow];
+  /** It changes contours, and so does nothing where another time is seen than theirs. Del and Backspace leave that to the tool. */
+  readonly edits?: boolean;
   run(page: CommandServices, isShifted: boolean): void;
 }
 
@@ -97,42 +99,47 @@ export const COMMANDS: readonly Command[] = [
   },
   { keys: [","], run: ({ cine, tell }) => void (cine.step(-1) || tell(ONE_FRAME)) },
   { keys: ["Home"], help: ["Look around", "Home", "all views back to where they began"], run: ({ navigation }) => navigation.resetAll() },
-  { keys: ["Enter"], help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()) },
+  { keys: ["Enter"], edits: true, help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()) },
   {
     keys: ["Backspace"],
     help: ["Draw", "Backspace", "remove the last point"],
-    run: ({ editor }) => (editor.drawing.sketch ? editor.drawing.removeLastPoint() : editor.remove()),
+    run: ({ editor }) => editor.removeLast(),
   },
   { keys: ["Escape"], help: ["Draw", "Esc", "leave the contour or the tool"], run: ({ leave }) => leave() },
   { keys: ["F2"], help: ["Edit", "F2, double click on a name", "rename the structure"], run: ({ rename }) => rename() },
   { keys: ["Delete"], help: ["Edit", "Del", "delete the selected point, or the contour"], run: ({ editor }) => editor.remove() },
   {
     keys: ["c"],
+    edits: true,
     help: ["Edit", "C, Shift + C", "propose the outline on the next, previous slice; Enter accepts, Esc drops it"],
     run: ({ editor, focused }, isShifted) => void editor.proposals.next(focused(), isShifted ? -1 : 1),
   },
   {
     keys: ["a"],
+    edits: true,
     help: ["Edit", "A", "make the computed outline under the pointer a contour, as it is"],
     run: ({ editor, focused }) => editor.adoptOutline(focused()),
   },
   {
     keys: ["g"],
+    edits: true,
     help: ["Draw", "G", "go to where a contour tells most, with the expected outline as a proposal; again: the next best place"],
     run: ({ suggest }) => suggest(),
   },
   {
     keys: ["e"],
+    edits: true,
     help: ["Draw", "E", "what is proposed is empty: nothing of the structure is in this plane"],
     run: ({ editor, tell }) => void (editor.proposals.nothingHere() || tell("Nothing is proposed; G and C propose an outline.")),
   },
-  { keys: ["h"], help: ["Edit", "H", "hole on or off"], run: toggleHole },
+  { keys: ["h"], edits: true, help: ["Edit", "H", "hole on or off"], run: toggleHole },
   {
     keys: ["Control+z"],
+    edits: true,
     help: ["Edit", "Ctrl + Z, Ctrl + Shift + Z", "undo, redo: every action, also after a restart"],
     run: ({ undo, redo }, isShifted) => (isShifted ? redo() : undo()),
   },
-  { keys: ["Control+y"], run: ({ redo }) => redo() },
+  { keys: ["Control+y"], edits: true, run: ({ redo }) => redo() },
   { keys: ["?"], run: ({ help }) => help() },
 ];
 

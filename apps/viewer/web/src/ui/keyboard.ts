@@ -43,8 +43,9 @@ export class Keyboard {
 
   private obey(event: KeyboardEvent): boolean {
     const command = COMMAND_OF_KEY.get(keyOf(event));
-    command?.run(this.services, event.shiftKey);
-    return command !== undefined;
+    if (!command) return false;
+    if (!command.edits || !this.services.editor.isAnotherTime()) command.run(this.services, event.shiftKey);
+    return true;
   }
 }
 

@@ -93,6 +93,32 @@ describe("an image of several frames", () => {
     await page.keyboard.press(",");
   });
 
+  test("is not edited by keys and buttons while another frame is seen", async () => {
+    const { page } = viewer;
+    await viewer.show(0); // selects it
+    await page.keyboard.press("PageDown");
+    await page.keyboard.press("c");
+    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
+    await page.keyboard.press(".");
+    const notice = page.locator(".notice", { hasText: "Contours belong to frame 2; frame 3 is only to be looked at." });
+    await page.mouse.move(...(await viewer.at("coronal", await viewer.pixels("coronal", 32), 0)));
+    const tries = [...["Enter", "Delete", "Backspace", "a", "c", "g", "e", "h", "Control+z", "Control+y"].map((key) => () => page.keyboard.press(key)), () => page.click("[data-test=undo]"), () => page.click("[data-test=propose-next]")];
+    for (const attempt of tries) {
+      await attempt();
+      await notice.waitFor();
+      await notice.click(); // closes it
+      await notice.waitFor({ state: "detached" });
+    }
+    await viewer.saved();
+    assert.equal(await viewer.contours(), 1);
+    assert.equal(await page.locator(".contour-row .flag").count(), 0, "no hole");
+    await viewer.waitForStep("undo", "Draw a contour");
+    await page.keyboard.press(",");
+    await page.locator(".hint", { hasText: "A proposal" }).waitFor();
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(2);
+  });
+
   test("is played by T, and paused by it", async () => {
     const { page } = viewer;
     await page.keyboard.press("t");

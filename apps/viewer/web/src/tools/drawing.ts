@@ -121,7 +121,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   private endHand(screen: Screen, at: Point2, hand: Vec3[], kind: StretchKind): void {
     const closes = this.isNearStart(screen, at);
-    if (!this.sketch && kind === "line") {
+    if (!this.sketch && (kind === "line" || comesAround(screen, hand))) {
       const structure = this.project.activeStructure?.id ?? 0;
       const drawn = Sketch.closedFree(planeOf(screen), structure, hand);
       return this.isSlip(screen, hand) ? this.dropSlip(drawn) : this.send(drawn);
@@ -318,4 +318,10 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
     this.emit("points");
     this.outbox.showNext();
   }
+}
+
+/** Whether a stroke ends where it began: then it is a whole contour, whatever the line between clicks would do. */
+function comesAround(screen: Screen, hand: readonly Vec3[]): boolean {
+  const line = hand.map((p) => toScreen(screen, p));
+  return gap(line[0]!, line.at(-1)!) < CLOSE_PIXELS * (screen.reach ?? 1) && narrowWidth(line) >= 2 * CLOSE_PIXELS * (screen.reach ?? 1);
 }

@@ -140,7 +140,7 @@ export function firstHint(close: () => void): HTMLElement {
       "ol",
       {},
       el("li", {}, "Scroll to the structure with the wheel. Shift + move brings the other views along."),
-      el("li", {}, "Draw around it: Live-wire follows the edge between your clicks, Freehand follows your hand."),
+      el("li", {}, "Draw around it: drag along its border and back to where you began, or click on it, and the line follows the edge between the clicks."),
       el("li", {}, "Draw a second contour in another view. The surface follows after every edit; correct where it is wrong."),
     ),
     el("p", { class: "fine" }, "Everything is saved as you go. Press ? for mouse and keyboard."),

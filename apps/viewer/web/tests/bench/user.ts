@@ -139,22 +139,6 @@ export class User {
     return { frame, outlines: this.truth.outlines(frame) };
   }
 
-  /** Clicks around what is seen there, as well as a hand can. */
-  async clicksAround(view: string, line: readonly Place[], clicks: number): Promise<void> {
-    const { page } = this.viewer;
-    const scale = await this.viewer.pixels(view, 1);
-    for (let n = 0; n < clicks; ++n) {
-      const [x, y] = line[Math.floor((n * line.length) / clicks)]!;
-      const [dx, dy] = [AIM_MM * this.chance(), AIM_MM * this.chance()].map((miss) => miss / Math.SQRT2) as Place;
-      await page.mouse.move(...(await this.viewer.at(view, scale * (x + dx), scale * (y + dy))), { steps: 12 });
-      await this.waits(CLICK_MS);
-      await page.mouse.down();
-      await page.mouse.up();
-    }
-    await page.keyboard.press("Enter");
-    await this.waits(CHOOSE_MS);
-  }
-
   /** Has it shown where a contour tells most, looks at the outline that is expected there, and takes it. */
   async acceptsProposal(): Promise<void> {
     const { page } = this.viewer;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A new user's first structure, at the pace of a hand: opens the phantom, finds the metastasis in the liver, draws around it
-// by live-wire in two views, accepts the outline that kontur expects where a third contour tells most, and exports the mask.
+// A new user's first structure, at the pace of a hand: opens the phantom, finds the metastasis in the liver, drags around
+// it in two views, accepts the outline that kontur expects where a third contour tells most, and exports the mask.
 // Prints how long that took and how good it is. Run by bench/viewer walk.
 import { join } from "node:path";
 import { launch } from "../e2e/browsers";
@@ -30,7 +30,7 @@ try {
   for (const view of ["axial", "coronal"]) {
     await user.zooms(view, 3, target);
     const { outlines } = await user.sees(view);
-    await user.clicksAround(view, outlines[0]!, 7);
+    await user.strokesAround(view, outlines[0]!);
     user.says(`drawn in the ${view} view`);
   }
   await user.acceptsProposal();

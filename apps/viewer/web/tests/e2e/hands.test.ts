@@ -40,6 +40,16 @@ async function drawBall(view: string, contours: number): Promise<void> {
   await viewer.saved();
 }
 
+test("a new user drags around a structure with the tool that the hint leaves him, and has a contour", async () => {
+  const { page } = viewer;
+  assert.equal(await page.locator("[data-test=tool-wire]").getAttribute("aria-pressed"), "true");
+  const ring = circle(await viewer.pixels("axial", BALL_RADIUS_MM), 60);
+  await viewer.drag("axial", ring.slice(0, -1)); // a hand does not end where it began
+  await viewer.waitForContours(1);
+  assert.equal(await page.locator(".contour-row").getAttribute("data-kind"), "freehand");
+  await viewer.surfaceShown();
+});
+
 describe("the keyboard", () => {
   test("reaches every control by Tab, and the panel's, and comes around", async () => {
     await drawBall("axial", 1);

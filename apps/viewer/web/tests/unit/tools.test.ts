@@ -100,6 +100,24 @@ test("the freehand tool makes a contour when the button is released", async () =
   assert.ok(point!.path!.length > 30);
 });
 
+test("with any drawing tool a stroke that comes back to where it began is a contour; one that does not goes on from its end", async () => {
+  const { editor, drawing, drag, edits, settled } = editing("wire", []);
+  const around = (radius: number): Point2[] => [...round(40, radius), [200 + radius, 194]];
+  drag(...around(90));
+  await settled();
+  editor.choose("spline");
+  drag(...around(60));
+  await settled();
+  assert.deepEqual(edits().map(({ args }) => (args["control"] as SketchPoint[]).map(({ kind }) => kind)), [["free"], ["free"]]);
+  drag(...round(40, 90).slice(0, -10)); // open
+  await settled();
+  drawing.leave();
+  drag(...around(4)); // too small to tell
+  await settled();
+  assert.equal(edits().length, 2);
+  assert.notEqual(drawing.sketch, null);
+});
+
 test("a slip of the hand is no contour, unless the user insists; a small thing drawn large is one", async () => {
   const { drag, edits, settled, remedies, complaints } = editing("freehand", []);
   drag([200, 200], [203, 203], [207, 202]);

@@ -17,7 +17,6 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/labels/boxed_mask.h"
 #include "kontur/labels/section_contours.h"
-#include "kontur/labels/shared_surface.h"
 #include "kontur/report.h"
 #include "kontur/segment_together.h"
 #include "kontur/view/picture.h"
@@ -104,16 +103,6 @@ std::string sentence(const StructurePair& pair, const std::vector<Roi>& rois) {
                        pair.is_given ? " by rule" : "", pair.shared_voxels, pair.shared_voxels == 1 ? "" : "s");
 }
 
-SharedSurface surface_of_all(const Together& all, const Work& work) {
-    std::vector<BoxedMask> objects;
-    std::vector<ImplicitFunction> functions;
-    for (std::size_t n = 0; n < all.structures.size(); ++n) {
-        objects.push_back({all.boxes[n], all.structures[n].mask});
-        functions.push_back(all.structures[n].function);
-    }
-    return shared_surface(objects, functions, all.grid, work);
-}
-
 RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
     RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
     std::vector<ContourSet> contours;
@@ -128,7 +117,7 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
     }
     result.notes.push_back(
         fmt::format("{} voxels between structures that touch were given to the nearest", all.closed_voxels));
-    if (!command.mesh.empty()) result.surface = surface_of_all(all, work);
+    if (!command.mesh.empty()) result.surface = shared_surface(all, work);
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);

@@ -795,6 +795,14 @@ class SelfContact:
     @property
     def second(self) -> int: ...
 
+class SharedSurface:
+    @property
+    def mesh(self) -> TriangleMesh: ...
+    @property
+    def regions(self) -> list[list[int]]: ...
+    @property
+    def sides(self) -> NDArray[numpy.uint32]: ...
+
 class Solution:
     @property
     def function(self) -> ImplicitFunction: ...
@@ -1395,6 +1403,14 @@ def select_nonzero(image: Image) -> Mask: ...
 
 def select_roi(structures: StructureSet, name_or_number: str | None = None) -> Roi: ...
 
+def shared_surface(
+    together: Together,
+    threads: int = 0,
+    *,
+    progress: _Progress | None = None,
+    stop: _Stop | None = None,
+) -> SharedSurface: ...
+
 def signed_volume_mm3(mesh: TriangleMesh) -> float: ...
 
 def slice_contours(
@@ -1436,6 +1452,8 @@ def suggest_planes(
 ) -> list[SuggestedPlane]: ...
 
 def suggest_window(image: Image) -> tuple[float, float]: ...
+
+def surface_of(surface: SharedSurface, object: int) -> TriangleMesh: ...
 
 def to_nibabel(volume: Image | Mask, image_class: Any = None) -> Any: ...
 
@@ -1544,6 +1562,14 @@ def write_mask(
 def write_mesh(path: _Path, mesh: TriangleMesh, provenance: dict[str, str] | None = None) -> None: ...
 
 def write_png(path: _Path, pixels: ArrayLike, provenance: dict[str, str] | None = None) -> None: ...
+
+def write_region_mesh(
+    path: _Path,
+    mesh: TriangleMesh,
+    names: Sequence[str],
+    sides: ArrayLike,
+    provenance: dict[str, str] | None = None,
+) -> None: ...
 
 def write_rtstruct(
     path: _Path,

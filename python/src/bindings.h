@@ -20,6 +20,7 @@ void bind_constraints(py::module_& m);
 void bind_extraction(py::module_& m);
 void bind_segment(py::module_& m);
 void bind_together(py::module_& m);
+void bind_shared_surfaces(py::module_& m);
 void bind_uncertainty_types(py::module_& m);
 void bind_uncertainty(py::module_& m);
 void bind_crossings(py::module_& m);

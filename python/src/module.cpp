@@ -58,6 +58,7 @@ PYBIND11_MODULE(_core, m) {
     bind_uncertainty_types(m);
     bind_segment(m);
     bind_together(m);
+    bind_shared_surfaces(m);
     bind_labels(m);
     bind_uncertainty(m);
     bind_editor(m);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pipeline, whole and in stages; progress, cancellation, errors."""
 import _thread
+import pickle
 import signal
 import threading
 import time
@@ -85,6 +86,34 @@ def test_several_structures_become_a_partition():
         assert (overlapping.mask(n).values != alone).sum() <= 2  # found in a smaller box
     with pytest.raises(IndexError):
         made.mask(3)
+
+
+def test_structures_share_one_surface(tmp_path):
+    sets = [kontur.ContourSet(lens((x, 0, 0), radius)) for x, radius in ((-7, 12), (7, 12), (-10, 4))]
+    grid = kontur.grid_around(kontur.ContourSet([*sets[0], *sets[1]]).bounding_box, spacing_mm=[1, 1, 1], margin_mm=4)
+    made = kontur.segment_together(sets, grid, quality=0.9)
+    surface = kontur.shared_surface(made, threads=1)
+    assert surface.regions[0] == [] and [0] in surface.regions and [0, 2] in surface.regions
+    behind, front = surface.sides.T
+    assert len(behind) == len(surface.mesh.triangles) and surface.sides.dtype == numpy.uint32 and (behind != front).all()
+    touching = {surface.regions.index([0]), surface.regions.index([1])}
+    assert sum({a, b} == touching for a, b in surface.sides.tolist()) > 100  # one border, and not two
+    for n in range(3):
+        own = kontur.surface_of(surface, n)
+        volume = made.mask(n).values.sum()
+        assert kontur.topology(own).closed and abs(kontur.signed_volume_mm3(own) / volume - 1) < 0.08
+    assert len(kontur.surface_of(surface, 3).triangles) == 0
+    names = [" and ".join(map(str, region)) or "outside" for region in surface.regions]
+    kontur.write_region_mesh(tmp_path / "all.ply", surface.mesh, names, surface.sides)
+    assert b"comment kontur region 1: 0\n" in (tmp_path / "all.ply").read_bytes()
+    assert (kontur.read_mesh(tmp_path / "all.ply").triangles == surface.mesh.triangles).all()
+    with pytest.raises(kontur.InvalidInputError, match="0 pairs of regions"):
+        kontur.write_region_mesh(tmp_path / "none.ply", surface.mesh, names, numpy.zeros((0, 2)))
+    with pytest.raises(kontur.InvalidInputError, match=r"\(3,\); \(m, 2\) is needed"):
+        kontur.write_region_mesh(tmp_path / "none.ply", surface.mesh, names, [0, 1, 2])
+    assert not (tmp_path / "none.ply").exists()
+    again = pickle.loads(pickle.dumps(surface))
+    assert (again.sides == surface.sides).all() and again.regions == surface.regions
 
 
 @pytest.mark.parametrize("rules, sentence", [

@@ -20,7 +20,7 @@ SAME = {
     "ReadContours": "read_contours", "PictureFact": "make_picture", "RgbImage": "write_png", "Pixel": "EdgeMap", "PixelPosition": "EdgeMap",
     "DenseLiver": "dense_liver_case", "ErrorKind": "Error", "Severity": "Finding", "FindingKind": "Finding", "UnitFrame": "ImplicitFunction",
     "BoundaryPoint": "PreparedContours", "Work": "segment", "Affine3": "Grid", "Vec3": "Contour", "Index3": "Grid", "Box3": "grid_around",
-    "OutlineLine": "outline", "whole_mask": "Together", "Window": "suggest_window",
+    "OutlineLine": "outline", "whole_mask": "Together", "MeshRegions": "write_region_mesh", "Window": "suggest_window",
 }
 
 

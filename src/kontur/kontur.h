@@ -104,6 +104,7 @@
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/png.h"
+#include "kontur/io/region_mesh.h"
 
 // Bodies with exact truth.
 #include "kontur/phantom/bodies.h"

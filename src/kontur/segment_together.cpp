@@ -130,6 +130,16 @@ Mask whole_mask(const Together& together, std::size_t structure) {
     return widened(part, whole_box(together.grid), together.grid).mask;
 }
 
+SharedSurface shared_surface(const Together& together, const Work& work) {
+    std::vector<BoxedMask> objects;
+    std::vector<ImplicitFunction> functions;
+    for (std::size_t n = 0; n < together.structures.size(); ++n) {
+        objects.push_back({together.boxes[n], together.structures[n].mask});
+        functions.push_back(together.structures[n].function);
+    }
+    return shared_surface(objects, functions, together.grid, work);
+}
+
 Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const TogetherOptions& options,
                           const Work& work) {
     return segment_together(drawn, grid, nullptr, options, work);

@@ -9,6 +9,7 @@
 
 #include "kontur/base/work.h"
 #include "kontur/labels/label_boxes.h"
+#include "kontur/labels/shared_surface.h"
 #include "kontur/labels/structure_pair.h"
 #include "kontur/segment.h"
 
@@ -16,7 +17,7 @@ namespace kontur {
 
 struct TogetherOptions {
     SegmentOptions segment;
-    std::vector<StructurePair> rules{};  ///< relations that are known; all others follow from the masks
+    std::vector<StructurePair> rules{};              ///< relations that are known; all others follow from the masks
     std::vector<std::optional<double>> smoothing{};  ///< of each structure; empty, or unset for one: as in `segment`
 };
 
@@ -32,6 +33,9 @@ struct Together {
 
 /// The mask of one of them on the whole grid. Throws std::out_of_range for one that is not there.
 Mask whole_mask(const Together& together, std::size_t structure);
+
+/// The surfaces of all of them as one mesh, whose regions count them in their order.
+SharedSurface shared_surface(const Together& together, const Work& work = {});
 
 /// Segments several structures so that those that exclude each other become a partition. Each is fitted by itself; a voxel
 /// that two of them claim goes to the one that it lies deepest in, f / |grad f|. Those that touch are fitted as one object,

@@ -13,6 +13,7 @@ export interface SavedSecondImage {
   opacity: number;
   colors: ColorMapName;
   window: Window;
+  isFolded?: boolean;
 }
 
 const USUAL_OPACITY = 0.5;
@@ -26,6 +27,8 @@ export class SecondImage extends Emitter<"image" | "shown" | "look"> {
   opacity = USUAL_OPACITY;
   colors: ColorMapName = "gray";
   window: Window = { center: 0, width: 1 };
+  /** Its card shows only which of the two are seen. */
+  isFolded = false;
   private beforeAlone: Shown = "both";
 
   /** What the server holds now; `saved` is how this page, or the last visit, looked at it. */
@@ -42,6 +45,7 @@ export class SecondImage extends Emitter<"image" | "shown" | "look"> {
     this.opacity = saved?.opacity ?? (info.emission ? USUAL_EMISSION_OPACITY : USUAL_OPACITY);
     this.colors = COLOR_MAPS.find(({ name }) => name === saved?.colors)?.name ?? (info.emission ? "hot" : "gray");
     this.window = saved?.window ?? { ...info.window };
+    this.isFolded = saved?.isFolded ?? false;
   }
 
   /** Whether a slice needs it. */
@@ -93,9 +97,14 @@ export class SecondImage extends Emitter<"image" | "shown" | "look"> {
     this.emit("look");
   }
 
+  toggleFolded(): void {
+    this.isFolded = !this.isFolded;
+    this.emit("look");
+  }
+
   saved(): SavedSecondImage | null {
     if (!this.info) return null;
-    const { shown, opacity, colors, window } = this;
-    return { key: this.info.key, shown, opacity, colors, window };
+    const { shown, opacity, colors, window, isFolded } = this;
+    return { key: this.info.key, shown, opacity, colors, window, ...(isFolded && { isFolded }) };
   }
 }

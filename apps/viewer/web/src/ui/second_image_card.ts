@@ -21,7 +21,9 @@ export function keepSliderKeys(event: KeyboardEvent): void {
 export class SecondImageCard {
   readonly element = el("section", { class: "second-card", "aria-label": "Second image", "data-test": "second-image", hidden: true });
   private readonly title = el("strong", {});
+  private readonly fold = button({ label: "", title: "", class: "fold", test: "fold-second", click: () => this.second.toggleFolded() });
   private readonly lines = el("div", { class: "second-lines" });
+  private readonly look: HTMLElement[];
   private readonly choices = new Map<Shown, HTMLButtonElement>();
   private readonly opacity = el("input", { type: "range", min: "0", max: "1", step: "0.01", "aria-label": "Opacity of the second image", "data-test": "second-opacity", on: { input: () => this.second.setOpacity(this.opacity.valueAsNumber), keydown: keepSliderKeys } });
   private readonly percent = el("output", { class: "second-percent" });
@@ -42,14 +44,17 @@ export class SecondImageCard {
       this.choices.set(shown, button({ label: shown, title: titles[shown], class: "tool", test: `show-${shown}`, click: () => second.show(shown) }));
     for (const { name, label } of COLOR_MAPS) this.colors.append(el("option", { value: name }, label));
     const close = button({ icon: ICONS.close, title: "Remove the second image from the project", class: "icon-button small", test: "remove-image", click: remove });
-    this.element.append(
-      el("div", { class: "second-head" }, this.title, close),
-      this.lines,
-      el("div", { class: "second-choices", role: "group", "aria-label": "Which image is seen" }, ...this.choices.values()),
+    this.look = [
       el("label", { class: "second-row" }, "Opacity", this.opacity, this.percent),
       el("div", { class: "second-row" }, this.colors, this.presets),
       this.bar,
       el("div", { class: "second-scale" }, this.low, this.unit, this.high),
+    ];
+    this.element.append(
+      el("div", { class: "second-head" }, this.fold, this.title, close),
+      this.lines,
+      el("div", { class: "second-choices", role: "group", "aria-label": "Which image is seen" }, ...this.choices.values()),
+      ...this.look,
     );
     second.on(["image"], () => this.fill());
     second.on(["shown", "look"], () => this.update());
@@ -82,6 +87,10 @@ export class SecondImageCard {
     const { second } = this;
     if (!second.info) return;
     for (const [shown, choice] of this.choices) choice.setAttribute("aria-pressed", String(shown === second.shown));
+    for (const part of [this.lines, ...this.look]) part.hidden = second.isFolded;
+    this.fold.setAttribute("aria-expanded", String(!second.isFolded));
+    this.fold.title = second.isFolded ? "Show opacity, colours and window of the second image" : "Fold the card of the second image";
+    this.fold.setAttribute("aria-label", "Details of the second image");
     this.opacity.value = String(second.opacity);
     this.opacity.disabled = second.shown !== "both";
     this.percent.textContent = `${Math.round(100 * second.opacity)} %`;

@@ -187,6 +187,34 @@ describe("a second image", () => {
     assert.deepEqual(viewer.complaints, []);
   });
 
+  test("leaves the list its rows in a low window, all of the panel in reach, and has a card that folds", async () => {
+    const { page } = viewer;
+    const box = async (part: string) => (await page.locator(part).boundingBox())!;
+    for (const [width, height] of [[1280, 720], [820, 620]] as const) {
+      await page.setViewportSize({ width, height });
+      const panel = await box(".panel"), list = await box(".structures");
+      assert.ok(list.height > 140 && list.y + list.height <= panel.y + panel.height, `${width} x ${height}: the list from ${list.y} to ${list.y + list.height}`);
+      await page.mouse.move(panel.x + panel.width / 2, panel.y + 20);
+      for (let n = 0; n < 12; ++n) await page.mouse.wheel(0, 100);
+      await page.waitForTimeout(200);
+      const last = await box(".quality");
+      assert.ok(last.y + last.height <= panel.y + panel.height + 1, `${width} x ${height}: the panel's end is out of reach`);
+    }
+    await page.setViewportSize({ width: 1280, height: 720 });
+    assert.ok(await field("opacity").isVisible());
+    const open = (await card().boundingBox())!.height;
+    await page.click("[data-test=fold-second]");
+    assert.equal(await field("opacity").isVisible(), false);
+    assert.ok((await card().boundingBox())!.height < open / 2);
+    await page.waitForTimeout(600); // saved a moment later
+    await viewer.saved();
+    await visit(project);
+    assert.equal(await field("opacity").isVisible(), false, "it stays folded with the project");
+    await viewer.page.click("[data-test=show-first]"); // still there
+    await viewer.page.click("[data-test=fold-second]");
+    assert.ok(await field("opacity").isVisible());
+  });
+
   test("is there again with the project, as it was looked at, until it is removed", async () => {
     await viewer.page.click("[data-test=show-both]");
     await field("opacity").focus();

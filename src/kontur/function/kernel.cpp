@@ -32,9 +32,14 @@ template <bool kScreened>
         for (int l = 0; l < kLanes; ++l) {
             const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
             const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
-            double factor = 1;
-            if constexpr (kScreened) screened_factor(kScreenedValue, r, factor);
-            sum[l] += kScreened ? w * (r2 * (r * factor)) : w * (r2 * r);
+            if constexpr (kScreened) {
+                double even, odd, value;
+                screened_halves(kScreenedValue, r2, even, odd);
+                screened_value(r2, r, even, odd, value);
+                sum[l] += w * value;
+            } else {
+                sum[l] += w * (r2 * r);
+            }
         }
     }
     for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
@@ -70,11 +75,10 @@ template <bool kScreened, bool kWithValues>
         for (int l = 0; l < kLanes; ++l) {
             const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
             const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
-            double value = 1, slope_factor = 1;
-            if constexpr (kScreened && kWithValues) screened_factor(kScreenedValue, r, value);
-            if constexpr (kScreened) screened_factor(kScreenedSlope, r, slope_factor);
-            const double factor = kScreened ? w3 * (r * slope_factor) : w3 * r;
-            if constexpr (kWithValues) sum[l] += kScreened ? w * (r2 * (r * value)) : w * (r2 * r);
+            double value = 1, slope_factor = 1;  // of r^3 and 3 r
+            if constexpr (kScreened) screened_factors(r2, r, value, slope_factor);
+            const double factor = w3 * (r * slope_factor);
+            if constexpr (kWithValues) sum[l] += w * (r2 * (r * value));
             gx[l] += factor * dx;
             gy[l] += factor * dy;
             gz[l] += factor * dz;

@@ -30,9 +30,10 @@ enum class Products {
 inline double kernel_value(Kernel kernel, double r) {
     if (kernel == Kernel::biharmonic) return r;
     if (kernel == Kernel::triharmonic) return r * r * r;
-    double factor;
-    screened_factor(kScreenedValue, r, factor);
-    return r * r * r * factor;
+    double even, odd, value;
+    screened_halves(kScreenedValue, r * r, even, odd);
+    screened_value(r * r, r, even, odd, value);
+    return value;
 }
 
 /// Sign s that makes s * phi conditionally positive definite on weights with vanishing zeroth and first moments

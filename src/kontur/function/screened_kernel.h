@@ -22,22 +22,44 @@ inline constexpr double kScreeningLength = 4;
 /// How far phi is computed by polynomials; beyond, k itself has to be summed.
 inline constexpr double kScreenedReach = 4;
 
-// phi(r) / r^3 and phi'(r) / (3 r^2) on [0, kScreenedReach] as polynomials in r, lowest power first: interpolated at
-// Chebyshev's nodes, wrong by 2e-16 and 7e-16 at most.
-inline constexpr std::array<double, 11> kScreenedValue = {
+/// A polynomial in r on [0, kScreenedReach], lowest power first.
+using ScreenedPolynomial = std::array<double, 11>;
+
+// Interpolated at Chebyshev's nodes. phi(r) / r^3, wrong by 2e-16 at most:
+inline constexpr ScreenedPolynomial kScreenedValue = {
     0.9999999999999999,     -0.09374999999999126,    0.00624999999991248,   -0.00032552083299102077,
     1.3950892169437119e-05, -5.086254944525408e-07,  1.614627370964609e-08, -4.538497001899607e-10,
     1.1381777381842787e-11, -2.4613691295991155e-13, 3.620065707727142e-15};
-inline constexpr std::array<double, 11> kScreenedSlope = {
-    0.9999999999999993,    -0.12499999999996034,    0.010416666666269435,   -0.0006510416651126557,
-    3.255208021027005e-05, -1.3563331360548157e-06, 4.8437903824347227e-08, -1.512490056304901e-09,
-    4.165626135012856e-11, -9.750051880966e-13,     1.5185188752594563e-14};
+// v(r) in 1 - exp(-x) = x (1 - x/2 + r^2 v), x = r/l, from which both phi and its slope follow; wrong by 3e-17 of itself.
+inline constexpr ScreenedPolynomial kScreenedShared = {
+    0.010416666666666666,  -0.0006510416666666523,  3.255208333318913e-05,  -1.356336804991643e-06,
+    4.844059906589327e-08, -1.5137674268438262e-09, 4.2048156704317946e-11, -1.0507667239571731e-12,
+    2.3750209418128708e-14, -4.704737312069835e-16, 6.49236880370724e-18};
 
-/// The polynomial at r; numbers or vectors of them.
+/// The polynomial is even + r odd, two polynomials in r^2: processors compute them while the root of r^2 is on its way, and
+/// half as many of their steps wait for each other. Numbers or vectors of them.
 template <class Number>
-[[gnu::always_inline]] inline void screened_factor(const std::array<double, 11>& c, const Number& r, Number& out) {
-    out = c[9] + r * c[10];
-    for (std::size_t m = 9; m-- > 0;) out = c[m] + r * out;
+[[gnu::always_inline]] inline void screened_halves(const ScreenedPolynomial& c, const Number& squared, Number& even,
+                                                   Number& odd) {
+    odd = c[1] + squared * (c[3] + squared * (c[5] + squared * (c[7] + squared * c[9])));
+    even = c[0] + squared * (c[2] + squared * (c[4] + squared * (c[6] + squared * (c[8] + squared * c[10]))));
+}
+
+/// phi from r and the halves of kScreenedValue. Numbers or vectors of them.
+template <class Number>
+[[gnu::always_inline]] inline void screened_value(const Number& squared, const Number& r, const Number& even,
+                                                  const Number& odd, Number& out) {
+    out = (squared * r) * even + (squared * squared) * odd;
+}
+
+/// phi / r^3 and phi' / (3 r^2) at once.
+[[gnu::always_inline]] inline void screened_factors(double squared, double r, double& value, double& slope) {
+    constexpr double l = kScreeningLength;
+    double even, odd;
+    screened_halves(kScreenedShared, squared, even, odd);
+    const double v = even + r * odd;
+    value = 1.5 - (3 * l * l + 3 * l * r) * v;
+    slope = 1 - r / (2 * l) + squared * v;
 }
 
 /// k(r) for any r.

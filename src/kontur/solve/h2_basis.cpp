@@ -26,11 +26,7 @@ KONTUR_EVERY_INSTRUCTION_SET void fill(Kernel kernel, const PointArrays& proxies
             a[i] = std::sqrt(squared);
         }
         if (kernel != Kernel::biharmonic)
-            for (std::int32_t i = 0; i < rows; ++i) {
-                double factor = 1;
-                if (kernel == Kernel::screened) screened_factor(kScreenedValue, a[i], factor);
-                a[i] = a[i] * a[i] * a[i] * factor;
-            }
+            for (std::int32_t i = 0; i < rows; ++i) a[i] = kernel_value(kernel, a[i]);
         std::fill(a + rows, a + lead, 0.0);
     }
 }

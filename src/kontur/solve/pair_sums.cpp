@@ -49,19 +49,21 @@ template <int kLanes>
     }
 }
 
-template <Kernel kKernel, int kLanes>
-[[gnu::always_inline]] inline void evaluate(const Pack<kLanes>& dx, const Pack<kLanes>& dy, const Pack<kLanes>& dz,
-                                            Pack<kLanes>& phi) {
-    const Pack<kLanes> squared = dx * dx + dy * dy + dz * dz;
-    Pack<kLanes> r;
-    for (int l = 0; l < kLanes; ++l) r[l] = std::sqrt(squared[l]);
+/// phi at some packs of squared distances, step by step for all of them: each step of one waits for the last.
+template <Kernel kKernel, int kPacks, class Pack>
+[[gnu::always_inline]] inline void evaluate(const Pack (&squared)[kPacks], Pack (&phi)[kPacks]) {
+    Pack r[kPacks], even[kPacks], odd[kPacks];
+#pragma GCC unroll 4
+    for (int p = 0; p < kPacks; ++p)
+        for (std::size_t l = 0; l < sizeof(Pack) / sizeof(double); ++l) r[p][l] = std::sqrt(squared[p][l]);
     if constexpr (kKernel == Kernel::screened) {
-        Pack<kLanes> factor;
-        screened_factor(kScreenedValue, r, factor);
-        phi = squared * (r * factor);
-    } else {
-        phi = kKernel == Kernel::triharmonic ? squared * r : r;
+#pragma GCC unroll 4
+        for (int p = 0; p < kPacks; ++p) screened_halves(kScreenedValue, squared[p], even[p], odd[p]);
     }
+#pragma GCC unroll 4
+    for (int p = 0; p < kPacks; ++p)
+        if constexpr (kKernel == Kernel::screened) screened_value(squared[p], r[p], even[p], odd[p], phi[p]);
+        else phi[p] = kKernel == Kernel::triharmonic ? squared[p] * r[p] : r[p];
 }
 
 /// At most kPacks * kLanes left nodes, held in registers while the right ones pass by.
@@ -80,13 +82,17 @@ template <int kLanes, Kernel kKernel, bool kMutual, int kPacks>
     for (const NodeRun& run : right)
         for (std::int32_t j = run.begin; j < run.end; ++j) {
             const double xj = nodes.x[j], yj = nodes.y[j], zj = nodes.z[j], wj = nodes.weight[j];
-            Pack<kLanes> back{};
+            Pack<kLanes> squared[kPacks], phi[kPacks], back{};
 #pragma GCC unroll 4
             for (int p = 0; p < kPacks; ++p) {
-                Pack<kLanes> phi;
-                evaluate<kKernel, kLanes>(x[p] - xj, y[p] - yj, z[p] - zj, phi);
-                sum[p] += wj * phi;
-                if constexpr (kMutual) back += weight[p] * phi;
+                const Pack<kLanes> dx = x[p] - xj, dy = y[p] - yj, dz = z[p] - zj;
+                squared[p] = dx * dx + dy * dy + dz * dz;
+            }
+            evaluate<kKernel>(squared, phi);
+#pragma GCC unroll 4
+            for (int p = 0; p < kPacks; ++p) {
+                sum[p] += wj * phi[p];
+                if constexpr (kMutual) back += weight[p] * phi[p];
             }
             if constexpr (kMutual) out[j] += sum_of<kLanes>(back);
         }

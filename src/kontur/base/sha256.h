@@ -7,9 +7,11 @@
 #include <span>
 #include <string>
 
+#include "kontur/base/sha256_block.h"
+
 namespace kontur {
 
-/// SHA-256 of bytes that come in pieces. About 200 MB/s. Source: NIST FIPS 180-4.
+/// SHA-256 of bytes that come in pieces. Source: NIST FIPS 180-4.
 class Sha256 {
 public:
     void update(std::span<const std::byte> bytes);
@@ -17,10 +19,7 @@ public:
     std::string hex() const;
 
 private:
-    void compress(const std::byte* block);
-
-    std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                        0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+    Sha256State state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
     std::array<std::byte, 64> pending_{};
     std::uint64_t byte_count_ = 0;
 };

@@ -68,8 +68,9 @@ private:
             if (&other == &own_ || distance(other.ball.center, place) >= clear + other.ball.radius) continue;
             const double share = outside_per_mm(normal_, other.section.plane.normal);
             for (const Vec3& shown : other.places) {
-                const double apart = distance(shown, place);
-                if (!(apart > 0 && apart < clear)) continue;
+                const double squared = dot(shown - place, shown - place);
+                if (!(squared > 0 && squared < clear * clear)) continue;
+                const double apart = std::sqrt(squared);
                 nearest = std::min(nearest, share * apart);
                 const double ahead = dot(shown - place, normal_) / apart;
                 double& side = ahead > 0 ? shown_before : shown_behind;

@@ -32,9 +32,9 @@ inline constexpr ScreenedPolynomial kScreenedValue = {
     1.1381777381842787e-11, -2.4613691295991155e-13, 3.620065707727142e-15};
 // v(r) in 1 - exp(-x) = x (1 - x/2 + r^2 v), x = r/l, from which both phi and its slope follow; wrong by 3e-17 of itself.
 inline constexpr ScreenedPolynomial kScreenedShared = {
-    0.010416666666666666,  -0.0006510416666666523,  3.255208333318913e-05,  -1.356336804991643e-06,
-    4.844059906589327e-08, -1.5137674268438262e-09, 4.2048156704317946e-11, -1.0507667239571731e-12,
-    2.3750209418128708e-14, -4.704737312069835e-16, 6.49236880370724e-18};
+    0.010416666666666666,   -0.0006510416666666523,  3.255208333318913e-05,  -1.356336804991643e-06,
+    4.844059906589327e-08,  -1.5137674268438262e-09, 4.2048156704317946e-11, -1.0507667239571731e-12,
+    2.3750209418128708e-14, -4.704737312069835e-16,  6.49236880370724e-18};
 
 /// The polynomial is even + r odd, two polynomials in r^2: processors compute them while the root of r^2 is on its way, and
 /// half as many of their steps wait for each other. Numbers or vectors of them.

@@ -10,7 +10,7 @@ namespace {
 
 /// More points need more neighbours to be solved in as many iterations.
 int fitting_neighbours(std::size_t points) {
-    return points <= 3000 ? 64 : points <= 20000 ? 128 : points <= 400000 ? 192 : 256;
+    return points <= 1200 ? 64 : points <= 3000 ? 96 : points <= 20000 ? 128 : points <= 400000 ? 192 : 256;
 }
 
 /// Its factorisation takes no longer than the others' together.

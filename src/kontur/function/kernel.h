@@ -73,7 +73,7 @@ void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const doubl
 void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
                          const PointArrays& targets, std::span<Vec3> out, const Work& work);
 
-/// Both at once, the same bytes; cheaper than one after the other.
+/// Both at once, cheaper than one after the other; the screened kernel's values are the same to rounding.
 void sum_kernel_and_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
                              const PointArrays& targets, std::span<double> values, std::span<Vec3> gradients,
                              const Work& work);

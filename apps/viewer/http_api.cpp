@@ -50,6 +50,12 @@ HttpReply not_found() { return error_reply(404, "not_found", "there is nothing a
 
 HttpReply binary(std::string bytes) { return {200, "application/octet-stream", std::move(bytes), {}}; }
 
+HttpReply compressed(std::string_view bytes) {
+    HttpReply reply = binary(gzipped(bytes));
+    reply.headers.emplace_back("Content-Encoding", "gzip");
+    return reply;
+}
+
 template <class Make>
 HttpReply guarded(Make make) {
     try {
@@ -93,6 +99,9 @@ std::string known_extension(std::string_view file, std::span<const char* const> 
     }
     throw Error(ErrorKind::unsupported, fmt::format("only files that end with {} can be imported here", list));
 }
+
+/// Of a slice, whose request has been checked.
+bool wants_compressed(const std::string& slice) { return json::parse(slice).value("compressed", false); }
 
 TraceRequest trace_request(const Target& target) {
     TraceRequest request;
@@ -163,7 +172,8 @@ HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const
             if (const auto newest = newest_slice_.find(view); newest != newest_slice_.end() && newest->second > ticket)
                 throw Error(ErrorKind::cancelled, "a later slice of this view was asked for");
         }
-        return binary(workspace_.session(request.opening)->slice(request.body));
+        std::string bytes = workspace_.session(request.opening)->slice(request.body);
+        return wants_compressed(request.body) ? compressed(bytes) : binary(std::move(bytes));
     });
 }
 
@@ -182,9 +192,10 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
         const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
         if (!id) return not_found();
         if (!target.parameter("coded")) return binary(workspace_.session(request.opening)->mesh(*id));
-        HttpReply reply = binary(gzipped(workspace_.session(request.opening)->mesh(*id, true)));
-        reply.headers.emplace_back("Content-Encoding", "gzip");
-        return reply;
+        const auto other = target.parameter("far_from");
+        const std::optional<Id> far_from = other ? whole_number(*other) : std::nullopt;
+        if (other && !far_from) throw Error(ErrorKind::invalid_input, "'far_from' is not a whole number");
+        return compressed(workspace_.session(request.opening)->mesh(*id, true, far_from));
     }
     if (get && target.path == "/api/statistics")
         return {200, "application/json", workspace_.session(request.opening)->statistics(stop), {}};

@@ -96,4 +96,13 @@ WidthCode code_widths(std::span<const double> widths_mm) {
     return code;
 }
 
+WidthCode code_distances(std::span<const double> distances_mm) {
+    constexpr double kMost = 127, kZero = 128;
+    WidthCode code;
+    for (const double distance : distances_mm) code.step_mm = std::max(code.step_mm, std::abs(distance) / kMost);
+    for (const double distance : distances_mm)
+        code.steps.push_back(static_cast<std::uint8_t>(kZero + (code.step_mm > 0 ? std::round(distance / code.step_mm) : 0)));
+    return code;
+}
+
 }  // namespace kontur::viewer

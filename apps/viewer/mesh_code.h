@@ -30,4 +30,7 @@ struct WidthCode {
 };
 WidthCode code_widths(std::span<const double> widths_mm);
 
+/// Distances, negative inside, as bytes: 128 is 0, and steps of a 127th of the largest to both sides.
+WidthCode code_distances(std::span<const double> distances_mm);
+
 }  // namespace kontur::viewer

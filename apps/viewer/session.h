@@ -69,7 +69,7 @@ public:
     std::string slice(std::string_view request);
     /// Without triangles, and at the stage "none", where there is no surface: it may go while it is asked for.
     /// `coded`: in few bytes, which are worth compressing.
-    std::string mesh(Id structure, bool coded = false);
+    std::string mesh(Id structure, bool coded = false, std::optional<Id> far_from = std::nullopt);
     Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {});
     /// Of all structures with contours, as JSON.
     std::string statistics(const std::stop_token& stop = {});

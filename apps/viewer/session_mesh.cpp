@@ -6,6 +6,7 @@
 #include "viewer/mesh_code.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
+#include "viewer/surface_distance.h"
 
 // The surface of a structure, as numbers or in few bytes.
 
@@ -30,37 +31,47 @@ std::string as_numbers(nlohmann::json head, const TriangleMesh& mesh, const std:
     return reply.bytes();
 }
 
-std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::vector<double>& widths_mm) {
+std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::vector<double>& widths_mm,
+                    const std::vector<double>& away_mm) {
     const MeshCode code = code_mesh(mesh);
-    const WidthCode widths = code_widths(widths_mm);
+    const WidthCode widths = code_widths(widths_mm), distances = code_distances(away_mm);
     head["points"] = mesh.points.size();
     head["triangles"] = mesh.triangles.size();
     head["origin"] = to_json(code.origin);
     head["step_mm"] = to_json(code.step_mm);
     head["half_width_step_mm"] = widths.step_mm;
+    head["distance_step_mm"] = distances.step_mm;
     BinaryReply reply(std::move(head));
     reply.add<std::uint8_t>("positions", code.positions);
     reply.add<std::uint8_t>("normals", code.normals);
     reply.add<std::uint8_t>("half_widths", widths.steps);
+    reply.add<std::uint8_t>("distances", distances.steps);
     reply.add<std::uint8_t>("triangles", code.triangles);
     return reply.bytes();
 }
 
 }  // namespace
 
-std::string Session::mesh(Id structure, bool coded) {
+std::string Session::mesh(Id structure, bool coded, std::optional<Id> far_from) {
     const auto surfaces = surfaces_.all();
-    const auto found = surfaces.find(structure);
-    const bool is_there = found != surfaces.end() && found->second->mesh && state().structures.contains(structure);
     const Surface none;
     const TriangleMesh no_mesh;
-    const Surface& surface = is_there ? *found->second : none;
-    const TriangleMesh& mesh = is_there ? *surface.mesh : no_mesh;
+    const auto surface_of = [&](Id id) -> const Surface& {
+        const auto found = surfaces.find(id);
+        const bool is_there = found != surfaces.end() && found->second->mesh && state().structures.contains(id);
+        return is_there ? *found->second : none;
+    };
+    const auto mesh_of = [&](const Surface& shown) -> const TriangleMesh& { return shown.mesh ? *shown.mesh : no_mesh; };
+    const Surface& surface = surface_of(structure);
+    const TriangleMesh& mesh = mesh_of(surface);
     std::vector<double> widths_mm;
     if (surface.evidence && is_finished(surface.stage)) widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
-    return (coded ? as_code : as_numbers)(
-        {{"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}}, mesh,
-        widths_mm);
+    nlohmann::json head{
+        {"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}};
+    if (!coded) return as_numbers(std::move(head), mesh, widths_mm);
+    std::vector<double> away_mm;
+    if (far_from) away_mm = distances_mm(mesh.points, mesh_of(surface_of(*far_from)));
+    return as_code(std::move(head), mesh, widths_mm, away_mm);
 }
 
 }  // namespace kontur::viewer

@@ -73,5 +73,14 @@ TEST(MeshCode, WidthsAreKeptToATwoHundredthOfTheLargest) {
     EXPECT_EQ(code_widths(std::vector<double>{0, 0}).steps, (std::vector<std::uint8_t>{0, 0}));
 }
 
+TEST(MeshCode, DistancesAreKeptToA254thOfTheLargestOnBothSides) {
+    const std::vector<double> distances{-3.5, 0, 1.1, 6.35};
+    const WidthCode code = code_distances(distances);
+    for (std::size_t n = 0; n < distances.size(); ++n)
+        EXPECT_NEAR((code.steps[n] - 128) * code.step_mm, distances[n], 0.51 * 6.35 / 127);
+    EXPECT_TRUE(code_distances({}).steps.empty());
+    EXPECT_EQ(code_distances(std::vector<double>{0, 0}).steps, (std::vector<std::uint8_t>{128, 128}));
+}
+
 }  // namespace
 }  // namespace kontur::viewer

@@ -82,6 +82,16 @@ def test_a_slice_shows_the_ball_where_it_is(server):
         assert all(head["letters"][side] for side in ("left", "right", "top", "bottom"))
 
 
+def test_a_slice_comes_compressed_where_that_is_asked_for(server):
+    plane = server.page().session["views"]["axial"]["plane"] | {"mm_per_pixel": 0.5}
+    request = {"view": "test", "plane": plane, "width": 65, "height": 65, "pixels": "values"}
+    status, headers, plain = server.request("POST", "/api/slice", json.dumps(request).encode())
+    assert status == 200 and "Content-Encoding" not in headers
+    status, headers, bytes_ = server.request("POST", "/api/slice", json.dumps(request | {"compressed": True}).encode())
+    assert status == 200 and headers["Content-Encoding"] == "gzip" and len(bytes_) < len(plain)
+    assert gzip.decompress(bytes_) == plain
+
+
 def test_values_and_presets_follow_the_image(server):
     page = server.page()
     center = page.session["views"]["axial"]["plane"]["origin"]

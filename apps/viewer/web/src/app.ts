@@ -128,7 +128,7 @@ export class App {
       time: new TimeCard(this.navigation, this.cine).element,
       secondImage: this.secondCard.element,
       suggest: inSight(() => void this.suggest()),
-      openStatistics: () => openStatistics(this.http, (p) => this.goTo(p)),
+      openStatistics: () => openStatistics(this.http, (p) => this.goTo(p), (first, second) => this.surface.compare(first, second)),
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { BinaryReply } from "./binary";
+import { Link } from "./link";
 import type { CodedMesh } from "./mesh_code";
 import type { Comparison, Folder, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
@@ -31,12 +32,15 @@ export interface MeshHeader extends CodedMesh {
   revision: number;
   stage: string;
   half_width_step_mm: number;
+  distance_step_mm: number;
 }
 
 /** Requests for bulk data below `/api/`. One that is aborted costs the server nothing more. */
 export class Http {
   /** Names this load of the page: a later slice overtakes an earlier one of the same view of the same page only. */
   private readonly page = [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+
+  private readonly link = new Link();
 
   /** The session that the page shows: requests for another one are refused. */
   opening: string | null = null;
@@ -85,11 +89,16 @@ export class Http {
   }
 
   async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
-    return new BinaryReply(await (await this.post("slice", JSON.stringify({ page: this.page, ...request }))).arrayBuffer());
+    const reply = await this.post("slice", JSON.stringify({ page: this.page, ...request, ...(this.link.isSlow && { compressed: true }) }));
+    const began = performance.now();
+    const bytes = await reply.arrayBuffer();
+    this.link.took(Number(reply.headers.get("Content-Length")), performance.now() - began);
+    return new BinaryReply(bytes);
   }
 
-  async mesh(structure: number): Promise<BinaryReply<MeshHeader>> {
-    return new BinaryReply(await (await this.request(`mesh/${structure}?coded=1`)).arrayBuffer());
+  /** With how far its points are from the surface of another structure, where that is wanted. */
+  async mesh(structure: number, farFrom?: number): Promise<BinaryReply<MeshHeader>> {
+    return new BinaryReply(await (await this.request(`mesh/${structure}?coded=1` + (farFrom === undefined ? "" : `&far_from=${farFrom}`))).arrayBuffer());
   }
 
   /** The file and the name that the server proposes for it. */

@@ -58,6 +58,11 @@ export function trianglesOf({ triangles }: CodedMesh, bytes: Uint8Array): Uint32
   return indices;
 }
 
+/** Of bytes that count steps to both sides of 128: negative inside. */
+export function distancesOf(step_mm: number, bytes: Uint8Array): Float32Array {
+  return Float32Array.from(bytes, (steps) => (steps - 128) * step_mm);
+}
+
 /** Of bytes that count steps. */
 export function widthsOf(step_mm: number, bytes: Uint8Array): Float32Array {
   return Float32Array.from(bytes, (steps) => steps * step_mm);

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of how sure a surface is: cividis (Nunez, Anderton and Renslow 2018), which readers of any colour vision see alike.
+// Colours of how sure a surface is: cividis (Nunez, Anderton and Renslow 2018), which readers of any colour vision see alike; and
+// of how far it is from another one: from blue inside to orange outside, by light where it touches.
 
 /** From a narrow band to a wide one, in sRGB. */
 export const BAND_STOPS = ["#00224e", "#35456c", "#666970", "#948e77", "#c8b866", "#fee838"] as const;
 
+/** From far inside of another surface to far outside, in sRGB. */
+export const DISTANCE_STOPS = ["#10316b", "#4a7fc1", "#f4f4f2", "#e0913d", "#7a3300"] as const;
+
 const linear = (byte: number): number => (byte <= 10.31 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
-const STOPS = BAND_STOPS.map((color) => [1, 3, 5].map((at) => linear(parseInt(color.slice(at, at + 2), 16))));
+const inLight = (stops: readonly string[]) => stops.map((color) => [1, 3, 5].map((at) => linear(parseInt(color.slice(at, at + 2), 16))));
+const BAND = inLight(BAND_STOPS), DISTANCE = inLight(DISTANCE_STOPS);
 
 /** The end of the scale: what 98 % of the points stay below, rounded up to 1, 2 or 5 times a power of ten. */
 export function bandScale(half_widths_mm: Float32Array): number {
@@ -16,13 +21,18 @@ export function bandScale(half_widths_mm: Float32Array): number {
 }
 
 /** Red, green and blue of each point, linear, as WebGL takes them. */
-export function bandColors(half_widths_mm: Float32Array, most_mm: number): Float32Array {
-  const colors = new Float32Array(3 * half_widths_mm.length);
-  half_widths_mm.forEach((width, point) => {
-    const place = Math.min(Math.max(width / most_mm, 0), 1) * (STOPS.length - 1);
-    const below = Math.min(Math.floor(place), STOPS.length - 2);
+export const bandColors = (half_widths_mm: Float32Array, most_mm: number): Float32Array => colorsOf(half_widths_mm, BAND, (width) => width / most_mm);
+
+/** The same for distances, from -`most_mm` to `most_mm`. */
+export const distanceColors = (distances_mm: Float32Array, most_mm: number): Float32Array => colorsOf(distances_mm, DISTANCE, (distance) => 0.5 + distance / most_mm / 2);
+
+function colorsOf(values: Float32Array, stops: readonly number[][], placeOf: (value: number) => number): Float32Array {
+  const colors = new Float32Array(3 * values.length);
+  values.forEach((value, point) => {
+    const place = Math.min(Math.max(placeOf(value), 0), 1) * (stops.length - 1);
+    const below = Math.min(Math.floor(place), stops.length - 2);
     for (let channel = 0; channel < 3; ++channel) {
-      const from = STOPS[below]![channel]!, to = STOPS[below + 1]![channel]!;
+      const from = stops[below]![channel]!, to = stops[below + 1]![channel]!;
       colors[3 * point + channel] = from + (place - below) * (to - from);
     }
   });

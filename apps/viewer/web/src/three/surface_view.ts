@@ -3,9 +3,10 @@ import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Theme } from "../model/theme";
 import type { Http } from "../net/http";
-import { ServerError } from "../net/http";
+import { ServerError, type MeshHeader } from "../net/http";
+import type { BinaryReply } from "../net/binary";
 import { Latest } from "../net/latest";
-import { normalsOf, positionsOf, trianglesOf, widthsOf } from "../net/mesh_code";
+import { distancesOf, normalsOf, positionsOf, trianglesOf, widthsOf } from "../net/mesh_code";
 import { VIEW_NAMES, type ImageInfo } from "../net/protocol";
 import { scaleBar } from "../geometry/scale_bar";
 import type { Vec3 } from "../geometry/vec";
@@ -14,7 +15,7 @@ import { ICONS } from "../ui/icons";
 import { PLANE_COLORS } from "../view/palette";
 import type { Editor } from "../tools/editor";
 import { CLICK_PIXELS } from "../tools/gesture";
-import { BAND_STOPS, bandColors, bandScale } from "./band";
+import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors } from "./band";
 import { OrientationCube, SIDES } from "./cube";
 import type { Scene } from "./scene";
 
@@ -28,6 +29,7 @@ export interface SurfaceViewServices {
   goTo(p: Vec3): void;
 }
 
+const COMPARED_WITH_OPACITY = 0.2; // it may lie around the one that is looked at
 const REACH_PIXELS = { finger: 22, other: 9 };
 
 /** The pane of the 3D view. Without WebGL it says so, and the rest of the page works on. */
@@ -40,7 +42,9 @@ export class SurfaceView {
   private readonly shownRevisions = new Map<number, number>();
   private scene: Scene | null = null;
   private showsBand = false;
-  private readonly band = button({ icon: ICONS.statistics, title: "Colour the surface by how sure it is", class: "icon-button small", test: "band", click: () => this.toggleBand() });
+  /** One structure coloured by how far it is from another one, in its state `revision`. */
+  private compared: { structure: number; other: number; revision: number } | null = null;
+  private readonly band = button({ icon: ICONS.statistics, title: "Colour the surface by how sure it is", class: "icon-button small", test: "band", click: () => this.paintBy(!this.showsBand) });
   private readonly ramp = el("span", { class: "band-ramp" });
   private readonly scale = el("div", { class: "band-scale", hidden: true, "data-test": "band-scale" });
   private readonly cube = new OrientationCube(({ from }) => this.scene?.viewFrom(from));
@@ -64,7 +68,6 @@ export class SurfaceView {
     this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, glass, frame, enlarge);
     this.band.setAttribute("aria-pressed", "false");
     this.band.hidden = true;
-    this.ramp.style.background = `linear-gradient(to right, ${BAND_STOPS.join()})`;
     this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.bar, this.scale, this.cube.element);
     this.cube.element.hidden = true;
     this.watchClicks();
@@ -127,6 +130,7 @@ export class SurfaceView {
     const { project } = this.services;
     if (!this.scene) return;
     for (const id of this.scene.meshes) if (!this.hasSurface(id)) this.remove(id);
+    this.compareAgain();
     for (const surface of project.surfaces.values()) {
       if (surface.stage === "none" || this.shownRevisions.get(surface.structure) === surface.revision) continue;
       this.fetchesOf(surface.structure).send();
@@ -143,7 +147,7 @@ export class SurfaceView {
   }
 
   restyle(): void {
-    for (const { id, color, visible } of this.services.project.structures.values()) this.scene?.style(id, color, visible, this.opacity);
+    for (const { id, color, visible } of this.services.project.structures.values()) this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity);
   }
 
   private hasSurface(structure: number): boolean {
@@ -164,10 +168,10 @@ export class SurfaceView {
   private async fetchMesh(structure: number): Promise<void> {
     if (!this.hasSurface(structure)) return; // it went while another mesh was on its way
     try {
-      const reply = await this.services.http.mesh(structure);
+      const reply = await this.services.http.mesh(structure, this.compared?.structure === structure ? this.compared.other : undefined);
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
       const { header } = reply;
-      const colors = this.colorsOf(widthsOf(header.half_width_step_mm, reply.u8("half_widths")));
+      const colors = this.compared ? this.distanceColorsOf(reply) : this.bandColorsOf(reply);
       this.scene?.setMesh(structure, { positions: positionsOf(header, reply.u8("positions")), normals: normalsOf(header, reply.u8("normals")), triangles: trianglesOf(header, reply.u8("triangles")), colors });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();
@@ -177,20 +181,53 @@ export class SurfaceView {
   }
 
   /** Of how sure the surface is, where that is wanted and known; a preview has none. */
-  private colorsOf(half_widths_mm: Float32Array): Float32Array | undefined {
+  private bandColorsOf(reply: BinaryReply<MeshHeader>): Float32Array | undefined {
+    const half_widths_mm = widthsOf(reply.header.half_width_step_mm, reply.u8("half_widths"));
     if (!this.showsBand || half_widths_mm.length === 0) return undefined;
     const most_mm = bandScale(half_widths_mm);
-    this.scale.replaceChildren(el("span", {}, "90 % band: 0"), this.ramp, el("span", {}, `± ${most_mm} mm`));
-    this.scale.hidden = false;
+    this.showScale("90 % band: 0", BAND_STOPS, `± ${most_mm} mm`);
     return bandColors(half_widths_mm, most_mm);
   }
 
-  private toggleBand(): void {
-    this.showsBand = !this.showsBand;
-    this.band.setAttribute("aria-pressed", String(this.showsBand));
+  /** Of how far the surface that is compared is from the other one; all others have their own colour. */
+  private distanceColorsOf(reply: BinaryReply<MeshHeader>): Float32Array | undefined {
+    const distances_mm = distancesOf(reply.header.distance_step_mm, reply.u8("distances"));
+    if (distances_mm.length === 0) return undefined;
+    const most_mm = bandScale(distances_mm.map(Math.abs));
+    const name = this.services.project.structures.get(this.compared!.other)?.name ?? "the other";
+    this.showScale(`${most_mm} mm inside ${name}`, DISTANCE_STOPS, `${most_mm} mm outside`);
+    return distanceColors(distances_mm, most_mm);
+  }
+
+  private showScale(from: string, stops: readonly string[], to: string): void {
+    this.ramp.style.background = `linear-gradient(to right, ${stops.join()})`;
+    const end = button({ icon: ICONS.close, title: "One colour again", class: "icon-button small", test: "scale-end", click: () => this.paintBy(false) });
+    this.scale.replaceChildren(el("span", {}, from), this.ramp, el("span", {}, to), end);
+    this.scale.hidden = false;
+  }
+
+  /** Colours a structure's surface by how far it is from another one's, as long as both are there. */
+  compare(structure: number, other: number): void {
+    this.paintBy(false, { structure, other, revision: 0 });
+  }
+
+  private paintBy(band: boolean, compared: typeof this.compared = null): void {
+    this.showsBand = band;
+    this.compared = compared;
+    this.band.setAttribute("aria-pressed", String(band));
     this.scale.hidden = true;
     this.shownRevisions.clear();
     this.surfacesChanged();
+  }
+
+  /** What the other structure's surface has become changes the colours of the one that is compared with it. */
+  private compareAgain(): void {
+    const { compared } = this;
+    if (!compared) return;
+    if (!this.hasSurface(compared.structure) || !this.hasSurface(compared.other)) return this.paintBy(false);
+    const { revision } = this.services.project.surfaces.get(compared.other)!;
+    if (revision !== compared.revision) this.shownRevisions.delete(compared.structure);
+    compared.revision = revision;
   }
 
   /** Tests and measurements wait for what the finished frame shows. */

@@ -25,7 +25,7 @@ export function rowsOf(found: Comparison, [first, second]: readonly [string, str
 }
 
 /** Two structures to choose, such as two readers' drawings of one organ, and how they agree. */
-export function comparison(http: Http, structures: readonly Named[], signal: AbortSignal): HTMLElement {
+export function comparison(http: Http, structures: readonly Named[], signal: AbortSignal, showDistances: (first: number, second: number) => void): HTMLElement {
   const choice = (chosen: number, title: string, test: string) => {
     const select = el("select", { "aria-label": title, "data-test": test });
     select.append(...structures.map(({ structure, name }, i) => el("option", { value: String(structure), selected: i === chosen }, name)));
@@ -49,5 +49,8 @@ export function comparison(http: Http, structures: readonly Named[], signal: Abo
     }
   };
   const go = button({ label: "Compare", title: "Fit both and compare their masks", class: "choice", test: "compare", click: () => void compare() });
-  return el("section", { class: "comparison", "aria-label": "Compare two structures" }, el("div", { class: "field" }, "Compare", first, "with", second, go), table, status);
+  const map = button({ label: "Show distances in 3D", title: "Colour the first one's surface by how far it is from the second's", class: "choice", test: "compare-map", click: () => showDistances(Number(first.value), Number(second.value)) });
+  const same = () => void (map.disabled = first.value === second.value);
+  for (const select of [first, second]) select.addEventListener("change", same);
+  return el("section", { class: "comparison", "aria-label": "Compare two structures" }, el("div", { class: "field" }, "Compare", first, "with", second, go, map), table, status);
 }

@@ -57,7 +57,7 @@ export function asCsv({ structures, ...images }: Statistics): string {
 }
 
 /** Measures all structures anew, as `kontur segment` makes them. */
-export function openStatistics(http: Http, goTo: (p: Vec3) => void): void {
+export function openStatistics(http: Http, goTo: (p: Vec3) => void, showDistances: (first: number, second: number) => void): void {
   const abort = new AbortController();
   const status = el("p", { class: "dialog-status", role: "status" }, "Measuring …");
   const content = el("div", { class: "statistics" });
@@ -69,7 +69,7 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void): void {
       content.replaceChildren(table(found, (p) => (dialog.close(), goTo(p))), ...beyond(found.structures).map((text) => el("p", { class: "warning-text", "data-test": "beyond-second" }, text)));
       const save = button({ label: "Save as CSV", title: "Save the table as CSV", class: "choice", test: "statistics-csv", click: () => download(new Blob([asCsv(found)], { type: "text/csv" }), "statistics.csv") });
       dialog.append(el("div", { class: "dialog-buttons" }, save));
-      if (found.structures.length > 1) dialog.append(comparison(http, found.structures, abort.signal));
+      if (found.structures.length > 1) dialog.append(comparison(http, found.structures, abort.signal, (first, second) => (dialog.close(), showDistances(first, second))));
     },
     (error: unknown) => void (status.textContent = error instanceof Error ? error.message : String(error)),
   );

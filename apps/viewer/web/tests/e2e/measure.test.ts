@@ -66,6 +66,28 @@ describe("all structures", () => {
     await page.locator(".comparison .dialog-status", { hasText: "Structure 1 would be compared with itself; 2 structures are needed" }).waitFor();
   });
 
+  test("are coloured in 3D by how far one is from another", async () => {
+    const { page } = viewer;
+    const isBlue = (r: number, _: number, b: number) => b - r > 50;
+    const before = await viewer.countPixels("surface", isBlue);
+    await page.click("[data-test=statistics-open]");
+    await page.locator("[data-test=compare-first]").selectOption({ label: "Structure 2" });
+    assert.equal(await page.locator("[data-test=compare-map]").isDisabled(), true, "with itself");
+    await page.locator("[data-test=compare-second]").selectOption({ label: "Structure 1" });
+    await page.click("[data-test=compare-map]");
+    const scale = page.locator("[data-test=band-scale]");
+    await scale.filter({ hasText: "50 mm inside Structure 1" }).waitFor(); // 25 mm; scales end at 1, 2 or 5 times a power of ten
+    assert.match((await scale.textContent())!, /50 mm outside$/);
+    await page.waitForTimeout(400);
+    const during = await viewer.countPixels("surface", isBlue);
+    assert.ok(during > before + 1000, `${before} blue pixels before, ${during} with the distances`);
+    await page.click("[data-test=scale-end]");
+    await scale.waitFor({ state: "hidden" });
+    await page.waitForTimeout(400);
+    assert.ok((await viewer.countPixels("surface", isBlue)) < before + 200);
+    assert.deepEqual(viewer.complaints, []);
+  });
+
   test("go into one label map, where the smaller one keeps its voxels, and that is said", async () => {
     const { bytes } = await viewer.export("labels.nii.gz");
     await viewer.page.locator(".notice", { hasText: "belong to Structure 2, the smaller one" }).waitFor();

@@ -14,6 +14,7 @@ import { Socket, type ConnectionState } from "./net/socket";
 import { ArrangementKeeper } from "./page/arrangement";
 import { AddImageDialog } from "./start/add_image";
 import { Cine } from "./page/cine";
+import { LinkedWindows } from "./page/linked_windows";
 import { PageKeeper, type SavedPage } from "./page/saved_page";
 import { Saving } from "./page/saving";
 import { StartPage } from "./start/start_page";
@@ -71,9 +72,10 @@ export class App {
   private readonly saving: Saving;
   private readonly keeper: PageKeeper;
   private readonly arrangement: ArrangementKeeper;
+  private readonly windows = new LinkedWindows(this.navigation);
 
   constructor(
-    token: string,
+    private readonly token: string,
     private readonly theme: Theme,
   ) {
     this.http = new Http(token);
@@ -98,7 +100,7 @@ export class App {
     const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, theme: this.theme, sizes: this.sizes, second: this.second, editor: this.editor, http: this.http, failed };
     this.keeper = new PageKeeper({
       ...shared,
-      isOpen: () => this.session !== null,
+      isOpen: () => this.session !== null && !this.windows.isSecond,
       hintSeen: () => this.hintSeen,
       save: (state) => void this.socket.call("page.save", { state }).catch(() => undefined), // the next change saves again
     });
@@ -107,7 +109,7 @@ export class App {
       keep: (modality, state) => void this.http.keepArrangement(modality, state).catch(() => undefined), // a convenience
     });
     for (const name of VIEW_NAMES) this.views.set(name, new SliceView(name, shared));
-    this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p) });
+    this.surface = new SurfaceView({ ...shared, goTo: (p) => this.goTo(p), openWindow: () => this.openWindow() });
     this.values = new Latest((p) => this.askValue(p));
     const inSight = (act: () => void) => () => void (this.editor.isAnotherTime() || act()); // as keys that edit
     this.toolbar = new Toolbar({
@@ -283,14 +285,29 @@ export class App {
     this.views.forEach((view) => view.forgetOutlines());
     this.surface.forgetRevisions();
     this.project.start(session);
-    if (isFirst) this.keeper.restore(page);
-    if (isFirst) this.arrangement.start(session, page);
+    if (isFirst) this.restore(session, page);
+    this.windows.start(session.project);
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);
     this.hintSeen ||= page?.hintSeen ?? false;
     if (!this.hintSeen && session.contours.length === 0) this.showFirstHint();
     this.tellHint();
     document.body.dataset["ready"] = "true";
+  }
+
+  private restore(session: Session, page: SavedPage | null): void {
+    if (!this.windows.isSecond) {
+      this.keeper.restore(page);
+      return this.arrangement.start(session, page);
+    }
+    const { sketch, unsaved, ...others } = page ?? ({} as Partial<SavedPage>); // what is half drawn is the first window's
+    this.keeper.restore(others as SavedPage);
+    this.navigation.setLayout("single", "surface");
+  }
+
+  private openWindow(): void {
+    if (this.keeper.isWaiting) this.keeper.save(); // it begins where this one is
+    if (!this.windows.open(this.token)) this.notices.show("warning", "The browser lets this page open no window. Allow it in the address bar.");
   }
 
   private connected(state: ConnectionState): void {
@@ -484,7 +501,8 @@ export class App {
     };
     window.addEventListener("beforeunload", (event) => {
       save();
-      if (!this.saving.isDone || (this.editor.drawing.sketch && this.saving.connection !== "open")) event.preventDefault();
+      const isSketchKept = this.saving.connection === "open" && !this.windows.isSecond;
+      if (!this.saving.isDone || (this.editor.drawing.sketch && !isSketchKept)) event.preventDefault();
     });
     window.addEventListener("pagehide", save);
   }

@@ -26,6 +26,14 @@ export interface SavedNavigation {
   linked?: boolean;
 }
 
+/** Where one looks, without layout and zoom: what windows beside each other have in common. */
+export interface SharedPlace {
+  crosshair: Vec3;
+  axes: Record<ViewName, Axes>;
+  window: Window;
+  time: number;
+}
+
 const PANES: readonly PaneName[] = [...VIEW_NAMES, "surface"];
 const ZOOM_LIMITS: [number, number] = [0.25, 40];
 const FIT_MARGIN = 1.06;
@@ -90,6 +98,19 @@ export class Navigation extends Emitter<"planes" | "window" | "layout" | "time">
   saved(): SavedNavigation {
     const { crosshair, cameras, window, layout, big, linked } = this;
     return { crosshair, cameras, window, layout, big, linked };
+  }
+
+  place(): SharedPlace {
+    const { axial, sagittal, coronal, oblique } = this.cameras;
+    return { crosshair: this.crosshair, axes: { axial: axial.axes, sagittal: sagittal.axes, coronal: coronal.axes, oblique: oblique.axes }, window: this.window, time: this.time };
+  }
+
+  /** Looks where another window does. */
+  follow({ crosshair, axes, window, time }: SharedPlace): void {
+    if (!this.image) return;
+    for (const view of VIEW_NAMES) this.cameras[view] = { ...this.cameras[view], axes: axes[view] };
+    Object.assign(this, { crosshair, window, time });
+    this.emit("planes", "window", "time");
   }
 
   /** What the view is called: of an image that lies obliquely not by the patient's axes. */

@@ -27,6 +27,8 @@ export interface SurfaceViewServices {
   http: Http;
   failed(error: unknown): void;
   goTo(p: Vec3): void;
+  /** One more of this project, for a second screen. */
+  openWindow(): void;
 }
 
 const COMPARED_WITH_OPACITY = 0.2; // it may lie around the one that is looked at
@@ -59,13 +61,14 @@ export class SurfaceView {
     );
     const glass = button({ icon: ICONS.surface, title: "See through the surface", class: "icon-button small", click: () => this.toggleGlass() });
     const frame = button({ icon: ICONS.reset, title: "Show the whole surface", class: "icon-button small", click: () => this.scene?.frame() });
+    const another = button({ icon: ICONS.window, title: "Open a second window of this project, for another screen; both look at the same place", class: "icon-button small", test: "second-window", click: services.openWindow });
     const enlarge = button({
       icon: ICONS.enlarge,
       title: "Show the 3D view alone, or go back (double click on its title)",
       class: "icon-button small",
       click: () => void this.header.dispatchEvent(new MouseEvent("dblclick")),
     });
-    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, glass, frame, enlarge);
+    this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, glass, frame, another, enlarge);
     this.band.setAttribute("aria-pressed", "false");
     this.band.hidden = true;
     this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.bar, this.scale, this.cube.element);

@@ -106,6 +106,40 @@ describe("dividers", () => {
   });
 });
 
+describe("a second window", () => {
+  test("shows the 3D view alone, looks where the first one does, and leaves its layout alone", async () => {
+    const { page } = viewer;
+    await page.locator("[data-view=surface]").hover();
+    const popup = page.waitForEvent("popup");
+    await page.click("[data-test=second-window]");
+    const second = await Viewer.opened(await popup);
+    assert.equal(await second.page.locator(".pane:visible").count(), 1);
+    assert.ok(await second.pane("surface").isVisible());
+    await second.page.keyboard.press("0"); // all views
+    await second.slicesShown();
+    const slices = () => Promise.all([viewer, second].map((one) => one.slice("axial")));
+    const begun = await viewer.slice("axial");
+    await page.mouse.move(...(await viewer.at("axial", 0, 60)));
+    for (let n = 0; n < 3; ++n) await page.mouse.wheel(0, 120);
+    await second.page.waitForTimeout(1000);
+    assert.deepEqual(await slices(), [begun + 3, begun + 3]);
+    await second.page.bringToFront();
+    await second.page.mouse.move(...(await second.at("axial", 0, 60)));
+    await second.page.mouse.wheel(0, -120);
+    await second.page.waitForTimeout(1000);
+    assert.deepEqual(await slices(), [begun + 2, begun + 2]);
+    await viewer.type(viewer.page.locator(".number").first(), "77");
+    await page.keyboard.press("Enter");
+    await second.page.waitForFunction(() => document.querySelector<HTMLInputElement>(".number")!.value === "77");
+    await second.page.close();
+    await page.reload();
+    await viewer.ready();
+    assert.equal(await page.locator(".pane:visible").count(), 5);
+    assert.equal(await viewer.slice("axial"), begun + 2);
+    assert.deepEqual([...viewer.complaints, ...second.complaints], []);
+  });
+});
+
 describe("the page", () => {
   for (const [pageWidth, pageHeight] of [[820, 1180], [820, 620], [1280, 720], [1920, 1080], [3840, 2160]] as const)
     test(`has everything in reach at ${pageWidth} x ${pageHeight}`, async () => {

@@ -186,6 +186,13 @@ export class Viewer {
     return viewer;
   }
 
+  /** A window that another one has opened. */
+  static async opened(page: Page): Promise<Viewer> {
+    const viewer = new Viewer(page);
+    await page.waitForSelector("body[data-ready]");
+    return viewer;
+  }
+
   /** Where no image is open, or not yet. */
   static async openStart(browser: Browser, address: string): Promise<Viewer> {
     const viewer = new Viewer(await browser.newPage({ viewport: { width: 1280, height: 720 }, acceptDownloads: true }));

@@ -110,6 +110,7 @@ def test_slices_are_counted_from_the_first_occupied_one_and_numbered_in_a_sheare
     mask[1, 1, 3:15] = True
     assert slices.kept(mask, 4).tolist() == [3, 7, 11]
     assert not len(slices.kept(mask, 13))
+    assert slices.kept(mask, 4, 2).tolist() == [5, 9, 13]
     planes = slices.slice_planes([0, 3, 7], SHEARED)
     assert np.allclose(slices.slice_numbers(planes, SHEARED), [0, 3, 7])
 

@@ -15,10 +15,10 @@ def occupied(mask):
     return np.flatnonzero(mask.any(axis=(0, 1)))
 
 
-def kept(mask, step):
-    """Every `step`-th slice from the first that the object is in; nothing if that leaves one alone."""
+def kept(mask, step, start=0):
+    """Every `step`-th slice from the first that the object is in, or from `start` after it; nothing if that leaves one alone."""
     slices = occupied(mask)
-    some = slices[(slices - slices[0]) % step == 0]
+    some = slices[(slices - slices[0]) % step == start]
     return some if len(some) > 1 else some[:0]
 
 

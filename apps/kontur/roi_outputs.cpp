@@ -38,6 +38,7 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
         report["together"] = {{"pairs", pairs_of(result.together->pairs, result.all)},
                               {"contested_voxels", result.together->contested_voxels},
                               {"closed_voxels", result.together->closed_voxels},
+                              {"borrowed_points", result.together->borrowed_points},
                               {"peak_memory_mb", peak_memory_mb()}};
     return report;
 }

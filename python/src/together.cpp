@@ -67,6 +67,8 @@ void bind_types(py::module_& m) {
                       "list of StructurePair: those whose masks share voxels or faces, and those of the rules.");
     type.def_readonly("contested_voxels", &Together::contested_voxels, "int: claimed by two that exclude each other.");
     type.def_readonly("closed_voxels", &Together::closed_voxels, "int: of gaps between them.");
+    type.def_readonly("borrowed_points", &Together::borrowed_points,
+                      "int: of borders that a neighbour alone has drawn in a plane, to which a structure was fitted once more.");
     method(
         type, "mask", R"(The mask of one of them on the whole grid.
 
@@ -98,7 +100,8 @@ void bind_together(py::module_& m) {
         m, "segment_together", R"(Segments several structures so that those that exclude each other become a partition.
 
 Each is fitted by itself. A voxel that two of them claim goes to the one that it lies deepest in, and what lies between two
-that touch and belongs to none of them to the nearest. Other Python threads run meanwhile.
+that touch and belongs to none of them to the nearest. A border that one of them alone has drawn in a plane counts for its
+neighbour, too. Other Python threads run meanwhile.
 
 Parameters
 ----------

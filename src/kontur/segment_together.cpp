@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "kontur/base/error.h"
+#include "kontur/labels/borrowed_borders.h"
 #include "kontur/labels/boxed_mask.h"
 #include "kontur/labels/partition.h"
 #include "kontur/measure/components.h"
@@ -45,11 +47,7 @@ public:
     Together run() {
         result_.grid = grid_;
         for (std::size_t n = 0; n < drawn_.size(); ++n) {
-            try {
-                result_.structures.push_back(fit(drawn_[n], image_, options_of(n)));
-            } catch (const Error& error) {
-                throw error.with_context(name_of(n));
-            }
+            result_.structures.push_back(fit_one(n, drawn_[n]));
             masks_.push_back(take_mask(result_.structures.back()));
         }
         share_borders();
@@ -60,6 +58,14 @@ public:
 private:
     std::string name_of(std::size_t n) const {
         return drawn_[n].name.empty() ? fmt::format("structure {}", n + 1) : drawn_[n].name;
+    }
+
+    Segmentation fit_one(std::size_t n, const ContourSet& contours) const {
+        try {
+            return fit(contours, image_, options_of(n));
+        } catch (const Error& error) {
+            throw error.with_context(name_of(n));
+        }
     }
 
     SegmentOptions options_of(std::size_t n) const {
@@ -83,20 +89,54 @@ private:
     }
 
     void share_borders() {
-        SingleFits fits;
-        for (const ContourSet& set : drawn_) fits.drawn.push_back(&set);
-        for (const Segmentation& made : result_.structures) fits.functions.push_back(made.function);
-        fits.masks = std::move(masks_);
-        const auto fit_union = [&](std::span<const std::size_t>, const ContourSet& outlines) -> FittedObject {
-            Segmentation all = fit(outlines, nullptr, options_.segment);
-            BoxedMask mask = take_mask(all);
-            return {std::move(all.function), std::move(mask)};
-        };
-        Partition parts = partition(std::move(fits), grid_, options_.rules, fit_union, work_);
+        Partition parts = parted();
+        if (fit_again_to_borrowed_borders()) parts = parted();
         masks_ = std::move(parts.masks);
         result_.pairs = std::move(parts.pairs);
         result_.contested_voxels = parts.contested_voxels;
         result_.closed_voxels = parts.closed_voxels;
+    }
+
+    Partition parted() {
+        SingleFits fits;
+        for (const ContourSet& set : drawn_) fits.drawn.push_back(&set);
+        for (const Segmentation& made : result_.structures) fits.functions.push_back(made.function);
+        fits.masks = masks_;
+        const auto fit_union = [&](std::span<const std::size_t> group, const ContourSet& outlines) {
+            const auto [entry, is_new] = unions_.try_emplace({group.begin(), group.end()});
+            if (is_new) {
+                Segmentation all = fit(outlines, nullptr, options_.segment);
+                BoxedMask mask = take_mask(all);
+                entry->second = {std::move(all.function), std::move(mask)};
+            }
+            return entry->second;
+        };
+        return partition(std::move(fits), grid_, options_.rules, fit_union, work_);
+    }
+
+    /// A border that one structure alone has drawn in a plane is its neighbour's, too.
+    bool fit_again_to_borrowed_borders() {
+        bool is_any_new = false;
+        for (const auto& [group, all] : unions_) {
+            Neighbours neighbours;
+            neighbours.all = &all.function;
+            for (const std::size_t n : group) {
+                neighbours.drawn.push_back(&drawn_[n]);
+                neighbours.functions.push_back(&result_.structures[n].function);
+            }
+            const auto borrowed = borrowed_borders(neighbours, work_);
+            for (std::size_t member = 0; member < group.size(); ++member)
+                if (!borrowed[member].empty()) fit_again(group[member], borrowed[member]), is_any_new = true;
+        }
+        return is_any_new;
+    }
+
+    void fit_again(std::size_t n, const std::vector<SurfacePoint>& borrowed) {
+        ContourSet more = drawn_[n];
+        result_.borrowed_points += static_cast<std::int64_t>(borrowed.size());
+        more.surface.insert(more.surface.end(), borrowed.begin(), borrowed.end());
+        result_.structures[n] = fit_one(n, more);
+        masks_[n] = take_mask(result_.structures[n]);
     }
 
     /// With what the reports say about them, as voxels have changed hands.
@@ -119,7 +159,8 @@ private:
     const Image* image_;
     const TogetherOptions& options_;
     const Work& work_;
-    std::vector<BoxedMask> masks_;
+    std::vector<BoxedMask> masks_;                               ///< of the single fits, then of the partition
+    std::map<std::vector<std::size_t>, FittedObject> unions_{};  ///< by the structures that touch
     Together result_;
 };
 

@@ -29,6 +29,7 @@ struct Together {
     std::vector<StructurePair> pairs;      ///< those whose masks share voxels or faces, and those of the rules
     std::int64_t contested_voxels = 0;     ///< claimed by two that exclude each other
     std::int64_t closed_voxels = 0;        ///< of gaps between them
+    std::int64_t borrowed_points = 0;      ///< of borders that a neighbour alone has drawn, see borrowed_borders
 };
 
 /// The mask of one of them on the whole grid. Throws std::out_of_range for one that is not there.
@@ -41,7 +42,8 @@ SharedSurface shared_surface(const Together& together, const Work& work = {});
 /// that two of them claim goes to the one that it lies deepest in, f / |grad f|. Those that touch are fitted as one object,
 /// too, from the outlines of their union in the planes that show all of them as far as they reach; what that has and none of
 /// them goes to the nearest, as far as the union is surer of it than the nearest is of the contrary (owners_of_gaps).
-/// Functions stay those of the single fits. Where no rule is given, structures that share more than 80 % of the smaller one
+/// A border that one of them alone has drawn in a plane counts for its neighbour, too, which is fitted to it once more
+/// (borrowed_borders). Functions stay those of the single fits. Where no rule is given, structures that share more than 80 % of the smaller one
 /// lie inside each other, from 25 % on they may overlap, else they are exclusive. By a rule that one lies inside another,
 /// the outer one gets what the inner one has. A group with open contours gets no union. With an image it is asked as in
 /// `segment`, for each structure. Memory is that of the structures' boxes. Throws as `segment` does, with the structure's

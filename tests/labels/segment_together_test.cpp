@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kontur/labels/borrowed_borders.h"
 #include "kontur/labels/union_contours.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
@@ -82,8 +83,54 @@ TEST(SegmentTogether, MakesAPartition) {
         EXPECT_EQ(after[2], 0) << gap;
         EXPECT_LE(after[0], before[0] / 5) << gap;
         EXPECT_EQ(drawn[0], 0) << "in drawn slices, " << gap;
+        EXPECT_EQ(together.borrowed_points, 0) << "all have drawn everything";
         ASSERT_EQ(together.pairs.size(), 3U);
         for (const StructurePair& pair : together.pairs) EXPECT_EQ(pair.relation, Relation::exclusive);
+    }
+}
+
+TEST(SegmentTogether, ABorderDrawnOnceCountsForBothNeighbours) {
+    constexpr double kTurn = 0.15;  // of the sectors in the plane z = 0 against the others
+    auto sets = sectors(0.05);
+    for (std::size_t s = 0; s < 3; ++s) {
+        const double begin = static_cast<double>(s) * 2 * std::numbers::pi / 3 + kTurn;
+        sets[s].contours[3] = sector(0, begin, begin + 2 * std::numbers::pi / 3, 18, 0.05);
+    }
+    sets[1].contours.erase(sets[1].contours.begin() + 3);
+    const Together together = segment_together(sets, grid_here());
+    const auto masks = masks_of(together);
+    const Grid grid = grid_here();
+    int wrong = 0, voxels = 0;
+    for (std::int64_t j = 0; j < grid.size.j; ++j)
+        for (std::int64_t i = 0; i < grid.size.i; ++i) {
+            const Vec3 p = grid.center_mm(i, j, 24);
+            if (std::hypot(p.x, p.y) > 16) continue;
+            const double angle = std::atan2(p.y, p.x) - kTurn + 4 * std::numbers::pi;
+            const auto owner = static_cast<std::size_t>(std::fmod(angle, 2 * std::numbers::pi) / (2 * std::numbers::pi / 3));
+            ++voxels, wrong += masks[owner].values[grid.offset(i, j, 24)] == 0;
+        }
+    EXPECT_LT(wrong, voxels / 100);
+    EXPECT_GT(together.borrowed_points, 50);
+}
+
+TEST(BorrowedBorders, AreTheSidesThatANeighbourAloneHasDrawn) {
+    auto sets = sectors(0.05);
+    std::vector<Segmentation> whole;
+    for (const ContourSet& set : sets) whole.push_back(segment(set, grid_here()));
+    const std::vector<const ContourSet*> drawn{&sets[0], &sets[1], &sets[2]};
+    const ContourSet outline = union_contours(drawn, {.step_mm = 0.5, .spacing_mm = 1, .close_mm = 1});
+    const Segmentation all = segment(outline, grid_here());
+    const Neighbours neighbours{drawn, {&whole[0].function, &whole[1].function, &whole[2].function}, &all.function};
+    for (const auto& points : borrowed_borders(neighbours)) EXPECT_TRUE(points.empty()) << "all have drawn everything";
+    sets[1].contours.erase(sets[1].contours.begin() + 3);
+    const auto borrowed = borrowed_borders(neighbours);
+    EXPECT_TRUE(borrowed[0].empty() && borrowed[2].empty());
+    EXPECT_GT(borrowed[1].size(), 50U);  // of the two sides of 30 points each
+    for (const SurfacePoint& point : borrowed[1]) {
+        EXPECT_EQ(point.position.z, 0);
+        const double angle = std::atan2(point.position.y, point.position.x), side = 2 * std::numbers::pi / 3;
+        EXPECT_LT(std::min(std::abs(angle - side), std::abs(angle + side)) * std::hypot(point.position.x, point.position.y),
+                  0.1);
     }
 }
 

@@ -112,6 +112,11 @@ void space_out(Contour& contour, double spacing_mm) {
 
 }  // namespace
 
+bool is_drawn_in(const ContourSet& set, const Plane& plane) {
+    return std::any_of(set.contours.begin(), set.contours.end(),
+                       [&](const Contour& contour) { return is_same(plane, contour.plane); });
+}
+
 double point_spacing_mm(std::span<const ContourSet* const> structures) {
     std::vector<double> lengths;
     for (const ContourSet* set : structures)

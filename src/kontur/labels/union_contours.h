@@ -13,6 +13,9 @@ struct UnionOptions {
     double close_mm = 0;    ///< slivers between two structures that are as near as this belong to the union
 };
 
+/// Whether a contour of the set lies in a plane, within 0.02 mm.
+bool is_drawn_in(const ContourSet& set, const Plane& plane);
+
 /// The outlines of the union of structures, drawn by closed contours, in the planes that show all of them: each structure
 /// either has contours in the plane or lies on one side of it. `hole` is set. Open contours, single points and planes that
 /// show only some are left out; empty if nothing is left. Within about half of a step. Throws Error(too_large) for

@@ -118,8 +118,8 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
     result.notes.push_back(
         fmt::format("{} voxels between structures that touch were given to the nearest", all.closed_voxels));
     if (all.borrowed_points > 0)
-        result.notes.push_back(fmt::format("{} points of borders that one structure alone has drawn count for its neighbour, too",
-                                           all.borrowed_points));
+        result.notes.push_back(fmt::format(
+            "{} points of borders that one structure alone has drawn count for its neighbour, too", all.borrowed_points));
     if (!command.mesh.empty()) result.surface = shared_surface(all, work);
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};

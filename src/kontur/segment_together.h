@@ -43,12 +43,12 @@ SharedSurface shared_surface(const Together& together, const Work& work = {});
 /// too, from the outlines of their union in the planes that show all of them as far as they reach; what that has and none of
 /// them goes to the nearest, as far as the union is surer of it than the nearest is of the contrary (owners_of_gaps).
 /// A border that one of them alone has drawn in a plane counts for its neighbour, too, which is fitted to it once more
-/// (borrowed_borders). Functions stay those of the single fits. Where no rule is given, structures that share more than 80 % of the smaller one
-/// lie inside each other, from 25 % on they may overlap, else they are exclusive. By a rule that one lies inside another,
-/// the outer one gets what the inner one has. A group with open contours gets no union. With an image it is asked as in
-/// `segment`, for each structure. Memory is that of the structures' boxes. Throws as `segment` does, with the structure's
-/// name or number in front, and Error(invalid_input) for no structures, for a rule about structures that are not there and
-/// for two rules about one pair. The same bytes for any number of threads.
+/// (borrowed_borders). Functions stay those of the single fits. Where no rule is given, structures that share more than 80 %
+/// of the smaller one lie inside each other, from 25 % on they may overlap, else they are exclusive. By a rule that one lies
+/// inside another, the outer one gets what the inner one has. A group with open contours gets no union. With an image it is
+/// asked as in `segment`, for each structure. Memory is that of the structures' boxes. Throws as `segment` does, with the
+/// structure's name or number in front, and Error(invalid_input) for no structures, for a rule about structures that are not
+/// there and for two rules about one pair. The same bytes for any number of threads.
 Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const TogetherOptions& options = {},
                           const Work& work = {});
 Together segment_together(std::span<const ContourSet> drawn, const Grid& grid, const Image* image,

@@ -215,7 +215,9 @@ int run(const std::vector<std::string>& words) {
             ErrorKind::invalid_input,
             "usage: kontur_images NAME IMAGE LABELS LABEL [FRAME] or NAME phantom ORGAN SPACING_MM; kinds, counts of planes "
             "and hands from KONTUR_IMAGES, as axial,3,exact;...");
-    const Structure structure = read_structure(words);
+    Structure structure = read_structure(words);
+    if (const char* shift = std::getenv("KONTUR_IMAGES_SHIFT_MM"))  // an image that lies beside the drawing
+        structure.image.grid.index_to_mm.translation += std::stod(shift) * Vec3{1, 1, 0.5};
     const char* chosen = std::getenv("KONTUR_IMAGES");
     for (const char* kind : {"axial", "ortho", "oblique"})
         for (const int count : {3, 4, 5, 7, 10})

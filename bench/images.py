@@ -3,12 +3,13 @@
 """What the image between the contours is worth: structures cut by few planes, segmented without and with their image.
 
 Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--set tune|report|fresh]
-                       [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1]
+                       [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1] [--shift-mm 0]
        bench/images.py --csv FILE --tables
 
 SCANS and FRESH are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
 orthogonal and oblique planes; 3, 4, 5, 7, 10 of them; exact and by hand) --share 3 takes every third, another third for the next
-structure. Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
+structure. --shift-mm moves each image by so much beside what is drawn (along x and y, half of it along z): it should not be used
+then. Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
 docs/accuracy.md.
 """
 import argparse
@@ -68,10 +69,12 @@ def measure(options):
     if not options.csv.exists():
         options.csv.write_text(",".join(FIELDS) + "\n", encoding="utf-8")
 
+    environment = os.environ | ({"KONTUR_IMAGES_SHIFT_MM": str(options.shift_mm)} if options.shift_mm else {})
+
     def run(task):
         call, drawings = task
         with open(options.csv, "a", encoding="utf-8") as file:
-            result = subprocess.run(call, env=os.environ | {"KONTUR_IMAGES": drawings, "KONTUR_IMAGES_METHODS": options.methods},
+            result = subprocess.run(call, env=environment | {"KONTUR_IMAGES": drawings, "KONTUR_IMAGES_METHODS": options.methods},
                                     stdout=subprocess.PIPE, text=True)
             file.write(result.stdout)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
@@ -123,6 +126,7 @@ def main():
     parser.add_argument("--drawings", default="")
     parser.add_argument("--methods", default="gated")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--shift-mm", type=float, default=0)
     parser.add_argument("--tables", action="store_true")
     options = parser.parse_args()
     if not options.tables:

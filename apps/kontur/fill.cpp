@@ -47,6 +47,7 @@ void check(const FillCommand& command) {
 Facts image_facts(const RefineReport& image) {
     return {{"verdict", name(image.verdict)},
             {"planes_left_out", image.planes_left_out},
+            {"displaced", image.displaced},
             {"error_without_mm", image.error_without_mm},
             {"error_with_mm", image.error_with_mm}};
 }

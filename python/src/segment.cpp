@@ -74,6 +74,9 @@ void bind_refine_report(py::module_& m) {
         .field("error_without_mm", &RefineReport::error_without_mm,
                "float: mean distance of contours left out from the surface through the others.")
         .field("error_with_mm", &RefineReport::error_with_mm, "float: the same with the image.")
+        .field("displaced", &RefineReport::displaced,
+               "bool: the errors are those of a surface displaced at the contours on purpose, where leaving planes out did "
+               "not show that the image helps.")
         .field("largest_move_mm", &RefineReport::largest_move_mm, "float: of the surface.")
         .field("intensities", &RefineReport::intensities, "int: read from the image.")
         .field("on_contours_mm", &RefineReport::on_contours_mm, "float: the largest change of f at any drawn point.")

@@ -57,6 +57,7 @@ Facts image_json(const SegmentReport& report) {
     return {{"verdict", name(image.verdict)},
             {"sentence", sentence(image)},
             {"planes_left_out", image.planes_left_out},
+            {"displaced", image.displaced},
             {"error_without_mm", image.error_without_mm},
             {"error_with_mm", image.error_with_mm},
             {"largest_move_mm", image.largest_move_mm},

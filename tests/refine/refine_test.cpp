@@ -61,7 +61,7 @@ TEST(Refine, ReadsAsManyIntensitiesFromAnImageOfAnySize) {
 
 TEST(Refine, SaysThatTooLittleIsDrawnToTell) {
     std::vector<Plane> planes = orthogonal_planes();
-    planes.pop_back();
+    planes.resize(2);
     const Refinement r = refine_drawing(drawn_on(planes), image_of(cube_grid(3), body_look));
     EXPECT_EQ(r.refined.report.verdict, ImageVerdict::unknown);
     EXPECT_TRUE(std::ranges::equal(r.refined.fitted.function.weights(), r.plain.function.weights()));

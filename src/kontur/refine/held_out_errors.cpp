@@ -12,7 +12,6 @@ namespace kontur {
 namespace {
 
 constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
-constexpr double kHelps = 0.95;              // of the mean error without the image
 constexpr double kSure = 1;                  // standard errors over the planes, of the mean gain and of what is true
 constexpr std::size_t kNear = 40;            // held-out points that speak for a place
 constexpr double kLeastImage = 0.25;         // voxels: no image is better known than this
@@ -60,9 +59,9 @@ void HeldOutErrors::add(const HeldOut& point, double weight, ToldByImage& sums) 
     sums.add(limited(point.reachable_mm), point.moved_mm(), weight / (expected * expected));
 }
 
-bool HeldOutErrors::image_helps() const {
+bool HeldOutErrors::image_helps(double most_left) const {
     const double hand = kMeanOfDeviation * hand_mm_;
-    return without_hand(with_mm_, hand) <= kHelps * without_hand(without_mm_, hand) && helps_planes() &&
+    return without_hand(with_mm_, hand) <= most_left * without_hand(without_mm_, hand) && helps_planes() &&
            told_.share() > kSure * error_of_share_;
 }
 

@@ -42,8 +42,10 @@ public:
     double with_mm() const { return with_mm_; }
     std::size_t planes() const { return planes_; }
     std::int64_t intensities() const { return intensities_; }  ///< read from the image
-    /// The error is lower with the image, by more than chance makes it in so few planes.
-    bool image_helps() const;
+    /// The mean error with the image is at most this share of that without it, and lower by more than chance makes it in so
+    /// few planes.
+    bool image_helps(double most_left = kHelps) const;
+    static constexpr double kHelps = 0.95;
     Beliefs beliefs() const;
 
 private:

@@ -7,10 +7,10 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
+#include "kontur/refine/plane_groups.h"
 #include "kontur/refine/quantile.h"
 #include "kontur/refine/spread_points.h"
 #include "kontur/refine/surface_evidence.h"
-#include "kontur/shape/contour_nesting.h"
 
 namespace kontur {
 namespace {
@@ -19,32 +19,7 @@ constexpr std::size_t kMostPlanes = 10, kLeastPoints = 10;
 constexpr std::size_t kFewestPlanes = 4;  // two are too few to tell how a surface runs, when one of three is left out
 constexpr std::size_t kSamples = 300;
 constexpr double kHeldOutPoints = 500;    // of all planes together
-constexpr double kMostSlope = 0.25;       // prior standard deviation over the distance
 constexpr double kSurfaceSpacing = 0.04;  // of the drawing's diameter
-
-/// The contours of each plane, in the order of the planes' first ones.
-std::vector<std::vector<std::size_t>> contours_by_plane(const ContourSet& set) {
-    const std::vector<std::size_t> plane = shared_planes(set.contours, kSamePlane * diameter_mm(set));
-    std::vector<std::vector<std::size_t>> groups;
-    std::vector<std::size_t> first;
-    for (std::size_t c = 0; c < plane.size(); ++c) {
-        const auto at = static_cast<std::size_t>(std::find(first.begin(), first.end(), plane[c]) - first.begin());
-        if (at == first.size()) {
-            first.push_back(plane[c]);
-            groups.emplace_back();
-        }
-        groups[at].push_back(c);
-    }
-    return groups;
-}
-
-ContourSet with_contours(const ContourSet& set, const std::vector<std::size_t>& group, bool kept) {
-    ContourSet part = set;
-    part.contours.clear();
-    for (std::size_t c = 0; c < set.contours.size(); ++c)
-        if ((std::find(group.begin(), group.end(), c) != group.end()) == kept) part.contours.push_back(set.contours[c]);
-    return part;
-}
 
 /// One plane left out: the surface through the others, and where it should have passed.
 struct Fold {
@@ -56,17 +31,17 @@ struct Fold {
     std::vector<double> errors_mm;        ///< how far the surface has to move there
 };
 
-std::optional<Fold> leave_out(const ContourSet& drawn, const std::vector<std::size_t>& group, const Image& image,
-                              const FitContours& fit, double step_mm, const Work& alone) {
+std::optional<Fold> leave_out(const ContourSet& drawn, const PlaneGroup& group, const Image& image, const FitContours& fit,
+                              double step_mm, const Work& alone) {
     try {
-        const Drawing rest(with_contours(drawn, group, false), FillRule::declared);
+        const Drawing rest(without(drawn, group), FillRule::declared);
         Fold fold{fit(rest.contours), DrawnOnImage(rest, image), {}, {}, {}, {}};
         const double spacing = kSurfaceSpacing * rest.diameter_mm();
         fold.samples =
             spread(points_of_surface(fold.function, rest.contours, spacing, alone), kSamples, frame_of(rest.contours));
         if (fold.samples.size() < kLeastPoints) return std::nullopt;
         slide_to_surface(fold.function, fold.samples, {.reach_mm = spacing}, alone);
-        fold.held_out = along_contours(with_contours(drawn, group, true), step_mm);
+        fold.held_out = along_contours(only(drawn, group), step_mm);
         std::vector<Vec3> nearest = fold.held_out;
         slide_to_surface(fold.function, nearest, {.reach_mm = 0.25 * rest.diameter_mm(), .steps = 3}, alone);
         fold.on_surface = with_normals(fold.function, nearest, alone);
@@ -122,22 +97,13 @@ FoldErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& belie
     return errors;
 }
 
-/// At most `kMostPlanes`, evenly.
-std::vector<std::vector<std::size_t>> chosen(const std::vector<std::vector<std::size_t>>& groups) {
-    if (groups.size() <= kMostPlanes) return groups;
-    std::vector<std::vector<std::size_t>> some;
-    for (std::size_t n = 0; n < kMostPlanes; ++n) some.push_back(groups[n * (groups.size() - 1) / (kMostPlanes - 1)]);
-    return some;
-}
-
 }  // namespace
 
 std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               const Work& work) {
     const ContourSet& drawn = drawing.contours;
-    const std::vector<std::vector<std::size_t>> planes = contours_by_plane(drawn);
-    if (planes.size() < kFewestPlanes) return std::nullopt;
-    const std::vector<std::vector<std::size_t>> groups = chosen(planes);
+    const std::vector<PlaneGroup> groups = at_most(kMostPlanes, contours_by_plane(drawn));
+    if (groups.size() < kFewestPlanes) return std::nullopt;
     const double voxel = Intensities(image).voxel_mm();
     const double step = std::max(voxel, length_mm(drawn) / kHeldOutPoints);
     std::vector<std::optional<Fold>> folds(groups.size());
@@ -151,7 +117,7 @@ std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Imag
     const std::optional<PlainErrors> plain = plain_errors(folds, voxel);
     if (!plain) return std::nullopt;
     const Beliefs beliefs{[plain = *plain](double d) {
-        return std::min({plain.factor * std::pow(d, 1.5), kMostSlope * d, plain.limit_mm});
+        return std::min({plain.factor * std::pow(d, 1.5), kMostPriorSlope * d, plain.limit_mm});
     }};
     std::vector<FoldErrors> errors(folds.size());
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {

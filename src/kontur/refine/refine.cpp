@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/point_tree.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/fit/solve_placed.h"
-#include "kontur/base/point_tree.h"
+#include "kontur/refine/displace.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/movement.h"
 #include "kontur/refine/searched_band.h"
@@ -188,6 +189,44 @@ RefinedFunction move_surface(const DrawnOnImage& drawn, const Drawing& drawing, 
     return result;
 }
 
+/// With the errors by which it was decided.
+RefinedFunction told_by(const HeldOutErrors& errors, RefinedFunction result) {
+    result.report.intensities += errors.intensities();
+    result.report.planes_left_out = errors.planes();
+    result.report.error_without_mm = errors.without_mm();
+    result.report.error_with_mm = errors.with_mm();
+    return result;
+}
+
+RefinedFunction told_by_displacing(const HeldOutErrors& errors, RefinedFunction result) {
+    result.report.displaced = true;
+    return told_by(errors, std::move(result));
+}
+
+std::string no_help(const RefineReport& report) {
+    if (report.displaced)
+        return fmt::format(
+            "the image does not help between the contours (a surface displaced by {:.2g} mm at them is {:.2g} mm "
+            "off with it); not used",
+            report.error_without_mm, report.error_with_mm);
+    return fmt::format("the image {} ({:.2g} mm off at left-out contours without it, {:.2g} with it); not used",
+                       report.error_with_mm < report.error_without_mm
+                           ? "helps too little, or in too few planes, to be sure of it"
+                           : "does not help between the contours",
+                       report.error_without_mm, report.error_with_mm);
+}
+
+std::string used(const RefineReport& report) {
+    if (report.planes_left_out == 0) return "the image was used between the contours, without knowing whether it helps";
+    if (report.displaced)
+        return fmt::format(
+            "the image takes a surface displaced by {:.2g} mm at the contours back to {:.2g} mm; used between the "
+            "contours",
+            report.error_without_mm, report.error_with_mm);
+    return fmt::format("the image lowers the error at left-out contours from {:.2g} to {:.2g} mm; used between the contours",
+                       report.error_without_mm, report.error_with_mm);
+}
+
 }  // namespace
 
 std::string_view name(UseImage use) noexcept { return use == UseImage::off ? "off" : "auto"; }
@@ -219,19 +258,13 @@ std::string sentence(const RefineReport& report) {
         case ImageVerdict::unknown:
             return "too little is drawn to tell whether the image helps between the contours; not used";
         case ImageVerdict::no_help:
-            return fmt::format("the image {} ({:.2g} mm off at left-out contours without it, {:.2g} with it); not used",
-                               report.error_with_mm < report.error_without_mm
-                                   ? "helps too little, or in too few planes, to be sure of it"
-                                   : "does not help between the contours",
-                               report.error_without_mm, report.error_with_mm);
+            return no_help(report);
         case ImageVerdict::astray:
             return "the image leads the surface farther from the contours than it was asked for; not used";
         case ImageVerdict::used:
-            break;
+            return used(report);
     }
-    if (report.planes_left_out == 0) return "the image was used between the contours, without knowing whether it helps";
-    return fmt::format("the image lowers the error at left-out contours from {:.2g} to {:.2g} mm; used between the contours",
-                       report.error_without_mm, report.error_with_mm);
+    return "";
 }
 
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
@@ -245,18 +278,16 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
         return move_surface(drawn, drawing, prepared, fitted, cautious, options, work);
     }
-    const std::optional<HeldOutErrors> errors = leave_planes_out(drawing, image, fit_contours, work);
-    RefinedFunction result{fitted, {}};
-    if (errors && errors->image_helps())
-        result = move_surface(drawn, drawing, prepared, fitted, errors->beliefs(), options, work);
-    else result.report.verdict = errors ? ImageVerdict::no_help : ImageVerdict::unknown;
-    if (errors) {
-        result.report.intensities += errors->intensities();
-        result.report.planes_left_out = errors->planes();
-        result.report.error_without_mm = errors->without_mm();
-        result.report.error_with_mm = errors->with_mm();
-    }
-    return result;
+    const std::optional<HeldOutErrors> held_out = leave_planes_out(drawing, image, fit_contours, work);
+    if (held_out && held_out->image_helps())
+        return told_by(*held_out, move_surface(drawn, drawing, prepared, fitted, held_out->beliefs(), options, work));
+    const std::optional<HeldOutErrors> displaced = displace_planes(drawing, image, fitted.function, work);
+    if (displaced && displaced->image_helps(1 - kTakenBack))
+        return told_by_displacing(*displaced,
+                                  move_surface(drawn, drawing, prepared, fitted, displaced->beliefs(), options, work));
+    RefinedFunction unchanged{fitted, {.verdict = held_out || displaced ? ImageVerdict::no_help : ImageVerdict::unknown}};
+    if (held_out) return told_by(*held_out, std::move(unchanged));
+    return displaced ? told_by_displacing(*displaced, std::move(unchanged)) : unchanged;
 }
 
 }  // namespace kontur

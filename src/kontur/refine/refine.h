@@ -46,8 +46,9 @@ std::string_view name(ImageVerdict verdict) noexcept;
 struct RefineReport {
     ImageVerdict verdict = ImageVerdict::none;
     std::size_t planes_left_out = 0;
-    double error_without_mm = 0;      ///< mean distance of contours left out from the surface through the others
-    double error_with_mm = 0;         ///< the same with the image
+    double error_without_mm = 0;      ///< mean distance of contours left out from the surface through the others ...
+    double error_with_mm = 0;         ///< ... and the same with the image
+    bool displaced = false;           ///< ... or from a surface that was displaced there on purpose (displace.h)
     double largest_move_mm = 0;       ///< of the surface, at the points asked
     std::int64_t intensities = 0;     ///< read from the image
     double on_contours_mm = 0;        ///< the largest change of f at some 500 of the drawn points
@@ -64,10 +65,11 @@ struct RefinedFunction {
 
 /// Moves the surface between the contours to where the image shows the border, and leaves it where they were drawn. What the
 /// border looks like is learnt along the contours (appearance.h); how far the contours alone are off and how far the image
-/// is, is measured by leaving out one drawn plane after another (leave_out.h), and where the image does not help, nothing is
-/// changed. f stays one function: the moved points are more data with noise, beside those of the fit, of one more solve. An
-/// image that says nothing changes nothing. `fit_contours` fits a part of the drawing. The same bytes for any number of
-/// threads, on one type of processor. Throws Error as `solve` does, Error(invalid_input) as `check_image` does.
+/// is, is measured by leaving out one drawn plane after another (leave_out.h), or, where that shows no help, by displacing
+/// the surface at each (displace.h); where the image does not help, nothing is changed. f stays one function: the moved
+/// points are more data with noise, beside those of the fit, of one more solve. An image that says nothing changes nothing.
+/// `fit_contours` fits a part of the drawing. The same bytes for any number of threads, on one type of processor. Throws
+/// Error as `solve` does, Error(invalid_input) as `check_image` does.
 RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
                        const Image& image, const FitContours& fit_contours, const RefineOptions& options,
                        const Work& work = {});

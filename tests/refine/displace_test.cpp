@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three planes are too few to leave one out; a surface displaced on purpose tells whether the image knows the border.
+#include "kontur/refine/displace.h"
+
+#include <gtest/gtest.h>
+
+#include "refine/lobed_body.h"
+
+namespace kontur {
+namespace {
+
+using namespace test;
+
+std::vector<Plane> three() {
+    std::vector<Plane> planes = orthogonal_planes();
+    planes.resize(3);
+    return planes;
+}
+
+TEST(Displace, ThreePlanesAreEnoughToTrustAnImageThatShowsTheBorder) {
+    const ContourSet contours = drawn_on(three());
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), body_look, 8));
+    EXPECT_EQ(r.refined.report.verdict, ImageVerdict::used);
+    EXPECT_TRUE(r.refined.report.displaced);
+    EXPECT_EQ(r.refined.report.planes_left_out, 3U);
+    EXPECT_LT(r.refined.report.error_with_mm, (1 - kTakenBack) * r.refined.report.error_without_mm);
+    EXPECT_LT(surface_error(r.refined.fitted.function, contours), 0.6 * surface_error(r.plain.function, contours));
+    EXPECT_NE(sentence(r.refined.report).find("displaced"), std::string::npos);
+}
+
+TEST(Displace, AnImageThatLiesBesideTheDrawingIsNotUsed) {
+    const ContourSet contours = drawn_on(three());
+    const Look beside = [](const Vec3& p) { return body_look(p - Vec3{20, 20, 10}); };
+    for (const Look& look : {beside, Look([](const Vec3&) { return 0.0; }), Look([](const Vec3& p) { return p.x; })}) {
+        const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), look, 8));
+        EXPECT_EQ(r.refined.report.verdict, ImageVerdict::no_help);
+        EXPECT_TRUE(r.refined.report.displaced);
+        EXPECT_TRUE(std::ranges::equal(r.refined.fitted.function.weights(), r.plain.function.weights()));
+        EXPECT_NE(sentence(r.refined.report).find("not used"), std::string::npos);
+    }
+}
+
+TEST(Displace, PlanesThatSeeTheImageShiftedDifferentlyTellItIsNotToBeTrusted) {
+    std::vector<Plane> planes;
+    for (const double z : {-18.0, 0.0, 18.0}) planes.push_back(make_plane({0, 0, z}, {0, 0, 1}));
+    const ContourSet contours = drawn_on(planes);
+    const Look shifted = [](const Vec3& p) {
+        const double slab = std::floor((p.z + 27) / 18);
+        return body_look(p + 6.0 * Vec3{std::cos(2.1 * slab), std::sin(2.1 * slab), 0});
+    };
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(1.5), shifted, 8));
+    EXPECT_EQ(r.refined.report.verdict, ImageVerdict::no_help);
+}
+
+TEST(Displace, SaysNothingOfDisplacementsThatVoxelsDoNotShow) {
+    const ContourSet contours = drawn_on(three());
+    const Refinement r = refine_drawing(contours, image_of(cube_grid(12), body_look));
+    EXPECT_EQ(r.refined.report.verdict, ImageVerdict::unknown);
+}
+
+TEST(Displace, SaysTheSameForAnyNumberOfThreads) {
+    const ContourSet contours = drawn_on(three());
+    const Image image = image_of(cube_grid(2), body_look, 8);
+    const Refinement one = refine_drawing(contours, image, 1), five = refine_drawing(contours, image, 5);
+    EXPECT_EQ(one.refined.report.error_with_mm, five.refined.report.error_with_mm);
+    EXPECT_TRUE(std::ranges::equal(one.refined.fitted.function.weights(), five.refined.fitted.function.weights()));
+}
+
+}  // namespace
+}  // namespace kontur

@@ -66,6 +66,7 @@ FurtherImage further_image(OpenedImage opened) {
     const bool is_counted = is_emission(opened.identity);
     shown.window = is_counted ? emission_window(image, shown.unit) : suggest_window(image);
     shown.presets = is_counted ? emission_presets(image, shown.unit) : window_presets(image);
+    shown.times = std::make_shared<TimeAxis>(opened.image, opened.times);
     shown.opened = std::move(opened);
     return shown;
 }
@@ -96,6 +97,8 @@ json to_json(const FurtherImage& shown, int number) {
             {"size", {grid.size.i, grid.size.j, grid.size.k}},
             {"spacing_mm", to_json(grid.spacing_mm())},
             {"unit", shown.unit},
+            {"times", shown.times->count()},
+            {"time", shown.times->own()},
             {"range", {shown.range.first, shown.range.second}},
             {"notes", shown.opened.notes},
             {"identity", to_json(shown.opened.identity)},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "kontur/shape/volume.h"
 #include "viewer/opened_image.h"
+#include "viewer/time_axis.h"
 #include "viewer/views.h"
 
 namespace kontur::viewer {
@@ -15,6 +17,7 @@ namespace kontur::viewer {
 /// An image that is shown beside the one that a project is drawn on, and how it is shown at first.
 struct FurtherImage {
     OpenedImage opened;
+    std::shared_ptr<TimeAxis> times;  ///< of this image itself, where it has several volumes
     Affine3 mm_to_index;
     std::string unit;
     std::pair<double, double> range;

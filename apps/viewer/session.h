@@ -187,7 +187,7 @@ private:
     std::shared_ptr<const FurtherImage> second_image() const;
     nlohmann::json further_images() const;
     /// 0: the project's own. Throws Error(invalid_input) for a number that none has.
-    std::shared_ptr<const Image> image_numbered(int number) const;
+    std::shared_ptr<const Image> image_numbered(int number, std::optional<int> time);
     /// The project's own image at another time; unset: at its own.
     std::shared_ptr<const Image> image_at(std::optional<int> time) { return times_.image(time.value_or(times_.own())); }
     nlohmann::json page_state();

@@ -77,10 +77,10 @@ json Session::further_images() const {
     return images;
 }
 
-std::shared_ptr<const Image> Session::image_numbered(int number) const {
+std::shared_ptr<const Image> Session::image_numbered(int number, std::optional<int> time) {
     const auto second = second_image();
-    if (number == 0) return image_;
-    if (number == 1 && second) return second->opened.image;
+    if (number == 0) return image_at(time);
+    if (number == 1 && second) return second->times->image(time.value_or(second->times->own()));
     throw Error(ErrorKind::invalid_input,
                 fmt::format("there is no image {}: the last one is image {}", number, second ? 1 : 0));
 }
@@ -89,7 +89,11 @@ json Session::value(const Members& m) {
     const Vec3 at = m.point("at");
     const std::shared_ptr<const Image> image = image_at(m.time());
     json values{value_json(*image, image->grid.index_to_mm.inverse(), at)};
-    if (const auto second = second_image()) values.push_back(value_json(*second->opened.image, second->mm_to_index, at));
+    if (const auto second = second_image()) {
+        const bool moves = second->times->count() == times_.count() && second->times->own() == times_.own();
+        const auto shown = image_numbered(1, moves ? m.time() : std::nullopt);
+        values.push_back(value_json(*shown, second->mm_to_index, at));
+    }
     return {{"values", std::move(values)}};
 }
 

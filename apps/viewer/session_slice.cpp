@@ -187,7 +187,7 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
 
 std::string Session::slice(std::string_view text) {
     const SliceRequest request = parse(text);
-    const std::shared_ptr<const Image> image = request.image == 0 ? image_at(request.time) : image_numbered(request.image);
+    const std::shared_ptr<const Image> image = image_numbered(request.image, request.time);
     if (request.outlines) watch({request.page, request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{

@@ -44,6 +44,26 @@ def test_other_times_of_a_file_are_seen_while_one_is_drawn_on(tmp_path):
         assert status == 400 and "there is no time 4: the last one is time 3" in reply.decode()
 
 
+def test_a_second_image_of_as_many_volumes_moves_in_time_with_the_first(tmp_path):
+    home = tmp_path / "home"
+    home.mkdir()
+    for name, frames in (("first", 4), ("second", 4), ("other", 3)):
+        write_beating(home / f"{name}.nii.gz", frames)
+    with running(tmp_path, home / "first.nii.gz", "--frame", "2", HOME=str(home)) as server:
+        page = Page(server)
+
+        def both(**more):
+            return page.do("value", at=[-6, -10, 12], **more)["values"]
+
+        for name, frame, moves in (("second", 2, True), ("second", 1, False), ("other", 2, False)):
+            body = {"image": 1, "path": str(home / f"{name}.nii.gz"), "frame": frame}
+            assert server.request("POST", "/api/image", json.dumps(body).encode())[0] == 200
+            own = 100 * frame + 3
+            assert both() == [203, own] and slice_values(server, image=1) == own
+            assert both(time=0) == [3, 3 if moves else own]
+            assert slice_values(server, image=1, time=0) == 3
+
+
 def test_a_file_of_one_volume_has_one_time(tmp_path):
     write_beating(tmp_path / "still.nii.gz", frames=1)
     for words in ([], ["--frame", "0"]):

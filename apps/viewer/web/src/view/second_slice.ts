@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { isSamePlane, type PixelPlane } from "../geometry/plane";
 import type { Screen } from "../geometry/screen";
+import type { Navigation } from "../model/navigation";
 import type { SecondImage } from "../model/second_image";
 import { ServerError, type Http } from "../net/http";
 import type { Coding, ViewName } from "../net/protocol";
@@ -32,6 +33,7 @@ export class SecondSlice {
   constructor(
     private readonly second: SecondImage,
     private readonly http: Http,
+    private readonly navigation: Navigation,
   ) {}
 
   get canvas(): HTMLCanvasElement {
@@ -44,7 +46,13 @@ export class SecondSlice {
   }
 
   private keyOf(planeKey: string): string {
-    return `${this.second.info?.key ?? ""} ${planeKey}`;
+    const time = this.movesWith(this.navigation) ? this.navigation.time : 0;
+    return `${this.second.info?.key ?? ""} ${time} ${planeKey}`;
+  }
+
+  /** It moves in time with the first one where it has as many volumes and was opened at the same. */
+  private movesWith({ times, ownTime }: Navigation): boolean {
+    return this.second.info?.times === times && this.second.info.time === ownTime;
   }
 
   /** Returns what lays the values, so that both images of a slice can change at once; null where nothing is to be laid. */
@@ -52,8 +60,10 @@ export class SecondSlice {
     const { info } = this.second;
     if (!info || !this.needs(planeKey)) return null;
     const key = this.keyOf(planeKey);
+    const { navigation } = this;
+    const time = navigation.isAway && this.movesWith(navigation) ? { time: navigation.time } : {};
     try {
-      const reply = await this.http.slice({ ...raster, image: info.image, pixels: "values", outlines: false });
+      const reply = await this.http.slice({ ...raster, image: info.image, ...time, pixels: "values", outlines: false });
       return () => {
         this.values = { key, codes: reply.u16("values"), coding: reply.header.values!, raster };
         this.recolor();

@@ -70,7 +70,7 @@ export class SliceView {
     private readonly services: SliceViewServices,
   ) {
     const { navigation } = services;
-    this.second = new SecondSlice(services.second, services.http);
+    this.second = new SecondSlice(services.second, services.http, services.navigation);
     this.slider = new SliceSlider(name, navigation, services.project);
     this.vectors = new SliceVectors(name, services);
     this.requests = new Latest(

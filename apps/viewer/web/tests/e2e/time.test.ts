@@ -16,7 +16,8 @@ before(async () => {
   const path = join(folder.path, "beating.nii");
   writeBallImage(path, undefined, ...RADII_MM);
   browser = await launch();
-  server = await Server.start(folder.path, path, "--frame", "1");
+  writeBallImage(join(folder.path, "smaller.nii"), undefined, ...RADII_MM.map((radius) => radius - 10));
+  server = await Server.startAt({ HOME: folder.path }, folder.path, path, "--frame", "1");
   viewer = await Viewer.open(browser, server.address);
   await viewer.closeHint();
 });
@@ -44,6 +45,16 @@ async function brightAt(mm: number): Promise<boolean> {
     const ratio = canvas.width / canvas.clientWidth;
     return canvas.getContext("2d")!.getImageData(canvas.width / 2 + right * ratio, canvas.height / 2 + down * ratio, 1, 1).data[0]! > 120;
   }, [x, y] as const);
+}
+
+/** Waits until the status line says of the second image whether it reaches this far. */
+async function secondReaches(mm: number, wanted: boolean): Promise<void> {
+  await viewer.slicesShown();
+  const right = await viewer.pixels("axial", mm);
+  await viewer.page.mouse.move(...(await viewer.at("axial", right + 3, 0)));
+  await viewer.page.waitForTimeout(150);
+  await viewer.page.mouse.move(...(await viewer.at("axial", right, 0)));
+  await viewer.page.waitForFunction((reaches) => Number(/second (-?\d+)/.exec(document.querySelector(".cursor")!.textContent!)?.[1]) > 60 === reaches, wanted);
 }
 
 describe("an image of several frames", () => {
@@ -117,6 +128,36 @@ describe("an image of several frames", () => {
     await page.locator(".hint", { hasText: "A proposal" }).waitFor();
     await page.keyboard.press("Enter");
     await viewer.waitForContours(2);
+  });
+
+  test("has a second image of as many frames beside it that moves in time with it", async () => {
+    const { page } = viewer;
+    await page.click("[data-test=add-image]");
+    await page.locator('.add-image [data-test=entries] button[title$="/smaller.nii"]').click();
+    await page.locator("[data-test=add-image-problem]", { hasText: "has 4 frames" }).waitFor();
+    await viewer.type(page.locator(".add-image [data-test=frame]"), "1");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".add-image", { state: "detached" });
+    await page.keyboard.press("i"); // it alone: a ball that is 10 mm smaller than the first one's
+    await page.waitForTimeout(300);
+    await secondReaches(18, true);
+    await secondReaches(26, false);
+    const asked: (number | undefined)[] = [];
+    page.on("request", (request) => {
+      const slice = request.url().endsWith("/api/slice") ? (request.postDataJSON() as { image?: number; time?: number } | null) : null;
+      if (slice?.image === 1) asked.push(slice.time);
+    });
+    await page.keyboard.press(",");
+    await secondReaches(26, true);
+    assert.ok(asked.length > 0 && asked.every((time) => time === 0), `its slices are asked for at ${asked.join()}`);
+    await page.keyboard.press(".");
+    await page.keyboard.press(".");
+    await secondReaches(10, true);
+    await secondReaches(18, false);
+    assert.equal(asked.at(-1), 2);
+    await page.keyboard.press(",");
+    viewer.complaints.splice(0); // Chromium tells of the refusal that asked for a frame
+    await page.click("[data-test=remove-image]");
   });
 
   test("is played by T, and paused by it", async () => {

@@ -11,7 +11,7 @@ import { AXIAL, session } from "./support";
 
 function pet(changes: Partial<FurtherImage> = {}): FurtherImage {
   const identity = { ...session().identity, modality: "PT" };
-  return { image: 1, key: "a", title: "pet", size: [30, 27, 48], spacing_mm: [5, 5, 3], unit: "SUV (g/ml)", range: [0, 20], notes: [], identity, emission: true, window: { center: 5, width: 10 }, presets: [], ...changes };
+  return { image: 1, key: "a", title: "pet", size: [30, 27, 48], spacing_mm: [5, 5, 3], unit: "SUV (g/ml)", range: [0, 20], notes: [], identity, emission: true, window: { center: 5, width: 10 }, presets: [], times: 1, time: 0, ...changes };
 }
 
 describe("a second image", () => {

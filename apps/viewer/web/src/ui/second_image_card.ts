@@ -21,7 +21,7 @@ export function keepSliderKeys(event: KeyboardEvent): void {
 export class SecondImageCard {
   readonly element = el("section", { class: "second-card", "aria-label": "Second image", "data-test": "second-image", hidden: true });
   private readonly title = el("strong", {});
-  private readonly fold = button({ label: "", title: "", class: "fold", test: "fold-second", click: () => this.second.toggleFolded() });
+  private readonly fold = button({ label: "", title: "Fold the card of the second image", class: "fold", test: "fold-second", click: () => this.second.toggleFolded() });
   private readonly lines = el("div", { class: "second-lines" });
   private readonly look: HTMLElement[];
   private readonly choices = new Map<Shown, HTMLButtonElement>();

@@ -105,6 +105,9 @@ describe("a computed outline", () => {
 
   test("is made a contour as it is by A, under the pointer; the next A says that it is drawn already", async () => {
     const { page } = viewer;
+    await page.locator("[data-test=use-image]").click(); // which is asked from three planes on, and moves the surface
+    await viewer.waitForStep("undo", "Do not use the image");
+    await viewer.surfaceShown();
     const volume = await viewer.volume();
     const radii = (await adopted()).map(([x, y]) => Math.hypot(x, y));
     assert.ok(radii.every((r) => Math.abs(r - FITTED_MM) < 3), `${Math.min(...radii)} to ${Math.max(...radii)}, around ${FITTED_MM} expected`);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,9 +14,13 @@ namespace {
 
 constexpr double kVoxelMm = 0.1, kFarMm = 10;  // of every held-out point
 
-HeldOutErrors errors_of(std::vector<HeldOut> points, double hand_mm = 0) {
-    const std::size_t planes = points.back().plane + 1;
-    return {std::move(points), {[](double d) { return 0.1 * d; }}, 100, kVoxelMm, hand_mm, planes, 0};
+HeldOutErrors errors_of(const std::vector<HeldOut>& points, double hand_mm = 0) {
+    std::vector<PlaneErrors> planes;
+    for (const HeldOut& point : points) {
+        planes.resize(std::max(planes.size(), point.plane + 1));
+        planes[point.plane].points.push_back(point);
+    }
+    return {planes, {[](double d) { return 0.1 * d; }}, 100, kVoxelMm, hand_mm};
 }
 
 /// Twenty points in each plane, 2 mm off without the image, and with it by so much less.

@@ -47,11 +47,6 @@ struct Displaced {
     }
 };
 
-struct PlaneErrors {
-    std::vector<HeldOut> points;
-    std::int64_t intensities = 0;
-};
-
 /// What the image makes of the surface beside the contours of a plane which it has not seen; `side` 1 is outwards.
 PlaneErrors displace(const Displaced& displaced, const DrawnOnImage& others, const std::vector<MovingPoint>& drawn,
                      double side, const Work& alone) {
@@ -112,18 +107,10 @@ std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image
             for (HeldOut& point : planes[i].points) point.plane = i;
         }
     });
-    std::vector<HeldOut> all;
-    std::size_t asked = 0;
-    std::int64_t intensities = 0;
-    for (const PlaneErrors& plane : planes) {
-        all.insert(all.end(), plane.points.begin(), plane.points.end());
-        asked += !plane.points.empty();
-        intensities += plane.intensities;
-    }
-    if (all.size() < kLeastPoints || asked < 2) return std::nullopt;
+    if (!tell_enough(planes)) return std::nullopt;
     const Beliefs beliefs{[](double d) { return kMostPriorSlope * d; }};
     // The hand's wavering is no error here: what is drawn counts as right.
-    HeldOutErrors errors(std::move(all), beliefs, kLargest * displaced.by_mm + voxel, voxel, 0, asked, intensities);
+    HeldOutErrors errors(planes, beliefs, kLargest * displaced.by_mm + voxel, voxel, 0);
     if (errors.without_mm() < kLeastDisplacement * voxel) return std::nullopt;
     return errors;
 }

@@ -11,6 +11,7 @@
 namespace kontur {
 namespace {
 
+constexpr std::size_t kLeastPoints = 10;
 constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
 constexpr double kSure = 1;                  // standard errors over the planes, of the mean gain and of what is true
 constexpr std::size_t kNear = 40;            // held-out points that speak for a place
@@ -28,15 +29,23 @@ void ToldByImage::add(double error_mm, double moved_mm, double weight) {
     told += weight * moved_mm * moved_mm;
 }
 
-HeldOutErrors::HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm,
-                             double hand_mm, std::size_t planes, std::int64_t intensities)
-    : held_out_(std::move(held_out)),
-      beliefs_(beliefs),
-      limit_mm_(limit_mm),
-      voxel_mm_(voxel_mm),
-      hand_mm_(hand_mm),
-      planes_(planes),
-      intensities_(intensities) {
+bool tell_enough(std::span<const PlaneErrors> planes) {
+    std::size_t points = 0, told = 0;
+    for (const PlaneErrors& plane : planes) {
+        points += plane.points.size();
+        told += !plane.points.empty();
+    }
+    return points >= kLeastPoints && told >= 2;
+}
+
+HeldOutErrors::HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm,
+                             double hand_mm)
+    : beliefs_(beliefs), limit_mm_(limit_mm), voxel_mm_(voxel_mm), hand_mm_(hand_mm) {
+    for (const PlaneErrors& plane : planes) {
+        held_out_.insert(held_out_.end(), plane.points.begin(), plane.points.end());
+        planes_ += !plane.points.empty();
+        intensities_ += plane.intensities;
+    }
     const double share = 1 / static_cast<double>(held_out_.size());
     std::vector<double> without, distances;
     for (const HeldOut& h : held_out_) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kontur/refine/movement.h"
@@ -21,6 +22,15 @@ struct HeldOut {
     double moved_mm() const { return without_mm - with_mm; }
 };
 
+/// What was found at the contours of one plane.
+struct PlaneErrors {
+    std::vector<HeldOut> points;
+    std::int64_t intensities = 0;  ///< read from the image
+};
+
+/// Whether they have points enough, in two planes at least, to tell how far off the surface is.
+bool tell_enough(std::span<const PlaneErrors> planes);
+
 /// How much is true of the offsets that the image tells: least squares of the errors of the contours alone on them. What the
 /// hand adds to an error has nothing to do with the image and takes no part.
 struct ToldByImage {
@@ -33,10 +43,11 @@ struct ToldByImage {
 /// Measured on the drawn contours themselves: how far off the surface between them is, without the image and with it.
 class HeldOutErrors {
 public:
-    /// `held_out`: points at least a voxel from the other planes' contours; at least 10. Larger errors count as `limit_mm`.
+    /// `planes`: that tell enough, of points at least a voxel from the other planes' contours. Larger errors count as
+    /// `limit_mm`.
     /// `hand_mm`: standard deviation of the drawn lines themselves, which no surface and no image can know.
-    HeldOutErrors(std::vector<HeldOut> held_out, const Beliefs& beliefs, double limit_mm, double voxel_mm, double hand_mm,
-                  std::size_t planes, std::int64_t intensities);
+    HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm,
+                  double hand_mm);
 
     double without_mm() const { return without_mm_; }  ///< means of the absolute errors
     double with_mm() const { return with_mm_; }
@@ -59,8 +70,8 @@ private:
     std::vector<HeldOut> held_out_;
     Beliefs beliefs_;
     double limit_mm_, voxel_mm_, hand_mm_;
-    std::size_t planes_;
-    std::int64_t intensities_;
+    std::size_t planes_ = 0;
+    std::int64_t intensities_ = 0;
     double without_mm_ = 0, with_mm_ = 0;
     double median_without_ = 0, median_distance_ = 0;
     ToldByImage told_;           ///< a point, on the average

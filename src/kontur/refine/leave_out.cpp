@@ -77,14 +77,9 @@ std::optional<PlainErrors> plain_errors(const std::vector<std::optional<Fold>>& 
     return PlainErrors{kDeviationOfMedian * median(std::move(ratios)), 1.5 * quantile(std::move(errors), 0.9) + voxel_mm};
 }
 
-struct FoldErrors {
-    std::vector<HeldOut> points;
-    std::int64_t intensities = 0;
-};
-
-FoldErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beliefs, double voxel_mm, const Work& alone) {
+PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beliefs, double voxel_mm, const Work& alone) {
     const Movement movement = find_movement(fold.others, fold.function, fold.samples, beliefs, alone);
-    FoldErrors errors{{}, movement.intensities};
+    PlaneErrors errors{{}, movement.intensities};
     fold.others.walls.limit(fold.on_surface);
     for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
         MovingPoint& at = fold.on_surface[i];
@@ -119,24 +114,16 @@ std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Imag
     const Beliefs beliefs{[plain = *plain](double d) {
         return std::min({plain.factor * std::pow(d, 1.5), kMostPriorSlope * d, plain.limit_mm});
     }};
-    std::vector<FoldErrors> errors(folds.size());
+    std::vector<PlaneErrors> errors(folds.size());
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
             if (folds[i]) errors[i] = errors_with_image(*folds[i], i, beliefs, voxel, alone);
         }
     });
-    std::vector<HeldOut> all;
-    std::size_t held_out = 0;
-    std::int64_t intensities = 0;
-    for (const FoldErrors& part : errors) {
-        all.insert(all.end(), part.points.begin(), part.points.end());
-        held_out += !part.points.empty();
-        intensities += part.intensities;
-    }
-    if (all.size() < kLeastPoints || held_out < 2) return std::nullopt;
+    if (!tell_enough(errors)) return std::nullopt;
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
-    return HeldOutErrors(std::move(all), beliefs, plain->limit_mm, voxel, hand, held_out, intensities);
+    return HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand);
 }
 
 }  // namespace kontur

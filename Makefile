@@ -76,8 +76,9 @@ docs: ## write the C++ reference to build/release/reference/html (installs doxyg
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --target kontur_reference
 
-format: ## format the C++ sources (needs clang-format)
+format: ## format the C++ sources (needs clang-format) and the page's TypeScript
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+	@cd apps/viewer/web && { test -x node_modules/.bin/prettier || npm ci --ignore-scripts --no-audit --no-fund --loglevel=error; } && npm run --silent format
 
 install: build ## install kontur under PREFIX (default /usr/local)
 	@cmake --install build/release --prefix $(PREFIX)

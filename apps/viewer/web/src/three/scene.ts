@@ -323,7 +323,7 @@ export class Scene {
   /** The mark that is nearest to this place of the canvas, in pixels, if that is within `reach`. */
   markAt(x: number, y: number, reach: number): Vec3 | null {
     const seen = new THREE.Vector3();
-    let nearest = reach, found: Vec3 | null = null;
+    let nearest = reach; let found: Vec3 | null = null;
     for (const { position } of this.marks.children) {
       seen.copy(position).project(this.camera);
       const distance = Math.hypot(((seen.x + 1) / 2) * this.canvas.clientWidth - x, ((1 - seen.y) / 2) * this.canvas.clientHeight - y);
@@ -378,7 +378,7 @@ function ball(center: Vec3, material: THREE.Material): THREE.Mesh {
 
 function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {
   const geometry = new THREE.BufferGeometry();
-  const positions = fine.getAttribute("position"), triangles = fine.getIndex();
+  const positions = fine.getAttribute("position"); const triangles = fine.getIndex();
   if (!triangles) return geometry;
   geometry.setAttribute("position", positions);
   geometry.setAttribute("normal", fine.getAttribute("normal"));

@@ -35,7 +35,7 @@ export class OutlineEdits extends Edits {
     const { outline, place } = found;
     const before = place.index + 1;
     const points = [...outline.points.slice(0, before), toWorld(screen, place.at), ...outline.points.slice(before)];
-    const start = toWorld(screen, pointer), reach = pullReach(points);
+    const start = toWorld(screen, pointer); const reach = pullReach(points);
     const contourAt = (at: Point2) => this.contour(screen, outline, pulled(points, before, sub(toWorld(screen, at), start), reach), "pulled");
     let isDrag = false;
     return {

@@ -18,7 +18,7 @@ import type { Place } from "./place";
 import type { EditorServices } from "./services";
 import { isHidden } from "./sight";
 
-const LEAST_PIXELS = 4, MOST_PIXELS = 200;
+const LEAST_PIXELS = 4; const MOST_PIXELS = 200;
 const NEARLY_HALF = 0.49; // of a line: the server redraws the shorter part
 
 /** What the brush works on, and what of it is drawn at its end. */
@@ -55,7 +55,7 @@ export class Pushing {
       return null;
     }
     const before: readonly BrushPoint[] = target.points.map((p, original) => ({ at: toScreen(screen, p), original }));
-    let line = before, last = pointer;
+    let line = before; let last = pointer;
     const brush = (at: Point2) => {
       this.place = { view, at };
       line = brushed(line, last, at, this.radius);

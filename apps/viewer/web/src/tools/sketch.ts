@@ -107,7 +107,7 @@ export class Sketch {
 
   /** A stretch drawn by hand: from the last point, or where the hand began, to where it ended. */
   drawFree(path: readonly Vec3[]): void {
-    const start = path[0], end = path.at(-1);
+    const start = path[0]; const end = path.at(-1);
     if (!start || !end || path.length < 2) return;
     if (this.isEmpty) this.place(start);
     const from = this.last!;

@@ -53,7 +53,7 @@ function openBorderRules({ project, call }: BorderServices): void {
 
 function row(project: Project, call: BorderServices["call"], a: number, b: number): HTMLElement {
   const { borders, borderPairs, structures } = project;
-  const found = foundAbout(borderPairs, a, b), given = ruleAbout(borders, a, b);
+  const found = foundAbout(borderPairs, a, b); const given = ruleAbout(borders, a, b);
   const words = (rule: BorderRule) => inWords(rule, structures);
   const choices: Choice[] = [
     [found ? `As found: ${words(found)} (${percent(found.share)} in common)` : "No rule", "auto", a, b],

@@ -31,8 +31,8 @@ export function comparison(http: Http, structures: readonly Named[], signal: Abo
     select.append(...structures.map(({ structure, name }, i) => el("option", { value: String(structure), selected: i === chosen }, name)));
     return select;
   };
-  const first = choice(0, "The first to compare", "compare-first"), second = choice(1, "The second to compare", "compare-second");
-  const status = el("p", { class: "dialog-status", role: "status" }), table = el("table", { "data-test": "comparison" });
+  const first = choice(0, "The first to compare", "compare-first"); const second = choice(1, "The second to compare", "compare-second");
+  const status = el("p", { class: "dialog-status", role: "status" }); const table = el("table", { "data-test": "comparison" });
   let asked = 0;
   const compare = async () => {
     const number = ++asked;

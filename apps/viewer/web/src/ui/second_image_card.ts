@@ -111,7 +111,7 @@ export class SecondImageCard {
   }
 
   private typeWindow(): void {
-    const low = this.low.valueAsNumber, high = this.high.valueAsNumber;
+    const low = this.low.valueAsNumber; const high = this.high.valueAsNumber;
     if (low < high) this.second.setWindow({ center: (low + high) / 2, width: high - low });
   }
 

@@ -131,7 +131,7 @@ export class Toolbar {
   }
 
   private typeWindow(): void {
-    const center = this.center.valueAsNumber, width = this.width.valueAsNumber;
+    const center = this.center.valueAsNumber; const width = this.width.valueAsNumber;
     if (Number.isFinite(center) && width > 0) this.services.navigation.setWindow({ center, width });
   }
 }

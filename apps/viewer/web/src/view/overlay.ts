@@ -189,7 +189,7 @@ export class OverlayPainter {
   scaleBar(): void {
     const { screen } = this;
     const bar = scaleBar(screen.mm_per_pixel, Math.min(140, screen.width / 3));
-    const x = 12, y = screen.height - 13;
+    const x = 12; const y = screen.height - 13;
     const path = new Path2D(`M${x} ${y - 4}V${y}H${x + bar.pixels}V${y - 4}`);
     this.stroke(path, SHADE, 4);
     this.stroke(path, INK, 1.5);
@@ -225,7 +225,7 @@ export class OverlayPainter {
     const path = new Path2D();
     for (const { first, count, closed } of runs) {
       for (let i = first; i < first + count; ++i) {
-        const x = a * points[2 * i]! + dx, y = a * points[2 * i + 1]! + dy;
+        const x = a * points[2 * i]! + dx; const y = a * points[2 * i + 1]! + dy;
         if (i === first) path.moveTo(x, y);
         else path.lineTo(x, y);
       }

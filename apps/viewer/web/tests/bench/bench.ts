@@ -26,7 +26,7 @@ function writeBigImage(path: string): void {
   writeSync(file, header);
   for (let k = 0; k < size[2]; ++k) {
     const slice = Int16Array.from({ length: size[0] * size[1] }, (_, n) => {
-      const i = n % size[0], j = Math.floor(n / size[0]);
+      const i = n % size[0]; const j = Math.floor(n / size[0]);
       return (((i >> 6) + (j >> 6) + (k >> 6)) % 2) * 120 + (i % 64) - k / 4;
     });
     writeSync(file, new Uint8Array(slice.buffer));
@@ -81,7 +81,7 @@ async function measureEdits(viewer: Viewer): Promise<void> {
   await viewer.surfaceShown();
   const view = await page.evaluate(() => document.querySelector<HTMLElement>(".pane.focused")!.dataset["view"]!);
   await page.keyboard.press("m");
-  const moves: Waits[] = [], releases: Waits[] = [];
+  const moves: Waits[] = []; const releases: Waits[] = [];
   // The contour lies around its outline's middle, where no line is: it is taken where the outline crosses the crosshair's row.
   const grip = await findLine(viewer, view);
   for (let i = 0; i < EDITS; ++i) {

@@ -78,7 +78,7 @@ export class Truth {
 
   /** The borders of the pieces of the mask in a plane, in mm from its middle; the largest first. */
   outlines(frame: Frame, reach_mm = 120, step_mm = 0.6): Place[][] {
-    const n = Math.round(reach_mm / step_mm), side = 2 * n + 1;
+    const n = Math.round(reach_mm / step_mm); const side = 2 * n + 1;
     const mm = (index: number) => (index - n) * step_mm;
     const isIn = Array.from({ length: side * side }, (_, at) => this.has(along(along(frame.middle, frame.u, mm(at % side)), frame.v, mm(Math.floor(at / side)))));
     const piece = new Int32Array(side * side);
@@ -105,7 +105,7 @@ function fill(isIn: readonly boolean[], piece: Int32Array, side: number, from: n
 function trace(has: (x: number, y: number) => boolean, startX: number, startY: number): Place[] {
   const AROUND: readonly Place[] = [[-1, 0], [-1, -1], [0, -1], [1, -1], [1, 0], [1, 1], [0, 1], [-1, 1]];
   const line: Place[] = [];
-  let [x, y] = [startX, startY], came = 0;
+  let [x, y] = [startX, startY]; let came = 0;
   do {
     line.push([x, y]);
     let turn = 0;

@@ -11,7 +11,7 @@ let viewer: Viewer;
 let outlines: Map<number, number[][]>;
 let pairs: { first: number; second: number; relation: string }[];
 
-const RADIUS_MM = 36, HALF_GAP_MM = 0.5, APART_MM = 16;
+const RADIUS_MM = 36; const HALF_GAP_MM = 0.5; const APART_MM = 16;
 
 type Place = [number, number];
 
@@ -48,7 +48,7 @@ async function crossingsOf(structure: number, down: number): Promise<number[]> {
   const found: number[] = [];
   for (const line of outlines.get(structure) ?? [])
     for (let i = 0; i < line.length; i += 2) {
-      const [x, y] = [line[i]!, line[i + 1]!], [nextX, nextY] = [line[(i + 2) % line.length]!, line[(i + 3) % line.length]!];
+      const [x, y] = [line[i]!, line[i + 1]!]; const [nextX, nextY] = [line[(i + 2) % line.length]!, line[(i + 3) % line.length]!];
       if (y < row !== nextY < row) found.push(x + ((row - y) / (nextY - y)) * (nextX - x) - box.width / 2);
     }
   return found.sort((a, b) => a - b);

@@ -57,7 +57,7 @@ const notice = (words: string) => viewer.page.locator(".notice", { hasText: word
 /** Presses on the outline, away from plane lines, and pulls it outwards by so many mm; the button is still held. */
 async function pull(by_mm: number): Promise<void> {
   const { mouse } = viewer.page;
-  const from = await viewer.pixels("axial", FITTED_MM), by = await viewer.pixels("axial", by_mm);
+  const from = await viewer.pixels("axial", FITTED_MM); const by = await viewer.pixels("axial", by_mm);
   await mouse.move(...(await viewer.at("axial", ...diagonal(from))));
   await viewer.page.waitForFunction(() => document.querySelector<HTMLElement>("[data-view=axial] .overlay")!.style.cursor === "grab");
   await mouse.down();

@@ -66,7 +66,7 @@ describe("points of the surface", () => {
     const viewer = await opened();
     const { page } = viewer;
     await page.keyboard.press("q");
-    const near = (await viewer.pixels("sagittal", BALL_RADIUS_MM)) * Math.SQRT1_2, far = (await viewer.pixels("sagittal", BALL_RADIUS_MM + 10)) * Math.SQRT1_2;
+    const near = (await viewer.pixels("sagittal", BALL_RADIUS_MM)) * Math.SQRT1_2; const far = (await viewer.pixels("sagittal", BALL_RADIUS_MM + 10)) * Math.SQRT1_2;
     await viewer.click("sagittal", near, -near);
     await viewer.click("sagittal", -near, -near);
     await waitForPoints(viewer, 2);

@@ -33,7 +33,7 @@ cleanUp(folder, () => [browser, server]);
 
 /** The same voxels several times. */
 function writeFrames(path: string, of: string, count: number): void {
-  const file = readFileSync(of), voxels = file.subarray(352);
+  const file = readFileSync(of); const voxels = file.subarray(352);
   file.writeInt16LE(4, 40);
   file.writeInt16LE(count, 48);
   writeFileSync(path, Buffer.concat([file.subarray(0, 352), ...Array.from({ length: count }, () => voxels)]));
@@ -192,7 +192,7 @@ describe("a second image", () => {
     const box = async (part: string) => (await page.locator(part).boundingBox())!;
     for (const [width, height] of [[1280, 720], [820, 620]] as const) {
       await page.setViewportSize({ width, height });
-      const panel = await box(".panel"), list = await box(".structures");
+      const panel = await box(".panel"); const list = await box(".structures");
       assert.ok(list.height > 140 && list.y + list.height <= panel.y + panel.height, `${width} x ${height}: the list from ${list.y} to ${list.y + list.height}`);
       await page.mouse.move(panel.x + panel.width / 2, panel.y + 20);
       for (let n = 0; n < 12; ++n) await page.mouse.wheel(0, 100);

@@ -149,7 +149,7 @@ describe("the start page", () => {
   });
 
   test("lists the series of a DICOM folder with pictures, and opens the one that is chosen", async (t) => {
-    const python = process.env["KONTUR_TEST_PYTHON"], script = process.env["KONTUR_DICOM_SERIES"];
+    const python = process.env["KONTUR_TEST_PYTHON"]; const script = process.env["KONTUR_DICOM_SERIES"];
     if (!python || !script) return t.skip("no script that writes DICOM files");
     for (const [name, into] of [["other_series", "a"], ["echoes", "b"]] as const) {
       const made: { status: number | null; stderr: string } = spawnSync(python, [script, name, join(home, "study", into)], { encoding: "utf8" });

@@ -104,7 +104,7 @@ describe("how sure the surface is", () => {
   test("is told, and coloured from dark near the lines to light where nothing was drawn, until one clicks again", async () => {
     const { page } = viewer;
     assert.match((await page.locator(".certainty").textContent())!, /expected Dice 0?\.\d+/);
-    const band = page.locator("[data-test=band]"), scale = page.locator("[data-test=band-scale]");
+    const band = page.locator("[data-test=band]"); const scale = page.locator("[data-test=band-scale]");
     // The structure's own colour, and the dark end of the band's.
     const isAmber = (r: number, g: number, b: number) => r > 90 && r > 1.25 * g && g > 1.3 * b;
     const isBlue = (r: number, g: number, b: number) => b > 1.6 * r && b > 50 && g > r;

@@ -9,7 +9,7 @@ import { circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from
 
 const folder = temporaryFolder();
 const RADII_MM = [40, 32, 24, 16];
-let browser: Browser, server: Server, viewer: Viewer;
+let browser: Browser; let server: Server; let viewer: Viewer;
 cleanUp(folder, () => [browser, server]);
 
 before(async () => {

@@ -16,7 +16,7 @@ const contour = (axes: { u: Contour["plane"]["u"]; v: Contour["plane"]["v"]; nor
 
 describe("a long list of contours", () => {
   test("is grouped by view, each group in the order in which one scrolls", () => {
-    const high = contour(AXIAL, 20), low = contour(AXIAL, -20), front = contour(CORONAL, 10);
+    const high = contour(AXIAL, 20); const low = contour(AXIAL, -20); const front = contour(CORONAL, 10);
     const across = contour({ u: [0, 1, 0], v: [0, 0, 1], normal: [0.6, 0.8, 0] }, 5);
     const navigation = started();
     const groups = groupsOf([across, front, low, high], navigation);

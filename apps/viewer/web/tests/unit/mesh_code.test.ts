@@ -7,7 +7,7 @@ const mesh: CodedMesh = { points: 3, triangles: 2, origin: [10, 20, 30], step_mm
 
 test("positions are differences of steps, which wrap around", () => {
   // x: 0, 300, 299; y: 65535, 0, 0; z: 0
-  const x = [0, 600, 1], y = [1, 2, 0], z = [0, 0, 0];
+  const x = [0, 600, 1]; const y = [1, 2, 0]; const z = [0, 0, 0];
   const bytes = [x, y, z].flatMap((codes) => [...codes.map((code) => code & 255), ...codes.map((code) => code >> 8)]);
   assert.deepEqual([...positionsOf(mesh, Uint8Array.from(bytes))], [10, 20 + 2 * 65535, 30, 310, 20, 30, 309, 20, 30]);
 });

@@ -86,7 +86,7 @@ describe("colours", () => {
 
   test("run from the first stop to the last; over another image what is low fades out, but not in grey", () => {
     for (const { name, stops, fades } of COLOR_MAPS) {
-      const alone = colorTable(name, false), over = colorTable(name, true);
+      const alone = colorTable(name, false); const over = colorTable(name, true);
       assert.deepEqual(part(alone[0]!), [...stops[0]!, 255], name);
       assert.deepEqual(part(alone[255]!), [...stops.at(-1)!, 255], name);
       assert.equal(part(over[0]!)[3], fades ? 0 : 255, name);
@@ -103,7 +103,7 @@ describe("colours", () => {
   });
 
   test("of values are those of their shades, and nothing outside of the image", () => {
-    const coding = { first: -3, step: 0.25 }, window = { center: 4, width: 9 };
+    const coding = { first: -3, step: 0.25 }; const window = { center: 4, width: 9 };
     const codes = Uint16Array.from({ length: 300 }, (_, i) => i);
     const shades = shadesOf(codes, coding, window, new Uint8Array(codes.length));
     const table = colorTable("hot", false);

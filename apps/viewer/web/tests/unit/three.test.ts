@@ -111,7 +111,7 @@ test("where they take seconds, they take a small part of the time", async () => 
 
 /** A ball of `rings` times twice as many points. */
 function ball(rings: number): { positions: Float32Array; triangles: Uint32Array } {
-  const positions: number[] = [], triangles: number[] = [];
+  const positions: number[] = []; const triangles: number[] = [];
   const around = 2 * rings;
   for (let i = 0; i <= rings; ++i)
     for (let j = 0; j < around; ++j) {

@@ -22,7 +22,10 @@ export default tseslint.config(
       "no-restricted-syntax": ["error", ...handlerProperties],
       "@typescript-eslint/strict-void-return": "error",
       "@typescript-eslint/no-misused-promises": "error",
-      "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: [{ from: "package", package: "node:test", name: ["test", "describe", "before", "after"] }] }],
+      "@typescript-eslint/no-floating-promises": [
+        "error",
+        { allowForKnownSafeCalls: [{ from: "package", package: "node:test", name: ["test", "describe", "before", "after"] }] },
+      ],
     },
   },
   {

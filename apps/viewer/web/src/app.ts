@@ -64,7 +64,13 @@ export class App {
   private readonly toolbar: Toolbar;
   private readonly keyboard: Keyboard;
   private readonly inputs: ViewInput[] = [];
-  private readonly pointers = new Pointers(() => void this.notices.show("info", "A pen draws here, so touches are taken for the hand that holds it, and ignored. To draw with a finger, load the page again."));
+  private readonly pointers = new Pointers(
+    () =>
+      void this.notices.show(
+        "info",
+        "A pen draws here, so touches are taken for the hand that holds it, and ignored. To draw with a finger, load the page again.",
+      ),
+  );
   private readonly values: Latest<Vec3>;
   private session: Session | null = null;
   private closeCrossingNotice = () => {};
@@ -80,7 +86,13 @@ export class App {
   ) {
     this.http = new Http(token);
     this.startPage = new StartPage(this.http);
-    this.saving = new Saving({ status: this.status, notices: this.notices, outbox: () => this.editor.drawing.outbox, project: () => this.session?.project, token });
+    this.saving = new Saving({
+      status: this.status,
+      notices: this.notices,
+      outbox: () => this.editor.drawing.outbox,
+      project: () => this.session?.project,
+      token,
+    });
     this.socket = new Socket(token, {
       event: (event) => this.receive(event),
       connection: (state) => this.connected(state),
@@ -97,7 +109,17 @@ export class App {
       made: (contour) => this.tellCrossing(contour),
       notSaved: (sketch, why) => this.saving.tellNotSaved(sketch, why),
     });
-    const shared = { navigation: this.navigation, project: this.project, appearance: this.appearance, theme: this.theme, sizes: this.sizes, second: this.second, editor: this.editor, http: this.http, failed };
+    const shared = {
+      navigation: this.navigation,
+      project: this.project,
+      appearance: this.appearance,
+      theme: this.theme,
+      sizes: this.sizes,
+      second: this.second,
+      editor: this.editor,
+      http: this.http,
+      failed,
+    };
     this.keeper = new PageKeeper({
       ...shared,
       isOpen: () => this.session !== null && !this.windows.isSecond,
@@ -130,7 +152,12 @@ export class App {
       time: new TimeCard(this.navigation, this.cine).element,
       secondImage: this.secondCard.element,
       suggest: inSight(() => void this.suggest()),
-      openStatistics: () => openStatistics(this.http, (p) => this.goTo(p), (first, second) => this.surface.compare(first, second)),
+      openStatistics: () =>
+        openStatistics(
+          this.http,
+          (p) => this.goTo(p),
+          (first, second) => this.surface.compare(first, second),
+        ),
       addStructure: () => void this.addStructure(),
       goTo: (p) => this.goTo(p),
       show: (contour) => this.show(contour),
@@ -389,7 +416,10 @@ export class App {
   private lay(): void {
     const { layout, big } = this.navigation;
     this.stage.dataset["layout"] = layout;
-    const panes: [PaneName, HTMLElement][] = [...[...this.views].map(([name, view]): [PaneName, HTMLElement] => [name, view.element]), ["surface", this.surface.element]];
+    const panes: [PaneName, HTMLElement][] = [
+      ...[...this.views].map(([name, view]): [PaneName, HTMLElement] => [name, view.element]),
+      ["surface", this.surface.element],
+    ];
     const bigPane: PaneName | null = layout === "big-surface" ? "surface" : layout === "overview" ? null : big;
     for (const [name, element] of panes) {
       element.classList.toggle("big", name === bigPane);

@@ -36,9 +36,12 @@ function onRim(p: Point2, center: Point2, radius: number): Point2 {
 function refined(line: readonly BrushPoint[], center: Point2, radius: number): BrushPoint[] {
   const spacing = radius / POINTS_PER_RADIUS;
   return line.flatMap((point, i) => {
-    const a = point.at; const b = line[(i + 1) % line.length]!.at;
+    const a = point.at;
+    const b = line[(i + 1) % line.length]!.at;
     const parts = nearestOnLine(center, a, b).distance < radius ? Math.ceil(gap(a, b) / spacing) : 1;
-    const between = Array.from({ length: parts - 1 }, (_, k): BrushPoint => ({ at: [a[0] + ((b[0] - a[0]) * (k + 1)) / parts, a[1] + ((b[1] - a[1]) * (k + 1)) / parts] }));
+    const between = Array.from({ length: parts - 1 }, (_, k): BrushPoint => ({
+      at: [a[0] + ((b[0] - a[0]) * (k + 1)) / parts, a[1] + ((b[1] - a[1]) * (k + 1)) / parts],
+    }));
     return [point, ...between];
   });
 }

@@ -65,8 +65,10 @@ export function boxSection(corners: readonly Vec3[], plane: Plane): Vec3[] {
     for (const bit of [1, 2, 4]) {
       const b = a | bit;
       if (b === a) continue;
-      const from = corners[a]!; const to = corners[b]!;
-      const above = heightOver(plane, from); const below = heightOver(plane, to);
+      const from = corners[a]!;
+      const to = corners[b]!;
+      const above = heightOver(plane, from);
+      const below = heightOver(plane, to);
       if (above > 0 === below > 0) continue;
       hits.push(add(from, scale(sub(to, from), above / (above - below))));
     }

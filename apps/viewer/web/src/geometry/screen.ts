@@ -20,10 +20,7 @@ export const planeOf = (screen: Screen): Plane => ({ ...screen.axes, origin: scr
 
 export function toScreen(screen: Screen, p: Vec3): Point2 {
   const d = sub(p, screen.center);
-  return [
-    screen.width / 2 + dot(d, screen.axes.u) / screen.mm_per_pixel,
-    screen.height / 2 + dot(d, screen.axes.v) / screen.mm_per_pixel,
-  ];
+  return [screen.width / 2 + dot(d, screen.axes.u) / screen.mm_per_pixel, screen.height / 2 + dot(d, screen.axes.v) / screen.mm_per_pixel];
 }
 
 export function toWorld(screen: Screen, [x, y]: Point2): Vec3 {
@@ -54,8 +51,11 @@ export const gap = (a: Point2, b: Point2): number => Math.hypot(a[0] - b[0], a[1
 /** How wide the points lie across the direction in which they are spread most. */
 export function narrowWidth(points: readonly Point2[]): number {
   const mean = (of: (p: Point2) => number) => points.reduce((sum, p) => sum + of(p), 0) / points.length;
-  const x0 = mean(([x]) => x); const y0 = mean(([, y]) => y);
-  const xx = mean(([x]) => (x - x0) ** 2); const yy = mean(([, y]) => (y - y0) ** 2); const xy = mean(([x, y]) => (x - x0) * (y - y0));
+  const x0 = mean(([x]) => x);
+  const y0 = mean(([, y]) => y);
+  const xx = mean(([x]) => (x - x0) ** 2);
+  const yy = mean(([, y]) => (y - y0) ** 2);
+  const xy = mean(([x, y]) => (x - x0) * (y - y0));
   const longest = Math.atan2(2 * xy, xx - yy) / 2; // the principal axis
   const across = points.map(([x, y]) => (y - y0) * Math.cos(longest) - (x - x0) * Math.sin(longest));
   return across.reduce((a, b) => Math.max(a, b)) - across.reduce((a, b) => Math.min(a, b));
@@ -63,7 +63,8 @@ export function narrowWidth(points: readonly Point2[]): number {
 
 /** The nearest point of the line from `a` to `b`: its distance, and where it lies from 0 (`a`) to 1 (`b`). */
 export function nearestOnLine(p: Point2, a: Point2, b: Point2): { distance: number; t: number } {
-  const dx = b[0] - a[0]; const dy = b[1] - a[1];
+  const dx = b[0] - a[0];
+  const dy = b[1] - a[1];
   const squared = dx * dx + dy * dy;
   const t = squared === 0 ? 0 : Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / squared));
   return { distance: Math.hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy), t };
@@ -71,8 +72,12 @@ export function nearestOnLine(p: Point2, a: Point2, b: Point2): { distance: numb
 
 /** The part of the line through `p` along `d` that lies within width x height; null when none does. */
 export function clippedLine(p: Point2, d: Point2, width: number, height: number): [Point2, Point2] | null {
-  let from = -Infinity; let to = Infinity;
-  for (const [at, step, size] of [[p[0], d[0], width], [p[1], d[1], height]] as const) {
+  let from = -Infinity;
+  let to = Infinity;
+  for (const [at, step, size] of [
+    [p[0], d[0], width],
+    [p[1], d[1], height],
+  ] as const) {
     if (Math.abs(step) < 1e-9) {
       if (at < 0 || at > size) return null;
       continue;
@@ -82,5 +87,8 @@ export function clippedLine(p: Point2, d: Point2, width: number, height: number)
     to = Math.min(to, ends[1]);
   }
   if (from >= to) return null;
-  return [[p[0] + from * d[0], p[1] + from * d[1]], [p[0] + to * d[0], p[1] + to * d[1]]];
+  return [
+    [p[0] + from * d[0], p[1] + from * d[1]],
+    [p[0] + to * d[0], p[1] + to * d[1]],
+  ];
 }

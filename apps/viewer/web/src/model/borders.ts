@@ -3,7 +3,8 @@ import type { BorderPair, BorderRule, Borders, Relation, Structure } from "../ne
 
 type Structures = ReadonlyMap<number, Structure>;
 
-const isAbout = ({ first, second }: Pick<BorderRule, "first" | "second">, a: number, b: number): boolean => (first === a && second === b) || (first === b && second === a);
+const isAbout = ({ first, second }: Pick<BorderRule, "first" | "second">, a: number, b: number): boolean =>
+  (first === a && second === b) || (first === b && second === a);
 
 /** Pairs of structures that a rule can be given for: those that touch and those that have one first, then, of few structures, all others. */
 export function pairsToShow(borders: Borders, found: readonly BorderPair[], structures: Structures): [number, number][] {
@@ -47,7 +48,8 @@ export function chosenSentence(borders: Borders, found: readonly BorderPair[], s
   const chosen = found.filter(({ given, first, second }) => !given && structures.has(first) && structures.has(second));
   const [only] = chosen;
   if (!only) return "";
-  if (chosen.length === 1) return `${inWords(only, structures)}: chosen, as they ${only.share > 0 ? `have ${percent(only.share)} of the smaller one in common` : "only touch"}.`;
+  if (chosen.length === 1)
+    return `${inWords(only, structures)}: chosen, as they ${only.share > 0 ? `have ${percent(only.share)} of the smaller one in common` : "only touch"}.`;
   const counts = (["exclusive", "inside", "overlap"] as const).map((relation) => chosen.filter((pair) => pair.relation === relation).length);
   const parts = [`${counts[0]} exclude each other`, `${counts[1]} lie one inside the other`, `${counts[2]} may overlap`].filter((_, i) => counts[i]! > 0);
   return `Of ${chosen.length} pairs that touch ${parts.join(", ")}: chosen from what they have in common.`;

@@ -27,6 +27,8 @@ export function drawnSlices(view: ViewName, navigation: Navigation, project: Pro
 export function nextDrawnSlice(view: ViewName, direction: 1 | -1, navigation: Navigation, project: Project): DrawnSlice | undefined {
   const { from, to, at } = navigation.depth(view);
   const half = navigation.step(view) / 2;
-  const ahead = drawnSlices(view, navigation, project).filter(({ depth_mm }) => depth_mm > from - half && depth_mm < to + half && (depth_mm - at) * direction >= half);
+  const ahead = drawnSlices(view, navigation, project).filter(
+    ({ depth_mm }) => depth_mm > from - half && depth_mm < to + half && (depth_mm - at) * direction >= half,
+  );
   return direction > 0 ? ahead[0] : ahead.at(-1);
 }

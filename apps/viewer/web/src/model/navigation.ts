@@ -102,7 +102,12 @@ export class Navigation extends Emitter<"planes" | "window" | "layout" | "time">
 
   place(): SharedPlace {
     const { axial, sagittal, coronal, oblique } = this.cameras;
-    return { crosshair: this.crosshair, axes: { axial: axial.axes, sagittal: sagittal.axes, coronal: coronal.axes, oblique: oblique.axes }, window: this.window, time: this.time };
+    return {
+      crosshair: this.crosshair,
+      axes: { axial: axial.axes, sagittal: sagittal.axes, coronal: coronal.axes, oblique: oblique.axes },
+      window: this.window,
+      time: this.time,
+    };
   }
 
   /** Looks where another window does. */

@@ -169,8 +169,6 @@ export class Project extends Emitter<Topic> {
     if (!contour) {
       const other = [...this.marked].at(-1);
       this.selection = other === undefined ? null : { contour: other, point: null };
-    }
-    else if (this.selection?.point != null && this.selection.point >= contour.control.length)
-      this.selection = { contour: contour.id, point: null };
+    } else if (this.selection?.point != null && this.selection.point >= contour.control.length) this.selection = { contour: contour.id, point: null };
   }
 }

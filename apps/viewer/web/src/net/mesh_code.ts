@@ -14,7 +14,8 @@ const unzigzag = (code: number): number => (code >>> 1) ^ -(code & 1);
 export function positionsOf({ points, origin, step_mm }: CodedMesh, bytes: Uint8Array): Float32Array {
   const positions = new Float32Array(3 * points);
   for (let axis = 0; axis < 3; ++axis) {
-    const low = 2 * points * axis; const high = low + points;
+    const low = 2 * points * axis;
+    const high = low + points;
     let number = 0;
     for (let n = 0; n < points; ++n) {
       number = (number + unzigzag(bytes[low + n]! | (bytes[high + n]! << 8))) & 0xffff;
@@ -27,13 +28,17 @@ export function positionsOf({ points, origin, step_mm }: CodedMesh, bytes: Uint8
 /** Unit vectors, as far as eight bits for each half of the octahedron's square tell them. */
 export function normalsOf({ points }: CodedMesh, bytes: Uint8Array): Float32Array {
   const normals = new Float32Array(bytes.length > 0 ? 3 * points : 0);
-  let left = 0; let right = 0;
+  let left = 0;
+  let right = 0;
   for (let n = 0; 3 * n < normals.length; ++n) {
     left = (left + unzigzag(bytes[n]!)) & 0xff;
     right = (right + unzigzag(bytes[points + n]!)) & 0xff;
-    const u = left / 127.5 - 1; const v = right / 127.5 - 1;
-    const z = 1 - Math.abs(u) - Math.abs(v); const fold = Math.max(-z, 0);
-    const x = u >= 0 ? u - fold : u + fold; const y = v >= 0 ? v - fold : v + fold;
+    const u = left / 127.5 - 1;
+    const v = right / 127.5 - 1;
+    const z = 1 - Math.abs(u) - Math.abs(v);
+    const fold = Math.max(-z, 0);
+    const x = u >= 0 ? u - fold : u + fold;
+    const y = v >= 0 ? v - fold : v + fold;
     const length = Math.hypot(x, y, z);
     normals.set([x / length, y / length, z / length], 3 * n);
   }
@@ -44,7 +49,8 @@ export function trianglesOf({ triangles }: CodedMesh, bytes: Uint8Array): Uint32
   const indices = new Uint32Array(3 * triangles);
   let at = 0;
   const next = (): number => {
-    let number = 0; let shift = 0;
+    let number = 0;
+    let shift = 0;
     for (; bytes[at]! > 127; shift += 7) number |= (bytes[at++]! & 127) << shift;
     return unzigzag((number | (bytes[at++]! << shift)) >>> 0);
   };

@@ -83,9 +83,7 @@ export class Socket {
     if (!this.greeted || this.socket?.readyState !== WebSocket.OPEN)
       return Promise.reject(new ServerError("offline", "Not connected to kontur: nothing was changed.", edits));
     const seq = this.nextSeq++;
-    const reply = new Promise<Result<Name>>((resolve, reject) =>
-      void this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }),
-    );
+    const reply = new Promise<Result<Name>>((resolve, reject) => void this.pending.set(seq, { resolve: resolve as (result: unknown) => void, reject, edits }));
     this.socket.send(JSON.stringify({ seq, call: name, ...args }));
     if (edits) this.tellUnsaved(false);
     return reply;

@@ -34,7 +34,8 @@ export class ArrangementKeeper {
   }
 
   private keep(): void {
-    const state = this.state(); const text = JSON.stringify(state);
+    const state = this.state();
+    const text = JSON.stringify(state);
     if (text === this.kept || this.modality === null) return;
     this.kept = text;
     this.services.keep(this.modality, state);

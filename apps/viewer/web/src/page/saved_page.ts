@@ -70,7 +70,14 @@ export class PageKeeper {
   private state(): SavedPage {
     const { navigation, project, appearance, sizes, editor } = this.services;
     const { drawing, measuring } = editor;
-    const state: SavedPage = { navigation: navigation.saved(), structure: project.activeStructure?.id ?? 0, hintSeen: this.services.hintSeen(), appearance: appearance.saved(), sizes: sizes.saved(), measurements: measuring.measurements.saved() };
+    const state: SavedPage = {
+      navigation: navigation.saved(),
+      structure: project.activeStructure?.id ?? 0,
+      hintSeen: this.services.hintSeen(),
+      appearance: appearance.saved(),
+      sizes: sizes.saved(),
+      measurements: measuring.measurements.saved(),
+    };
     const second = this.services.second.saved();
     if (second) state.second = second;
     let room = LONGEST_SAVED_SKETCHES;

@@ -84,7 +84,10 @@ export class Saving {
       : "No kontur answers at this address. If it was started again, use the address that it printed last.";
     this.closeWhenConnected.push(notices.show("error", text));
     if (this.unsaved > 0 && !outbox().isSending)
-      notices.show("error", "The connection was lost before kontur had confirmed your last edit: it may not be saved. Look for it when the page is connected again.");
+      notices.show(
+        "error",
+        "The connection was lost before kontur had confirmed your last edit: it may not be saved. Look for it when the page is connected again.",
+      );
   }
 
   /** Only a kontur at this very address can take what this page alone still has. */

@@ -22,8 +22,26 @@ interface FolderWords {
 export class FolderView {
   readonly element = el("section", { class: "start-folder", "aria-label": "Files and folders" });
   private readonly places = el("div", { class: "start-places", role: "group", "aria-label": "Places" });
-  readonly path = el("input", { type: "text", class: "start-field", title: "Folder or file", "aria-label": "Folder or file", spellcheck: false, autocomplete: "off", "data-test": "path", on: { keydown: (event) => this.typed(event) } });
-  private readonly filter = el("input", { type: "text", class: "start-filter", placeholder: "Filter", "aria-label": "Filter by name", spellcheck: false, autocomplete: "off", "data-test": "filter", on: { input: () => this.fill() } });
+  readonly path = el("input", {
+    type: "text",
+    class: "start-field",
+    title: "Folder or file",
+    "aria-label": "Folder or file",
+    spellcheck: false,
+    autocomplete: "off",
+    "data-test": "path",
+    on: { keydown: (event) => this.typed(event) },
+  });
+  private readonly filter = el("input", {
+    type: "text",
+    class: "start-filter",
+    placeholder: "Filter",
+    "aria-label": "Filter by name",
+    spellcheck: false,
+    autocomplete: "off",
+    "data-test": "filter",
+    on: { input: () => this.fill() },
+  });
   private readonly up = button({ icon: ICONS.up, title: "The folder above", class: "icon-button", test: "folder-up", click: () => this.goUp() });
   private readonly work = el("p", { class: "start-work", "aria-live": "polite", hidden: true });
   private readonly list = el("ul", { class: "start-list", "data-test": "entries" });
@@ -37,11 +55,20 @@ export class FolderView {
     private readonly words: FolderWords = { title: "Open", open: "Open this series" },
   ) {
     this.cards = new VolumeCards(http, services.open, words.open);
-    this.element.append(el("h2", {}, words.title), this.places, el("div", { class: "start-way" }, this.up, this.path, this.filter), this.work, this.cards.element, this.list);
+    this.element.append(
+      el("h2", {}, words.title),
+      this.places,
+      el("div", { class: "start-way" }, this.up, this.path, this.filter),
+      this.work,
+      this.cards.element,
+      this.list,
+    );
   }
 
   start(places: Place[], folder: string): void {
-    this.places.replaceChildren(...places.map(({ name, path }) => button({ label: name, title: path, class: "choice", test: "place", click: () => void this.go(path) })));
+    this.places.replaceChildren(
+      ...places.map(({ name, path }) => button({ label: name, title: path, class: "choice", test: "place", click: () => void this.go(path) })),
+    );
     const first = this.shown?.path ?? (folder || places[0]?.path);
     if (first) void this.go(first);
   }
@@ -95,7 +122,10 @@ export class FolderView {
     const { folders, files, left_out, dicom } = this.shown;
     const wanted = this.filter.value.trim().toLowerCase();
     const fits = ({ name }: Place) => name.toLowerCase().includes(wanted);
-    const rows = [...folders.filter(fits).map((one) => this.folderRow(one)), ...files.filter((file) => fits(file) && (file.kind === "image" || !this.words.onlyImages)).map((one) => this.fileRow(one))];
+    const rows = [
+      ...folders.filter(fits).map((one) => this.folderRow(one)),
+      ...files.filter((file) => fits(file) && (file.kind === "image" || !this.words.onlyImages)).map((one) => this.fileRow(one)),
+    ];
     const nothing = dicom === "none" ? "There is no image, project or folder here." : "";
     if (rows.length === 0) rows.push(el("li", { class: "empty" }, wanted ? "No name contains this." : nothing));
     if (left_out > 0) rows.push(el("li", { class: "empty" }, `${left_out} more ${left_out === 1 ? "is" : "are"} not shown.`));
@@ -109,8 +139,18 @@ export class FolderView {
 
   private fileRow(file: ListedFile): HTMLElement {
     const { name, path, kind } = file;
-    const row = button({ icon: kind === "project" ? ICONS.surface : ICONS.file, label: name, title: path, class: "start-row file", test: "file", click: () => this.services.open({ path }) });
-    row.append(el("span", { class: "start-size" }, sizeText(file.bytes)), el("span", { class: "start-date" }, new Date(1000 * file.modified).toLocaleDateString()));
+    const row = button({
+      icon: kind === "project" ? ICONS.surface : ICONS.file,
+      label: name,
+      title: path,
+      class: "start-row file",
+      test: "file",
+      click: () => this.services.open({ path }),
+    });
+    row.append(
+      el("span", { class: "start-size" }, sizeText(file.bytes)),
+      el("span", { class: "start-date" }, new Date(1000 * file.modified).toLocaleDateString()),
+    );
     return el("li", {}, row);
   }
 

@@ -3,7 +3,16 @@ import { button, el, listen } from "../ui/dom";
 
 /** Asks which of a file's frames is meant; kontur counts them from 0. */
 export function frameChoice(frames: number, chosen: (frame: number) => void, wrong: (sentence: string) => void): { element: HTMLElement; focus: () => void } {
-  const field = el("input", { type: "number", class: "number", min: "0", max: String(frames - 1), step: "1", value: "0", "aria-label": `Frame, from 0 to ${frames - 1}`, "data-test": "frame" });
+  const field = el("input", {
+    type: "number",
+    class: "number",
+    min: "0",
+    max: String(frames - 1),
+    step: "1",
+    value: "0",
+    "aria-label": `Frame, from 0 to ${frames - 1}`,
+    "data-test": "frame",
+  });
   const choose = () => {
     const frame = field.valueAsNumber;
     if (Number.isInteger(frame) && frame >= 0 && frame < frames) return chosen(frame);
@@ -11,7 +20,13 @@ export function frameChoice(frames: number, chosen: (frame: number) => void, wro
     field.focus();
   };
   listen(field, { keydown: (event) => void (event.key === "Enter" && choose()) });
-  const element = el("span", { class: "frame-choice" }, ` Frame 0 to ${frames - 1}: `, field, button({ label: "Open", title: "Open this frame", class: "choice", test: "frame-open", click: choose }));
+  const element = el(
+    "span",
+    { class: "frame-choice" },
+    ` Frame 0 to ${frames - 1}: `,
+    field,
+    button({ label: "Open", title: "Open this frame", class: "choice", test: "frame-open", click: choose }),
+  );
   const focus = () => {
     field.select();
     field.focus();

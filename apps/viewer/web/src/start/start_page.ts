@@ -24,8 +24,20 @@ export class StartPage {
 
   constructor(private readonly http: Http) {
     this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.setProblem(sentence) });
-    const cancel = button({ label: "Cancel", title: "Do not open it", class: "choice", test: "opening-cancel", click: () => void this.attempt(() => this.http.cancelOpening()) });
-    const example = button({ label: "Try the example", title: "A synthetic abdomen: draw in it what you like", class: "choice", test: "example", click: () => void this.open({ path: this.example }) });
+    const cancel = button({
+      label: "Cancel",
+      title: "Do not open it",
+      class: "choice",
+      test: "opening-cancel",
+      click: () => void this.attempt(() => this.http.cancelOpening()),
+    });
+    const example = button({
+      label: "Try the example",
+      title: "A synthetic abdomen: draw in it what you like",
+      class: "choice",
+      test: "example",
+      click: () => void this.open({ path: this.example }),
+    });
     this.opening.append(this.openingTitle, this.openingStage, this.openingBar, cancel);
     this.element.append(
       el("header", { class: "start-head" }, el("h1", {}, "kontur"), this.version, el("span", { class: "spring" }), example),
@@ -89,9 +101,19 @@ export class StartPage {
   private recentRows(projects: RecentProject[]): HTMLElement[] {
     if (projects.length === 0) return [el("li", { class: "empty" }, "What you open is listed here, with all that was drawn in it.")];
     return projects.map(({ path, title, image, second, time }) => {
-      const row = button({ title: `${path}, drawn on ${image}${second && `, with ${second}`}`, class: "start-row", test: "recent", click: () => void this.open({ path }) });
+      const row = button({
+        title: `${path}, drawn on ${image}${second && `, with ${second}`}`,
+        class: "start-row",
+        test: "recent",
+        click: () => void this.open({ path }),
+      });
       row.setAttribute("aria-label", `${title}${second && `, with ${second}`}, ${path}`);
-      row.append(el("strong", {}, title), el("span", {}, whenText(time)), ...(second ? [el("span", { class: "start-second" }, `with ${second}`)] : []), el("span", { class: "start-path" }, image));
+      row.append(
+        el("strong", {}, title),
+        el("span", {}, whenText(time)),
+        ...(second ? [el("span", { class: "start-second" }, `with ${second}`)] : []),
+        el("span", { class: "start-path" }, image),
+      );
       return el("li", {}, row);
     });
   }
@@ -127,7 +149,12 @@ export class StartPage {
   }
 }
 
-const STAGES: Record<string, string> = { "read headers": "Looking at the files", "read slices": "Reading slices", "read voxels": "Reading", "look at values": "Looking at the values" };
+const STAGES: Record<string, string> = {
+  "read headers": "Looking at the files",
+  "read slices": "Reading slices",
+  "read voxels": "Reading",
+  "look at values": "Looking at the values",
+};
 
 function stageText({ stage, fraction }: OpeningState): string {
   const text = STAGES[stage] ?? (stage ? stage.charAt(0).toUpperCase() + stage.slice(1) : "Reading");
@@ -140,4 +167,3 @@ function whenText(time: string): string {
   const isToday = then.toDateString() === new Date().toDateString();
   return isToday ? `today ${then.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })}` : then.toLocaleDateString();
 }
-

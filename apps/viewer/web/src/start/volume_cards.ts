@@ -79,5 +79,10 @@ export function groupsOf(volumes: Volume[]): [string, Volume[]][] {
 /** What a series is, line by line. */
 export function volumeLines({ modality, series_number, description, distinction, study_description, slices, columns, rows }: Volume): string[] {
   const what = [modality || "Image", series_number && `series ${series_number}`].filter(Boolean).join(" · ");
-  return [description || study_description || "Without a description", distinction, what, `${slices} ${slices === 1 ? "slice" : "slices"} of ${columns} × ${rows}`].filter((line) => line !== "");
+  return [
+    description || study_description || "Without a description",
+    distinction,
+    what,
+    `${slices} ${slices === 1 ? "slice" : "slices"} of ${columns} × ${rows}`,
+  ].filter((line) => line !== "");
 }

@@ -10,7 +10,8 @@ export const DISTANCE_STOPS = ["#10316b", "#4a7fc1", "#f4f4f2", "#e0913d", "#7a3
 
 const linear = (byte: number): number => (byte <= 10.31 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
 const inLight = (stops: readonly string[]) => stops.map((color) => [1, 3, 5].map((at) => linear(parseInt(color.slice(at, at + 2), 16))));
-const BAND = inLight(BAND_STOPS); const DISTANCE = inLight(DISTANCE_STOPS);
+const BAND = inLight(BAND_STOPS);
+const DISTANCE = inLight(DISTANCE_STOPS);
 
 /** The end of the scale: what 98 % of the points stay below, rounded up to 1, 2 or 5 times a power of ten. */
 export function bandScale(half_widths_mm: Float32Array): number {
@@ -24,7 +25,8 @@ export function bandScale(half_widths_mm: Float32Array): number {
 export const bandColors = (half_widths_mm: Float32Array, most_mm: number): Float32Array => colorsOf(half_widths_mm, BAND, (width) => width / most_mm);
 
 /** The same for distances, from -`most_mm` to `most_mm`. */
-export const distanceColors = (distances_mm: Float32Array, most_mm: number): Float32Array => colorsOf(distances_mm, DISTANCE, (distance) => 0.5 + distance / most_mm / 2);
+export const distanceColors = (distances_mm: Float32Array, most_mm: number): Float32Array =>
+  colorsOf(distances_mm, DISTANCE, (distance) => 0.5 + distance / most_mm / 2);
 
 function colorsOf(values: Float32Array, stops: readonly number[][], placeOf: (value: number) => number): Float32Array {
   const colors = new Float32Array(3 * values.length);
@@ -32,7 +34,8 @@ function colorsOf(values: Float32Array, stops: readonly number[][], placeOf: (va
     const place = Math.min(Math.max(placeOf(value), 0), 1) * (stops.length - 1);
     const below = Math.min(Math.floor(place), stops.length - 2);
     for (let channel = 0; channel < 3; ++channel) {
-      const from = stops[below]![channel]!; const to = stops[below + 1]![channel]!;
+      const from = stops[below]![channel]!;
+      const to = stops[below + 1]![channel]!;
       colors[3 * point + channel] = from + (place - below) * (to - from);
     }
   });

@@ -4,7 +4,8 @@ const CELLS = 96; // along the surface's longest side
 
 /** The triangles that remain when all points in a cube of a grid count as one of them: a rough surface over the same points. */
 export function coarseTriangles(positions: Float32Array, triangles: Uint32Array): Uint32Array {
-  const low = [Infinity, Infinity, Infinity]; const high = [-Infinity, -Infinity, -Infinity];
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
   for (let n = 0; n < positions.length; ++n) {
     low[n % 3] = Math.min(low[n % 3]!, positions[n]!);
     high[n % 3] = Math.max(high[n % 3]!, positions[n]!);
@@ -22,7 +23,9 @@ export function coarseTriangles(positions: Float32Array, triangles: Uint32Array)
   const kept = new Uint32Array(triangles.length);
   let count = 0;
   for (let t = 0; t < triangles.length; t += 3) {
-    const a = stands[triangles[t]!]!; const b = stands[triangles[t + 1]!]!; const c = stands[triangles[t + 2]!]!;
+    const a = stands[triangles[t]!]!;
+    const b = stands[triangles[t + 1]!]!;
+    const c = stands[triangles[t + 2]!]!;
     if (a === b || b === c || c === a) continue;
     kept[count++] = a;
     kept[count++] = b;

@@ -10,7 +10,8 @@ export interface Side {
   up: Vec3;
 }
 
-const HEAD: Vec3 = [0, 0, 1]; const FRONT: Vec3 = [0, -1, 0];
+const HEAD: Vec3 = [0, 0, 1];
+const FRONT: Vec3 = [0, -1, 0];
 
 export const SIDES: readonly Side[] = [
   { letter: "A", title: "From the front", from: FRONT, up: HEAD },

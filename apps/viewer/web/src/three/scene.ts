@@ -188,7 +188,10 @@ export class Scene {
       const fan = outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]);
       const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
       const rim = new THREE.BufferGeometry().setFromPoints(points);
-      this.planes.add(new THREE.Mesh(sheet, this.glassMaterial(color)), new THREE.LineLoop(rim, this.lineMaterial(this.ground === "light" ? tinted(color, -0.25) : color, this.ground === "light" ? 0.7 : 0.4)));
+      this.planes.add(
+        new THREE.Mesh(sheet, this.glassMaterial(color)),
+        new THREE.LineLoop(rim, this.lineMaterial(this.ground === "light" ? tinted(color, -0.25) : color, this.ground === "light" ? 0.7 : 0.4)),
+      );
     }
     this.pace.changed(true);
   }
@@ -323,7 +326,8 @@ export class Scene {
   /** The mark that is nearest to this place of the canvas, in pixels, if that is within `reach`. */
   markAt(x: number, y: number, reach: number): Vec3 | null {
     const seen = new THREE.Vector3();
-    let nearest = reach; let found: Vec3 | null = null;
+    let nearest = reach;
+    let found: Vec3 | null = null;
     for (const { position } of this.marks.children) {
       seen.copy(position).project(this.camera);
       const distance = Math.hypot(((seen.x + 1) / 2) * this.canvas.clientWidth - x, ((1 - seen.y) / 2) * this.canvas.clientHeight - y);
@@ -364,8 +368,7 @@ export class Scene {
 
   private imageBox(): THREE.LineSegments {
     const ends: THREE.Vector3[] = [];
-    for (let a = 0; a < 8; ++a)
-      for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
+    for (let a = 0; a < 8; ++a) for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
     return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.lineMaterial("#56606c", 0.5));
   }
 }
@@ -378,7 +381,8 @@ function ball(center: Vec3, material: THREE.Material): THREE.Mesh {
 
 function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {
   const geometry = new THREE.BufferGeometry();
-  const positions = fine.getAttribute("position"); const triangles = fine.getIndex();
+  const positions = fine.getAttribute("position");
+  const triangles = fine.getIndex();
   if (!triangles) return geometry;
   geometry.setAttribute("position", positions);
   geometry.setAttribute("normal", fine.getAttribute("normal"));

@@ -46,7 +46,13 @@ export class SurfaceView {
   private showsBand = false;
   /** One structure coloured by how far it is from another one, in its state `revision`. */
   private compared: { structure: number; other: number; revision: number } | null = null;
-  private readonly band = button({ icon: ICONS.statistics, title: "Colour the surface by how sure it is", class: "icon-button small", test: "band", click: () => this.paintBy(!this.showsBand) });
+  private readonly band = button({
+    icon: ICONS.statistics,
+    title: "Colour the surface by how sure it is",
+    class: "icon-button small",
+    test: "band",
+    click: () => this.paintBy(!this.showsBand),
+  });
   private readonly ramp = el("span", { class: "band-ramp" });
   private readonly scale = el("div", { class: "band-scale", hidden: true, "data-test": "band-scale" });
   private readonly cube = new OrientationCube(({ from }) => this.scene?.viewFrom(from));
@@ -61,7 +67,13 @@ export class SurfaceView {
     );
     const glass = button({ icon: ICONS.surface, title: "See through the surface", class: "icon-button small", click: () => this.toggleGlass() });
     const frame = button({ icon: ICONS.reset, title: "Show the whole surface", class: "icon-button small", click: () => this.scene?.frame() });
-    const another = button({ icon: ICONS.window, title: "Open a second window of this project, for another screen; both look at the same place", class: "icon-button small", test: "second-window", click: services.openWindow });
+    const another = button({
+      icon: ICONS.window,
+      title: "Open a second window of this project, for another screen; both look at the same place",
+      class: "icon-button small",
+      test: "second-window",
+      click: services.openWindow,
+    });
     const enlarge = button({
       icon: ICONS.enlarge,
       title: "Show the 3D view alone, or go back (double click on its title)",
@@ -71,7 +83,16 @@ export class SurfaceView {
     this.header.append(el("span", { class: "pane-title" }, "3D"), el("span", { class: "spring" }), look, this.band, glass, frame, another, enlarge);
     this.band.setAttribute("aria-pressed", "false");
     this.band.hidden = true;
-    this.element = el("section", { class: "pane surface", "data-view": "surface", "aria-label": "3D view" }, this.canvas, this.message, this.header, this.bar, this.scale, this.cube.element);
+    this.element = el(
+      "section",
+      { class: "pane surface", "data-view": "surface", "aria-label": "3D view" },
+      this.canvas,
+      this.message,
+      this.header,
+      this.bar,
+      this.scale,
+      this.cube.element,
+    );
     this.cube.element.hidden = true;
     this.watchClicks();
     new ResizeObserver(() => this.resized()).observe(this.element);
@@ -125,7 +146,11 @@ export class SurfaceView {
 
   pointsChanged(): void {
     const { editor, project } = this.services;
-    this.scene?.setPoints(editor.points.shown().map((point) => ({ at: point.at, color: project.structures.get(point.structure)!.color, selected: editor.points.isSelected(point) })));
+    this.scene?.setPoints(
+      editor.points
+        .shown()
+        .map((point) => ({ at: point.at, color: project.structures.get(point.structure)!.color, selected: editor.points.isSelected(point) })),
+    );
   }
 
   /** Fetches meshes that are newer than those shown. */
@@ -150,7 +175,8 @@ export class SurfaceView {
   }
 
   restyle(): void {
-    for (const { id, color, visible } of this.services.project.structures.values()) this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity);
+    for (const { id, color, visible } of this.services.project.structures.values())
+      this.scene?.style(id, color, visible, id === this.compared?.other ? COMPARED_WITH_OPACITY : this.opacity);
   }
 
   private hasSurface(structure: number): boolean {
@@ -175,7 +201,12 @@ export class SurfaceView {
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
       const { header } = reply;
       const colors = this.compared ? this.distanceColorsOf(reply) : this.bandColorsOf(reply);
-      this.scene?.setMesh(structure, { positions: positionsOf(header, reply.u8("positions")), normals: normalsOf(header, reply.u8("normals")), triangles: trianglesOf(header, reply.u8("triangles")), colors });
+      this.scene?.setMesh(structure, {
+        positions: positionsOf(header, reply.u8("positions")),
+        normals: normalsOf(header, reply.u8("normals")),
+        triangles: trianglesOf(header, reply.u8("triangles")),
+        colors,
+      });
       this.shownRevisions.set(structure, reply.header.revision);
       this.restyle();
     } catch (error) {
@@ -253,7 +284,8 @@ export class SurfaceView {
   /** A click on a mark goes to the place; elsewhere on a surface it is the tool's. */
   private watchClicks(): void {
     let pressed: PointerEvent | null = null;
-    const isStill = (event: PointerEvent) => pressed?.pointerId === event.pointerId && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < CLICK_PIXELS;
+    const isStill = (event: PointerEvent) =>
+      pressed?.pointerId === event.pointerId && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < CLICK_PIXELS;
     this.canvas.addEventListener("pointerdown", (event) => {
       pressed = event.isPrimary && event.button === 0 ? event : null;
     });

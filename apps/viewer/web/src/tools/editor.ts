@@ -104,7 +104,10 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     const { navigation } = this;
     if (!navigation.isAway) return false;
     const own = navigation.ownTime;
-    this.services.tell(`Contours belong to frame ${own + 1}; frame ${navigation.time + 1} is only to be looked at.`, { label: `Go to frame ${own + 1}`, act: () => navigation.setTime(own) });
+    this.services.tell(`Contours belong to frame ${own + 1}; frame ${navigation.time + 1} is only to be looked at.`, {
+      label: `Go to frame ${own + 1}`,
+      act: () => navigation.setTime(own),
+    });
     return true;
   }
 

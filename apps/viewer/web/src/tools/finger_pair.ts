@@ -14,11 +14,14 @@ const PIXELS_PER_SLICE: readonly [number, number] = [4, 24];
  * until one is lifted, so that no slice jumps in the middle of a pinch.
  */
 export function fingerPair(view: ViewName, navigation: Navigation, screenOf: () => Screen | null, a: Point2, b: Point2): PairGesture {
-  const start = middle(a, b); const apart = Math.max(gap(a, b), 1);
+  const start = middle(a, b);
+  const apart = Math.max(gap(a, b), 1);
   let wish: "scroll" | "hold" | null = null;
   let last = { at: start, apart };
   const decide = (at: Point2, spread: number): typeof wish => {
-    const right = Math.abs(at[0] - start[0]); const down = Math.abs(at[1] - start[1]); const parted = Math.abs(spread - apart);
+    const right = Math.abs(at[0] - start[0]);
+    const down = Math.abs(at[1] - start[1]);
+    const parted = Math.abs(spread - apart);
     if (Math.max(right, down, parted) < DECIDE_PIXELS) return null;
     return down > right && down > parted ? "scroll" : "hold";
   };
@@ -38,7 +41,8 @@ export function fingerPair(view: ViewName, navigation: Navigation, screenOf: () 
   return {
     move: (p, q) => {
       const screen = screenOf();
-      const at = middle(p, q); const spread = Math.max(gap(p, q), 1);
+      const at = middle(p, q);
+      const spread = Math.max(gap(p, q), 1);
       wish ??= decide(at, spread);
       if (!screen || wish === null) return;
       if (wish === "scroll") return scroll(screen, at[1]);

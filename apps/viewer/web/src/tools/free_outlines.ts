@@ -57,13 +57,15 @@ export function isHoleOf(line: readonly Vec3[], all: readonly (readonly Vec3[])[
 
 function boxesMeet(a: readonly Point2[], b: readonly Point2[]): boolean {
   return ([0, 1] as const).every((axis) => {
-    const [from, to] = rangeOf(a, axis); const [first, last] = rangeOf(b, axis);
+    const [from, to] = rangeOf(a, axis);
+    const [first, last] = rangeOf(b, axis);
     return from <= last && first <= to;
   });
 }
 
 function rangeOf(points: readonly Point2[], axis: 0 | 1): [number, number] {
-  let least = Infinity; let most = -Infinity;
+  let least = Infinity;
+  let most = -Infinity;
   for (const p of points) {
     least = Math.min(least, p[axis]);
     most = Math.max(most, p[axis]);

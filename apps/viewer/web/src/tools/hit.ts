@@ -5,9 +5,7 @@ import { clippedLine, gap, nearestOnLine, planeOf, toScreen, toWorld, type Point
 import { dot, type Vec3 } from "../geometry/vec";
 import type { Contour, ViewName } from "../net/protocol";
 
-export type ContourHit =
-  | { on: "point"; contour: number; index: number; at: Vec3 }
-  | { on: "line"; contour: number; at: Vec3 };
+export type ContourHit = { on: "point"; contour: number; index: number; at: Vec3 } | { on: "line"; contour: number; at: Vec3 };
 
 const POINT_PIXELS = 8;
 export const LINE_PIXELS = 6;
@@ -20,16 +18,8 @@ export function inView(contour: Contour, screen: Screen, step_mm: number): boole
 }
 
 /** The contour under the pointer; points before lines, the selected contour before others. */
-export function hitContour(
-  contours: readonly Contour[],
-  screen: Screen,
-  step_mm: number,
-  pointer: Point2,
-  selected: number | null,
-): ContourHit | null {
-  const seen = contours
-    .filter((contour) => inView(contour, screen, step_mm))
-    .sort((a, b) => Number(b.id === selected) - Number(a.id === selected));
+export function hitContour(contours: readonly Contour[], screen: Screen, step_mm: number, pointer: Point2, selected: number | null): ContourHit | null {
+  const seen = contours.filter((contour) => inView(contour, screen, step_mm)).sort((a, b) => Number(b.id === selected) - Number(a.id === selected));
   for (const contour of seen) {
     const point = hitPoint(contour, screen, pointer);
     if (point) return point;
@@ -55,7 +45,10 @@ function hitPoint(contour: Contour, screen: Screen, pointer: Point2): ContourHit
 }
 
 function hitLine(contour: Contour, screen: Screen, pointer: Point2): ContourHit | null {
-  const { at, distance } = nearestOnLoop(contour.points.map((p) => toScreen(screen, p)), pointer);
+  const { at, distance } = nearestOnLoop(
+    contour.points.map((p) => toScreen(screen, p)),
+    pointer,
+  );
   return distance > LINE_PIXELS * (screen.reach ?? 1) ? null : { on: "line", contour: contour.id, at: toWorld(screen, at) };
 }
 
@@ -83,9 +76,7 @@ export type LineHit = { on: "turn" | "move"; view: ViewName } | { on: "crosshair
 
 export function hitPlaneLines(lines: readonly PlaneLine[], crosshair: Point2, pointer: Point2, reach = 1): LineHit | null {
   if (gap(crosshair, pointer) < 9 * reach) return { on: "crosshair" };
-  for (const { view, handles } of lines)
-    if (handles.some((handle) => gap(handle, pointer) < POINT_PIXELS * reach)) return { on: "turn", view };
-  for (const { view, ends } of lines)
-    if (nearestOnLine(pointer, ends[0], ends[1]).distance < LINE_PIXELS * reach) return { on: "move", view };
+  for (const { view, handles } of lines) if (handles.some((handle) => gap(handle, pointer) < POINT_PIXELS * reach)) return { on: "turn", view };
+  for (const { view, ends } of lines) if (nearestOnLine(pointer, ends[0], ends[1]).distance < LINE_PIXELS * reach) return { on: "move", view };
   return null;
 }

@@ -10,7 +10,10 @@ export const measureTool: Tool<"measure"> = {
   isMinor: true,
   looksAround: true,
   help: { "Look around": [["D", "measure: drag a distance, click the three points of an angle; Del removes"]] },
-  hint: ({ measuring }) => (measuring.begun ? "Click the angle's vertex, then its other leg · Esc leaves" : "Drag: a distance · click three points: an angle · drag an end · Del removes the last"),
+  hint: ({ measuring }) =>
+    measuring.begun
+      ? "Click the angle's vertex, then its other leg · Esc leaves"
+      : "Drag: a distance · click three points: an angle · drag an end · Del removes the last",
   press: ({ measuring }, place) => measuring.press(place),
   hover: ({ measuring }, { view, screen, step_mm, pointer }) => {
     measuring.follow(screen, pointer);

@@ -66,7 +66,8 @@ export class Outbox {
     const current = sketch && Sketch.from(sketch);
     if (current && !this.isSaved(current)) this.drawing.resume(current);
     this.showNext();
-    if (this.hasUnsaved) this.services.notSaved(this.drawing.sketch ?? this.waiting[0]!, "Before this page was opened the connection to kontur was lost, or it could not save.");
+    if (this.hasUnsaved)
+      this.services.notSaved(this.drawing.sketch ?? this.waiting[0]!, "Before this page was opened the connection to kontur was lost, or it could not save.");
   }
 
   /** `line` is what is seen of the sketch meanwhile. */

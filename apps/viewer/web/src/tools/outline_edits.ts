@@ -35,7 +35,8 @@ export class OutlineEdits extends Edits {
     const { outline, place } = found;
     const before = place.index + 1;
     const points = [...outline.points.slice(0, before), toWorld(screen, place.at), ...outline.points.slice(before)];
-    const start = toWorld(screen, pointer); const reach = pullReach(points);
+    const start = toWorld(screen, pointer);
+    const reach = pullReach(points);
     const contourAt = (at: Point2) => this.contour(screen, outline, pulled(points, before, sub(toWorld(screen, at), start), reach), "pulled");
     let isDrag = false;
     return {
@@ -64,7 +65,12 @@ export class OutlineEdits extends Edits {
     const at = pointer ?? [screen.width / 2, screen.height / 2];
     const active = this.project.activeStructure;
     const free = this.free(view, screen);
-    const found = this.below(view, screen, at) ?? nearestOutline(free.filter(({ structure }) => structure === active?.id), at);
+    const found =
+      this.below(view, screen, at) ??
+      nearestOutline(
+        free.filter(({ structure }) => structure === active?.id),
+        at,
+      );
     if (found) return this.add(this.contour(screen, found.outline, found.outline.points, "adopted"));
     const name = active?.name ?? "The structure";
     this.services.tell(`${name} has no outline on this slice that is not drawn already. Point at a slice where its computed outline shows, and press A again.`);

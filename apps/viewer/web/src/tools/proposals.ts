@@ -60,14 +60,16 @@ export class Proposals extends Emitter<"proposal"> {
   async suggest(): Promise<ViewName | null> {
     const { project, navigation, services, drawing } = this;
     const structure = project.activeStructure;
-    if (drawing.sketch) return services.tell("Close the contour that you are drawing first (Enter), or leave it (Esc)."), null;
+    if (drawing.sketch) return (services.tell("Close the contour that you are drawing first (Enter), or leave it (Esc)."), null);
     if (!structure || isHidden(structure.id, project, services)) return null;
-    if (!project.surfaces.get(structure.id)?.uncertainty) return services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null;
+    if (!project.surfaces.get(structure.id)?.uncertainty)
+      return (services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null);
     if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };
     try {
       const { planes } = await services.call("suggest", { structure: structure.id, skip: this.skipped.planes });
       const [best] = planes;
-      if (!best) return services.tell(`No other plane is suggested for ${structure.name}: it needs a finished surface, and planes that are not drawn yet.`), null;
+      if (!best)
+        return (services.tell(`No other plane is suggested for ${structure.name}: it needs a finished surface, and planes that are not drawn yet.`), null);
       this.skipped.planes.push(best.plane);
       const view = VIEW_NAMES.find((name) => areParallel(navigation.cameras[name].axes, best.plane)) ?? "oblique";
       this.drop();

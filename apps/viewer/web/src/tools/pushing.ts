@@ -18,7 +18,8 @@ import type { Place } from "./place";
 import type { EditorServices } from "./services";
 import { isHidden } from "./sight";
 
-const LEAST_PIXELS = 4; const MOST_PIXELS = 200;
+const LEAST_PIXELS = 4;
+const MOST_PIXELS = 200;
 const NEARLY_HALF = 0.49; // of a line: the server redraws the shorter part
 
 /** What the brush works on, and what of it is drawn at its end. */
@@ -55,7 +56,8 @@ export class Pushing {
       return null;
     }
     const before: readonly BrushPoint[] = target.points.map((p, original) => ({ at: toScreen(screen, p), original }));
-    let line = before; let last = pointer;
+    let line = before;
+    let last = pointer;
     const brush = (at: Point2) => {
       this.place = { view, at };
       line = brushed(line, last, at, this.radius);
@@ -93,12 +95,19 @@ export class Pushing {
     const drawn = this.project.shownContours().filter((contour) => contour.structure === active && inView(contour, screen, step_mm));
     const computed = this.outlines.free(view, screen).filter(({ structure }) => structure === active);
     const targets = [...drawn.map((contour) => this.ofContour(screen, contour)), ...computed.map((outline) => this.ofOutline(screen, outline))];
-    const away = targets.map(({ points }) => nearestOnLoop(points.map((p) => toScreen(screen, p)), pointer).distance);
+    const away = targets.map(
+      ({ points }) =>
+        nearestOnLoop(
+          points.map((p) => toScreen(screen, p)),
+          pointer,
+        ).distance,
+    );
     return targets[away.indexOf(Math.min(...away))] ?? null;
   }
 
   private ofContour(screen: Screen, contour: Contour): Target {
-    const edit = (line: readonly BrushPoint[]): Edit => this.redraw(contour, line, (part) => this.world(screen, contour, part).map((p) => projected(contour.plane, p)));
+    const edit = (line: readonly BrushPoint[]): Edit =>
+      this.redraw(contour, line, (part) => this.world(screen, contour, part).map((p) => projected(contour.plane, p)));
     return {
       points: contour.points,
       draft: (line) => this.drafts.send(edit(line)),

@@ -15,7 +15,8 @@ export function crossingNear(points: readonly Vec3[], plane: Plane, at: Vec3): V
   let nearest: Vec3 | null = null;
   points.forEach((p, i) => {
     const q = points[(i + 1) % points.length]!;
-    const a = heightOver(plane, p); const b = heightOver(plane, q);
+    const a = heightOver(plane, p);
+    const b = heightOver(plane, q);
     if (a > 0 === b > 0) return;
     const crossing = mix(p, q, a / (a - b));
     if (!nearest || distance(crossing, at) < distance(nearest, at)) nearest = crossing;

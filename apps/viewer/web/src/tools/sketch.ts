@@ -107,7 +107,8 @@ export class Sketch {
 
   /** A stretch drawn by hand: from the last point, or where the hand began, to where it ended. */
   drawFree(path: readonly Vec3[]): void {
-    const start = path[0]; const end = path.at(-1);
+    const start = path[0];
+    const end = path.at(-1);
     if (!start || !end || path.length < 2) return;
     if (this.isEmpty) this.place(start);
     const from = this.last!;
@@ -154,7 +155,16 @@ export class Sketch {
   saved(): SavedSketch {
     const { plane, structure, kind, isUnsaved, redraws, hole, origin } = this;
     const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
-    return { plane, structure, kind, points, ...(isUnsaved && { isUnsaved }), ...(redraws !== undefined && { redraws }), ...(hole && { hole }), ...(origin !== "drawn" && { origin }) };
+    return {
+      plane,
+      structure,
+      kind,
+      points,
+      ...(isUnsaved && { isUnsaved }),
+      ...(redraws !== undefined && { redraws }),
+      ...(hole && { hole }),
+      ...(origin !== "drawn" && { origin }),
+    };
   }
 
   static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false, origin = "drawn" }: SavedSketch): Sketch {

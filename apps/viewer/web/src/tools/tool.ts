@@ -30,7 +30,14 @@ export interface ToolContext {
 }
 
 /** What the pointer would take. */
-export type Hover = { contour: ContourHit; view: ViewName } | { line: LineHit; view: ViewName } | { outline: OutlineHit; view: ViewName } | { point: PointOfSurface; view: ViewName } | { brush: Point2; view: ViewName } | { measure: boolean; at: Point2; view: ViewName } | null;
+export type Hover =
+  | { contour: ContourHit; view: ViewName }
+  | { line: LineHit; view: ViewName }
+  | { outline: OutlineHit; view: ViewName }
+  | { point: PointOfSurface; view: ViewName }
+  | { brush: Point2; view: ViewName }
+  | { measure: boolean; at: Point2; view: ViewName }
+  | null;
 
 export const HELP_SECTIONS = ["Look around", "Draw", "Edit", "3D", "Touch"] as const;
 export type HelpSection = (typeof HELP_SECTIONS)[number];

@@ -13,7 +13,13 @@ export function appearanceButton(appearance: Appearance, theme: Theme): HTMLElem
     ...Object.values(fields).map(({ label }) => label),
     themeField(theme),
   );
-  const opener = button({ icon: ICONS.appearance, title: "Filling of outlines, width of lines, colours of the page", class: "icon-button", test: "appearance", click: () => undefined });
+  const opener = button({
+    icon: ICONS.appearance,
+    title: "Filling of outlines, width of lines, colours of the page",
+    class: "icon-button",
+    test: "appearance",
+    click: () => undefined,
+  });
   opener.popoverTargetElement = sheet;
   appearance.on(["changed"], () => {
     fields.fill.input.value = String(appearance.fill);

@@ -14,12 +14,31 @@ export interface BorderServices {
 /** Whether structures share borders, which rules were chosen for the user, and a way to others. */
 export class BorderPanel {
   readonly element = el("div", { class: "borders", hidden: true });
-  private readonly shared = el("input", { type: "checkbox", "data-test": "share-borders", on: { change: () => this.services.call("borders.set", { shared: this.shared.checked }) } });
-  private readonly rules = button({ label: "Rules…", title: "How pairs of structures lie to each other: exclusive, inside, may overlap", class: "choice", test: "border-rules", click: () => openBorderRules(this.services) });
+  private readonly shared = el("input", {
+    type: "checkbox",
+    "data-test": "share-borders",
+    on: { change: () => this.services.call("borders.set", { shared: this.shared.checked }) },
+  });
+  private readonly rules = button({
+    label: "Rules…",
+    title: "How pairs of structures lie to each other: exclusive, inside, may overlap",
+    class: "choice",
+    test: "border-rules",
+    click: () => openBorderRules(this.services),
+  });
   private readonly sentence = el("p", { class: "fine", role: "status", "data-test": "border-sentence" });
 
   constructor(private readonly services: BorderServices) {
-    const label = el("label", { class: "check", title: "Structures share borders: where they exclude each other they have one border, without gap or overlap: a line that is moved moves the neighbour's" }, this.shared, "Structures share borders");
+    const label = el(
+      "label",
+      {
+        class: "check",
+        title:
+          "Structures share borders: where they exclude each other they have one border, without gap or overlap: a line that is moved moves the neighbour's",
+      },
+      this.shared,
+      "Structures share borders",
+    );
     this.element.append(el("div", { class: "borders-row" }, label, this.rules), this.sentence);
     services.project.on(["structures", "borders"], () => this.update());
   }
@@ -47,13 +66,23 @@ function openBorderRules({ project, call }: BorderServices): void {
   };
   const off = project.on(["structures", "borders"], update);
   update();
-  const dialog = openDialog("How structures lie to each other", "border-rules-dialog", rows, el("p", { class: "dialog-status" }, "Without a rule, what the surfaces have in common decides: more than 80 % of the smaller one lies inside, from 25 % on they may overlap, else they exclude each other. Exports follow the same rules."));
+  const dialog = openDialog(
+    "How structures lie to each other",
+    "border-rules-dialog",
+    rows,
+    el(
+      "p",
+      { class: "dialog-status" },
+      "Without a rule, what the surfaces have in common decides: more than 80 % of the smaller one lies inside, from 25 % on they may overlap, else they exclude each other. Exports follow the same rules.",
+    ),
+  );
   dialog.addEventListener("close", off);
 }
 
 function row(project: Project, call: BorderServices["call"], a: number, b: number): HTMLElement {
   const { borders, borderPairs, structures } = project;
-  const found = foundAbout(borderPairs, a, b); const given = ruleAbout(borders, a, b);
+  const found = foundAbout(borderPairs, a, b);
+  const given = ruleAbout(borders, a, b);
   const words = (rule: BorderRule) => inWords(rule, structures);
   const choices: Choice[] = [
     [found ? `As found: ${words(found)} (${percent(found.share)} in common)` : "No rule", "auto", a, b],
@@ -62,7 +91,8 @@ function row(project: Project, call: BorderServices["call"], a: number, b: numbe
     [words({ first: b, second: a, relation: "inside" }), "inside", b, a],
     [words({ first: a, second: b, relation: "overlap" }), "overlap", a, b],
   ];
-  const isChosen = ([, relation, first]: Choice) => (given ? relation === given.relation && (relation !== "inside" || first === given.first) : relation === "auto");
+  const isChosen = ([, relation, first]: Choice) =>
+    given ? relation === given.relation && (relation !== "inside" || first === given.first) : relation === "auto";
   const names = `${structures.get(a)!.name} and ${structures.get(b)!.name}`;
   const select = el("select", {
     "aria-label": names,

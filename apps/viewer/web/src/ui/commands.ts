@@ -56,7 +56,10 @@ const KEY_ZOOM = 1.2;
 const ONE_FRAME = "The image has one frame.";
 
 const scroll = (steps: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.scroll(focused(), steps) });
-const zoom = (factor: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.zoomAt(focused(), navigation.crosshair, factor) });
+const zoom = (factor: number, ...keys: string[]): Command => ({
+  keys,
+  run: ({ navigation, focused }) => navigation.zoomAt(focused(), navigation.crosshair, factor),
+});
 
 /** All that keys do but those that are held. The `?` sheet shows the rows of `help` in this order. */
 export const COMMANDS: readonly Command[] = [
@@ -99,7 +102,12 @@ export const COMMANDS: readonly Command[] = [
   },
   { keys: [","], run: ({ cine, tell }) => void (cine.step(-1) || tell(ONE_FRAME)) },
   { keys: ["Home"], help: ["Look around", "Home", "all views back to where they began"], run: ({ navigation }) => navigation.resetAll() },
-  { keys: ["Enter"], edits: true, help: ["Draw", "Click the first point, double click, Enter", "close the contour"], run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()) },
+  {
+    keys: ["Enter"],
+    edits: true,
+    help: ["Draw", "Click the first point, double click, Enter", "close the contour"],
+    run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()),
+  },
   {
     keys: ["Backspace"],
     help: ["Draw", "Backspace", "remove the last point"],

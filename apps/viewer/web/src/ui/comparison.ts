@@ -31,8 +31,10 @@ export function comparison(http: Http, structures: readonly Named[], signal: Abo
     select.append(...structures.map(({ structure, name }, i) => el("option", { value: String(structure), selected: i === chosen }, name)));
     return select;
   };
-  const first = choice(0, "The first to compare", "compare-first"); const second = choice(1, "The second to compare", "compare-second");
-  const status = el("p", { class: "dialog-status", role: "status" }); const table = el("table", { "data-test": "comparison" });
+  const first = choice(0, "The first to compare", "compare-first");
+  const second = choice(1, "The second to compare", "compare-second");
+  const status = el("p", { class: "dialog-status", role: "status" });
+  const table = el("table", { "data-test": "comparison" });
   let asked = 0;
   const compare = async () => {
     const number = ++asked;
@@ -43,14 +45,27 @@ export function comparison(http: Http, structures: readonly Named[], signal: Abo
       if (number !== asked) return; // others have been chosen meanwhile
       const names = [first, second].map((select) => select.selectedOptions[0]!.text) as [string, string];
       table.replaceChildren(...rowsOf(found, names).map(([head, text]) => el("tr", {}, el("th", { scope: "row" }, head), el("td", {}, text))));
-      status.textContent = "Of the masks on the image's grid, each fitted by itself; distances between the centres of their outermost voxels, in both directions.";
+      status.textContent =
+        "Of the masks on the image's grid, each fitted by itself; distances between the centres of their outermost voxels, in both directions.";
     } catch (error) {
       if (number === asked) status.textContent = error instanceof Error ? error.message : String(error);
     }
   };
   const go = button({ label: "Compare", title: "Fit both and compare their masks", class: "choice", test: "compare", click: () => void compare() });
-  const map = button({ label: "Show distances in 3D", title: "Colour the first one's surface by how far it is from the second's", class: "choice", test: "compare-map", click: () => showDistances(Number(first.value), Number(second.value)) });
+  const map = button({
+    label: "Show distances in 3D",
+    title: "Colour the first one's surface by how far it is from the second's",
+    class: "choice",
+    test: "compare-map",
+    click: () => showDistances(Number(first.value), Number(second.value)),
+  });
   const same = () => void (map.disabled = first.value === second.value);
   for (const select of [first, second]) select.addEventListener("change", same);
-  return el("section", { class: "comparison", "aria-label": "Compare two structures" }, el("div", { class: "field" }, "Compare", first, "with", second, go, map), table, status);
+  return el(
+    "section",
+    { class: "comparison", "aria-label": "Compare two structures" },
+    el("div", { class: "field" }, "Compare", first, "with", second, go, map),
+    table,
+    status,
+  );
 }

@@ -33,9 +33,29 @@ export class ContourActions {
     const hole = el("input", { type: "checkbox", checked: contour.hole, on: { change: () => call("contour.set", { id: contour.id, hole: hole.checked }) } });
     return [
       el("span", {}, "Propose on"),
-      button({ icon: ICONS.copyDown, label: "next", title: "Propose the outline on the next slice (C)", class: "tool", test: "propose-next", click: () => propose(1) }),
-      button({ icon: ICONS.copyUp, label: "previous", title: "Propose the outline on the previous slice (Shift+C)", class: "tool", test: "propose-previous", click: () => propose(-1) }),
-      button({ icon: ICONS.remove, label: "Delete", title: "Delete the contour, or its selected point (Del)", class: "tool", click: () => editor.edits.deleteSelected() }),
+      button({
+        icon: ICONS.copyDown,
+        label: "next",
+        title: "Propose the outline on the next slice (C)",
+        class: "tool",
+        test: "propose-next",
+        click: () => propose(1),
+      }),
+      button({
+        icon: ICONS.copyUp,
+        label: "previous",
+        title: "Propose the outline on the previous slice (Shift+C)",
+        class: "tool",
+        test: "propose-previous",
+        click: () => propose(-1),
+      }),
+      button({
+        icon: ICONS.remove,
+        label: "Delete",
+        title: "Delete the contour, or its selected point (Del)",
+        class: "tool",
+        click: () => editor.edits.deleteSelected(),
+      }),
       el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       this.owner([contour], "The structure that this contour belongs to"),
     ];
@@ -47,8 +67,22 @@ export class ContourActions {
     const isAnyShown = marked.some(({ visible }) => visible);
     return [
       el("span", { "data-test": "marked" }, `${marked.length} contours`),
-      button({ icon: isAnyShown ? ICONS.eyeOff : ICONS.eye, label: isAnyShown ? "Hide" : "Show", title: isAnyShown ? "Hide these contours" : "Show these contours", class: "tool", test: "marked-visible", click: () => call("contour.set", { ids, visible: !isAnyShown }) }),
-      button({ icon: ICONS.remove, label: "Delete", title: "Delete these contours (Del)", class: "tool", test: "marked-delete", click: () => call("contour.remove", { ids }) }),
+      button({
+        icon: isAnyShown ? ICONS.eyeOff : ICONS.eye,
+        label: isAnyShown ? "Hide" : "Show",
+        title: isAnyShown ? "Hide these contours" : "Show these contours",
+        class: "tool",
+        test: "marked-visible",
+        click: () => call("contour.set", { ids, visible: !isAnyShown }),
+      }),
+      button({
+        icon: ICONS.remove,
+        label: "Delete",
+        title: "Delete these contours (Del)",
+        class: "tool",
+        test: "marked-delete",
+        click: () => call("contour.remove", { ids }),
+      }),
       this.owner(marked, "Move these contours to a structure"),
     ];
   }

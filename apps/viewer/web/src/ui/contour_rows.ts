@@ -54,9 +54,21 @@ export class ContourRows {
       this.refresh();
     };
     const title = view ? this.services.navigation.title(view) : "Other planes";
-    const heading = button({ label: title, title: isFolded ? "List these contours" : "Hide these contours", class: "group-title", part: `group-${key}`, click: fold });
+    const heading = button({
+      label: title,
+      title: isFolded ? "List these contours" : "Hide these contours",
+      class: "group-title",
+      part: `group-${key}`,
+      click: fold,
+    });
     heading.setAttribute("aria-expanded", String(!isFolded));
-    const all = button({ label: String(members.length), title: `Mark the ${members.length} contours of ${title}`, class: "count", part: `mark-${key}`, click: () => this.services.project.mark(members.map(({ id }) => id)) });
+    const all = button({
+      label: String(members.length),
+      title: `Mark the ${members.length} contours of ${title}`,
+      class: "count",
+      part: `mark-${key}`,
+      click: () => this.services.project.mark(members.map(({ id }) => id)),
+    });
     return el("div", { class: "contour-group" }, heading, all);
   }
 
@@ -78,14 +90,37 @@ export class ContourRows {
     };
     return el(
       "div",
-      { class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"), "data-contour": contour.id, "data-kind": contour.kind, title: `${kind}; click to show it, Ctrl + click or Shift + click to mark several`, on: { click: choose } },
+      {
+        class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"),
+        "data-contour": contour.id,
+        "data-kind": contour.kind,
+        title: `${kind}; click to show it, Ctrl + click or Shift + click to mark several`,
+        on: { click: choose },
+      },
       dot,
-      el("button", { type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" }, el("span", { class: "contour-view" }, name ? this.services.navigation.title(name) : "Oblique"), " ", el("span", { class: "contour-slice", title: "Slice" }, slice), " ", el("span", { class: "contour-position" }, position)),
+      el(
+        "button",
+        { type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" },
+        el("span", { class: "contour-view" }, name ? this.services.navigation.title(name) : "Oblique"),
+        " ",
+        el("span", { class: "contour-slice", title: "Slice" }, slice),
+        " ",
+        el("span", { class: "contour-position" }, position),
+      ),
       contour.hole ? el("span", { class: "flag", title: "A hole" }, "hole") : null,
-      contour.self_crossings.length > 0 ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself") : null,
+      contour.self_crossings.length > 0
+        ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself")
+        : null,
       el("span", { class: "contour-points" }, points),
       eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
-      button({ icon: ICONS.remove, title: "Delete this contour", class: "icon-button small", test: "delete-contour", part: "remove", click: () => call("contour.remove", { ids: [contour.id] }) }),
+      button({
+        icon: ICONS.remove,
+        title: "Delete this contour",
+        class: "icon-button small",
+        test: "delete-contour",
+        part: "remove",
+        click: () => call("contour.remove", { ids: [contour.id] }),
+      }),
     );
   }
 

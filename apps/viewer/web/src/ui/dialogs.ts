@@ -111,7 +111,12 @@ export function openExport({ http, project, editor, hasDicom }: ExportServices):
     return element;
   };
   const groups = EXPORTS.map(([title, files]) =>
-    el("div", { class: "export-group" }, el("h3", {}, title), el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, chosen)))),
+    el(
+      "div",
+      { class: "export-group" },
+      el("h3", {}, title),
+      el("div", { class: "choices" }, ...files.map(([name, label, extension]) => entry(name, label, extension, chosen))),
+    ),
   );
   const files = [...OF_ALL, ...(hasDicom() ? OF_ALL_IN_DICOM : [])];
   const all = el(
@@ -124,9 +129,22 @@ export function openExport({ http, project, editor, hasDicom }: ExportServices):
     "div",
     { class: "export-group" },
     el("h3", {}, "Project with its history"),
-    el("div", { class: "choices" }, entry("project.kontur", "kontur project", ".kontur", () => null)),
+    el(
+      "div",
+      { class: "choices" },
+      entry("project.kontur", "kontur project", ".kontur", () => null),
+    ),
   );
-  const dialog = openDialog("Export", "export-dialog", ...missing(editor), all, el("label", { class: "field" }, "One structure", structure), ...groups, whole, status);
+  const dialog = openDialog(
+    "Export",
+    "export-dialog",
+    ...missing(editor),
+    all,
+    el("label", { class: "field" }, "One structure", structure),
+    ...groups,
+    whole,
+    status,
+  );
   dialog.addEventListener("close", () => running?.abort());
 }
 

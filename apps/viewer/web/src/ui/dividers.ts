@@ -67,7 +67,9 @@ export class Dividers {
   /** Slices share what the 3D view leaves them. */
   private laySlices(): void {
     const { style } = this.stage;
-    const slices = this.sizes.share("surface"); const left = this.sizes.share("columns"); const upper = this.sizes.share("rows");
+    const slices = this.sizes.share("surface");
+    const left = this.sizes.share("columns");
+    const upper = this.sizes.share("rows");
     const tracks = { left: slices * left, middle: slices * (1 - left), upper: slices * upper, lower: slices * (1 - upper) };
     for (const [name, share] of Object.entries(tracks)) style.setProperty(`--${name}`, `${share}fr`);
   }

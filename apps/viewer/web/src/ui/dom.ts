@@ -75,5 +75,11 @@ export function button(options: ButtonOptions): HTMLButtonElement {
 
 /** Shows or hides something. */
 export function eye(visible: boolean, click: () => void): HTMLButtonElement {
-  return button({ icon: visible ? ICONS.eye : ICONS.eyeOff, title: visible ? "Hide" : "Show", class: "icon-button small" + (visible ? "" : " dimmed"), part: "eye", click });
+  return button({
+    icon: visible ? ICONS.eye : ICONS.eyeOff,
+    title: visible ? "Hide" : "Show",
+    class: "icon-button small" + (visible ? "" : " dimmed"),
+    part: "eye",
+    click,
+  });
 }

@@ -11,7 +11,13 @@ export function emptyPlaneRows({ id, empty_planes = [] }: Structure, { navigatio
   return empty_planes.map((plane, i) => {
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[placeOf({ plane }, navigation).view ?? "oblique"];
-    const go = button({ label: contourName({ plane }, navigation), title: "Go to this plane, which shows nothing of the structure", class: "contour-plane", part: `empty-${i}`, click: () => show({ plane }) });
+    const go = button({
+      label: contourName({ plane }, navigation),
+      title: "Go to this plane, which shows nothing of the structure",
+      class: "contour-plane",
+      part: `empty-${i}`,
+      click: () => show({ plane }),
+    });
     const forget = () => call("structure.set", { id, empty_planes: empty_planes.filter((other) => other !== plane) });
     const remove = button({ icon: ICONS.remove, title: "Forget that nothing is here", class: "icon-button small", part: `forget-${i}`, click: forget });
     return el("div", { class: "contour-row", "data-test": "empty-plane" }, dot, go, el("span", { class: "contour-points" }, "nothing here"), remove);

@@ -36,5 +36,10 @@ export function openHelp(version: string): void {
   const columns = HELP_SECTIONS.map((section) =>
     el("section", {}, el("h3", {}, section), el("dl", {}, ...helpRows(section).flatMap(([keys, what]) => [el("dt", {}, keys), el("dd", {}, what)]))),
   );
-  openDialog("Mouse and keyboard", "help-dialog", el("div", { class: "help-columns" }, ...columns), el("p", { class: "fine" }, `kontur ${version}. Research software, not a medical device.`));
+  openDialog(
+    "Mouse and keyboard",
+    "help-dialog",
+    el("div", { class: "help-columns" }, ...columns),
+    el("p", { class: "fine" }, `kontur ${version}. Research software, not a medical device.`),
+  );
 }

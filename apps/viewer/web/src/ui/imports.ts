@@ -24,7 +24,11 @@ export function openImport(services: ImportServices): void {
   const dialog = openDialog(
     "Import",
     "import-dialog",
-    el("p", {}, "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH) is traced into contours. You can also drop a file onto the page."),
+    el(
+      "p",
+      {},
+      "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH) is traced into contours. You can also drop a file onto the page.",
+    ),
     input,
   );
 }

@@ -20,7 +20,8 @@ export class Keyboard {
   private down(event: KeyboardEvent): void {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
     if (event.key === "Escape" && document.querySelector(":popover-open")) return; // which it closes
-    const presses = (event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ")) || (isCheckbox(event.target) && event.key === " ");
+    const presses =
+      (event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ")) || (isCheckbox(event.target) && event.key === " ");
     const { drawing, proposals } = this.services.editor;
     if (presses && !drawing.sketch && !(event.key === "Enter" && proposals.shown)) return;
     if (this.hold(event) || this.obey(event)) event.preventDefault();

@@ -41,7 +41,13 @@ export class Panel {
     this.list = new StructureList(services, () => this.update());
     this.actions = new ContourActions(services);
     const add = button({ icon: ICONS.add, title: "Add a structure", class: "icon-button small", test: "add-structure", click: services.addStructure });
-    const measure = button({ icon: ICONS.statistics, title: "Statistics: volume, surface, diameters, values of all structures", class: "icon-button small", test: "statistics-open", click: services.openStatistics });
+    const measure = button({
+      icon: ICONS.statistics,
+      title: "Statistics: volume, surface, diameters, values of all structures",
+      class: "icon-button small",
+      test: "statistics-open",
+      click: services.openStatistics,
+    });
     this.element.append(
       services.identity,
       services.time,

@@ -38,21 +38,45 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   if (guess) entries.push(el("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
   if (surface.uncertainty) {
     entries.push(el("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
-    entries.push(button({ label: "Where to draw next", title: "Go to where a contour tells most, with the expected outline as a proposal (G)", class: "choice", test: "suggest", click: services.suggest }));
-    if (services.nothingHere) entries.push(button({ label: "Nothing here", title: "The plane of the proposal shows nothing of the structure (E)", class: "choice", test: "nothing-here", click: services.nothingHere }));
+    entries.push(
+      button({
+        label: "Where to draw next",
+        title: "Go to where a contour tells most, with the expected outline as a proposal (G)",
+        class: "choice",
+        test: "suggest",
+        click: services.suggest,
+      }),
+    );
+    if (services.nothingHere)
+      entries.push(
+        button({
+          label: "Nothing here",
+          title: "The plane of the proposal shows nothing of the structure (E)",
+          class: "choice",
+          test: "nothing-here",
+          click: services.nothingHere,
+        }),
+      );
   }
   if (surface.stage === "asking") entries.push(el("p", { class: "image-sentence", "data-test": "image-sentence" }, "The image is being asked …"));
   else if (surface.image) entries.push(el("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(surface.image.text)));
   const { residual } = surface;
   if (residual) {
     entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
-    entries.push(place(`largest residual ${residual.max_mm.toFixed(2)} mm`, "Go to where the surface is farthest from a contour", "residual", () => services.goTo(residual.at)));
+    entries.push(
+      place(`largest residual ${residual.max_mm.toFixed(2)} mm`, "Go to where the surface is farthest from a contour", "residual", () =>
+        services.goTo(residual.at),
+      ),
+    );
   }
   return [...entries, ...troubles(surface, contours, services)];
 }
 
 function troubles({ conflicts = [], warnings = [] }: Surface, contours: Contour[], services: QualityServices): HTMLElement[] {
-  return [...warnings.map((text) => el("p", { class: "warning-text" }, text)), ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services))];
+  return [
+    ...warnings.map((text) => el("p", { class: "warning-text" }, text)),
+    ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services)),
+  ];
 }
 
 /** Which two contradict each other, by how much, and a button for each to bend the other one to it. */
@@ -65,7 +89,15 @@ function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, go
   const keep = (kept: Contour, yielding: Contour) => {
     const pull = settled(conflict, kept, yielding);
     const name = contourName(kept, navigation);
-    return pull && button({ label: `Keep ${name}`, title: `Keep ${name}: bend ${contourName(yielding, navigation)} to where it crosses`, class: "choice", click: () => call("contour.pull", { ...pull }) });
+    return (
+      pull &&
+      button({
+        label: `Keep ${name}`,
+        title: `Keep ${name}: bend ${contourName(yielding, navigation)} to where it crosses`,
+        class: "choice",
+        click: () => call("contour.pull", { ...pull }),
+      })
+    );
   };
   const go = place(`${contourName(a, navigation)} and ${contourName(b, navigation)} disagree by ${by}`, title, "conflict", () => goTo(at));
   return el("div", { class: "conflict" }, go, keep(a, b), keep(b, a));
@@ -77,7 +109,14 @@ function selfCrossings(contours: Contour[], services: QualityServices): HTMLElem
 }
 
 function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing", click: () => void): HTMLElement {
-  return button({ label, icon: kind === "residual" ? ICONS.lines : ICONS.warning, title, class: kind === "residual" ? "place" : "place warning", test: kind, click });
+  return button({
+    label,
+    icon: kind === "residual" ? ICONS.lines : ICONS.warning,
+    title,
+    class: kind === "residual" ? "place" : "place warning",
+    test: kind,
+    click,
+  });
 }
 
 const asSentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;

@@ -21,11 +21,25 @@ export function keepSliderKeys(event: KeyboardEvent): void {
 export class SecondImageCard {
   readonly element = el("section", { class: "second-card", "aria-label": "Second image", "data-test": "second-image", hidden: true });
   private readonly title = el("strong", {});
-  private readonly fold = button({ label: "", title: "Fold the card of the second image", class: "fold", test: "fold-second", click: () => this.second.toggleFolded() });
+  private readonly fold = button({
+    label: "",
+    title: "Fold the card of the second image",
+    class: "fold",
+    test: "fold-second",
+    click: () => this.second.toggleFolded(),
+  });
   private readonly lines = el("div", { class: "second-lines" });
   private readonly look: HTMLElement[];
   private readonly choices = new Map<Shown, HTMLButtonElement>();
-  private readonly opacity = el("input", { type: "range", min: "0", max: "1", step: "0.01", "aria-label": "Opacity of the second image", "data-test": "second-opacity", on: { input: () => this.second.setOpacity(this.opacity.valueAsNumber), keydown: keepSliderKeys } });
+  private readonly opacity = el("input", {
+    type: "range",
+    min: "0",
+    max: "1",
+    step: "0.01",
+    "aria-label": "Opacity of the second image",
+    "data-test": "second-opacity",
+    on: { input: () => this.second.setOpacity(this.opacity.valueAsNumber), keydown: keepSliderKeys },
+  });
   private readonly percent = el("output", { class: "second-percent" });
   private readonly colors = el("select", { title: "Colours of the second image", "data-test": "second-colors", on: { change: () => this.chooseColors() } });
   private readonly presets = el("select", { title: "Windows of the second image", "data-test": "second-presets", on: { change: () => this.choosePreset() } });
@@ -39,11 +53,21 @@ export class SecondImageCard {
     private readonly second: SecondImage,
     remove: () => void,
   ) {
-    const titles: Record<Shown, string> = { first: "The project's own image alone (O)", both: "The second image over the first (O)", second: "The second image alone: what you draw follows its edges (I)" };
+    const titles: Record<Shown, string> = {
+      first: "The project's own image alone (O)",
+      both: "The second image over the first (O)",
+      second: "The second image alone: what you draw follows its edges (I)",
+    };
     for (const shown of ["first", "both", "second"] as const)
       this.choices.set(shown, button({ label: shown, title: titles[shown], class: "tool", test: `show-${shown}`, click: () => second.show(shown) }));
     for (const { name, label } of COLOR_MAPS) this.colors.append(el("option", { value: name }, label));
-    const close = button({ icon: ICONS.close, title: "Remove the second image from the project", class: "icon-button small", test: "remove-image", click: remove });
+    const close = button({
+      icon: ICONS.close,
+      title: "Remove the second image from the project",
+      class: "icon-button small",
+      test: "remove-image",
+      click: remove,
+    });
     this.look = [
       el("label", { class: "second-row" }, "Opacity", this.opacity, this.percent),
       el("div", { class: "second-row" }, this.colors, this.presets),
@@ -71,14 +95,23 @@ export class SecondImageCard {
     this.element.hidden = info === null;
     if (!info) return;
     const { identity, title, notes } = info;
-    const what = [identity.modality, identity.series_number && `series ${identity.series_number}`, identity.series_description || (identity.modality === "" && title)].filter(Boolean).join(" · ");
+    const what = [
+      identity.modality,
+      identity.series_number && `series ${identity.series_number}`,
+      identity.series_description || (identity.modality === "" && title),
+    ]
+      .filter(Boolean)
+      .join(" · ");
     this.title.textContent = what;
     this.title.title = title;
     this.lines.replaceChildren(...[sizeLine(info), ...notes].map((line) => el("span", { title: line }, line)));
     const name = shortName(identity, "Second");
     const labels: Record<Shown, string> = { first: this.first, both: "Both", second: name === this.first ? "Second" : name };
     for (const [shown, choice] of this.choices) choice.querySelector("span")!.textContent = labels[shown];
-    this.presets.replaceChildren(...info.presets.map((preset, i) => el("option", { value: String(i) }, preset.name)), el("option", { value: "", hidden: true }, "Custom"));
+    this.presets.replaceChildren(
+      ...info.presets.map((preset, i) => el("option", { value: String(i) }, preset.name)),
+      el("option", { value: "", hidden: true }, "Custom"),
+    );
     this.unit.textContent = info.unit;
     this.update();
   }
@@ -104,14 +137,19 @@ export class SecondImageCard {
   }
 
   private field(title: string, test: string): HTMLInputElement {
-    const field = windowField(title, () => this.typeWindow(), () => this.update());
+    const field = windowField(
+      title,
+      () => this.typeWindow(),
+      () => this.update(),
+    );
     field.setAttribute("aria-label", title);
     field.dataset["test"] = test;
     return field;
   }
 
   private typeWindow(): void {
-    const low = this.low.valueAsNumber; const high = this.high.valueAsNumber;
+    const low = this.low.valueAsNumber;
+    const high = this.high.valueAsNumber;
     if (low < high) this.second.setWindow({ center: (low + high) / 2, width: high - low });
   }
 

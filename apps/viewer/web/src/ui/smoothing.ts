@@ -43,7 +43,16 @@ export class SmoothingSlider {
       },
     },
   });
-  readonly element = el("label", { class: "smoothing", hidden: true, title: "How closely the surface follows the drawn lines: exactly on the left, smooth on the right, where a hand's wobble is not followed" }, this.input, this.words);
+  readonly element = el(
+    "label",
+    {
+      class: "smoothing",
+      hidden: true,
+      title: "How closely the surface follows the drawn lines: exactly on the left, smooth on the right, where a hand's wobble is not followed",
+    },
+    this.input,
+    this.words,
+  );
 
   constructor(private readonly services: SmoothingServices) {
     services.project.on(["contours", "structures", "selection"], () => this.update());

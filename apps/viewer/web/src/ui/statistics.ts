@@ -19,7 +19,10 @@ const withUnit = (head: string, unit: string): string => (unit === "" ? head : `
 /** Of the second image's values: empty where a structure lies beyond it. */
 function secondColumns({ modality, unit }: NonNullable<Statistics["second"]>): Column[] {
   const name = modality || "Second image";
-  const column = (head: string, of: (second: SecondStatistics) => number | undefined, unit_ = unit): Column => ({ head: withUnit(`${name}: ${head}`, unit_), value: ({ second }) => (second && of(second)) ?? "" });
+  const column = (head: string, of: (second: SecondStatistics) => number | undefined, unit_ = unit): Column => ({
+    head: withUnit(`${name}: ${head}`, unit_),
+    value: ({ second }) => (second && of(second)) ?? "",
+  });
   return [
     column("mean", ({ mean }) => mean),
     column("deviation", ({ deviation }) => deviation),
@@ -53,7 +56,9 @@ export function columns({ unit, second }: Pick<Statistics, "unit" | "second">): 
 export function asCsv({ structures, ...images }: Statistics): string {
   const field = (value: string | number) => (typeof value === "number" ? String(value) : /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
   const shown = columns(images);
-  return [shown.map(({ head }) => field(head)), ...structures.map((row) => shown.map(({ value }) => field(value(row))))].map((line) => line.join(",") + "\r\n").join("");
+  return [shown.map(({ head }) => field(head)), ...structures.map((row) => shown.map(({ value }) => field(value(row))))]
+    .map((line) => line.join(",") + "\r\n")
+    .join("");
 }
 
 /** Measures all structures anew, as `kontur segment` makes them. */
@@ -65,11 +70,22 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void, showDistance
   dialog.addEventListener("close", () => abort.abort());
   http.statistics(abort.signal).then(
     (found) => {
-      status.textContent = "Volume, area and lengths are the surface's; values those of the voxels whose centres lie inside. A click on a diameter shows where it ends.";
-      content.replaceChildren(table(found, (p) => (dialog.close(), goTo(p))), ...beyond(found.structures).map((text) => el("p", { class: "warning-text", "data-test": "beyond-second" }, text)));
-      const save = button({ label: "Save as CSV", title: "Save the table as CSV", class: "choice", test: "statistics-csv", click: () => download(new Blob([asCsv(found)], { type: "text/csv" }), "statistics.csv") });
+      status.textContent =
+        "Volume, area and lengths are the surface's; values those of the voxels whose centres lie inside. A click on a diameter shows where it ends.";
+      content.replaceChildren(
+        table(found, (p) => (dialog.close(), goTo(p))),
+        ...beyond(found.structures).map((text) => el("p", { class: "warning-text", "data-test": "beyond-second" }, text)),
+      );
+      const save = button({
+        label: "Save as CSV",
+        title: "Save the table as CSV",
+        class: "choice",
+        test: "statistics-csv",
+        click: () => download(new Blob([asCsv(found)], { type: "text/csv" }), "statistics.csv"),
+      });
       dialog.append(el("div", { class: "dialog-buttons" }, save));
-      if (found.structures.length > 1) dialog.append(comparison(http, found.structures, abort.signal, (first, second) => (dialog.close(), showDistances(first, second))));
+      if (found.structures.length > 1)
+        dialog.append(comparison(http, found.structures, abort.signal, (first, second) => (dialog.close(), showDistances(first, second))));
     },
     (error: unknown) => void (status.textContent = error instanceof Error ? error.message : String(error)),
   );

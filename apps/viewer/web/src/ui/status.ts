@@ -49,7 +49,13 @@ export class StatusBar {
     const isConnected = connection === "open" || connection === "silent";
     const state = !isConnected ? "lost" : connection === "silent" ? "silent" : unsaved > 0 ? "saving" : isMissing ? "unsaved" : "saved";
     const waits = unsaved > 0 ? "your last edit waits for it" : isMissing ? "not all is saved" : "the page waits for it";
-    const texts = { silent: `kontur does not answer: ${waits}`, lost: isMissing ? "Not connected, not all is saved" : "Not connected", saving: "Saving…", unsaved: "Not all is saved", saved: `Saved in ${this.project}` };
+    const texts = {
+      silent: `kontur does not answer: ${waits}`,
+      lost: isMissing ? "Not connected, not all is saved" : "Not connected",
+      saving: "Saving…",
+      unsaved: "Not all is saved",
+      saved: `Saved in ${this.project}`,
+    };
     this.saved.textContent = texts[state];
     this.saved.dataset["state"] = state;
   }
@@ -66,7 +72,11 @@ export class Notices {
   /** Returns what takes the notice away. */
   show(level: Notice["level"], text: string, remedy?: Remedy): () => void {
     for (const old of this.element.querySelectorAll<HTMLElement>(".notice")) if (old.dataset["text"] === text) old.remove();
-    const notice = el("div", { class: `notice ${level}`, title: "Click to close", "data-text": text, on: { click: () => notice.remove() } }, el("span", {}, text));
+    const notice = el(
+      "div",
+      { class: `notice ${level}`, title: "Click to close", "data-text": text, on: { click: () => notice.remove() } },
+      el("span", {}, text),
+    );
     if (remedy) notice.append(button({ label: remedy.label, title: remedy.label, class: "choice", test: "remedy", click: remedy.act }));
     this.element.append(notice);
     while (this.element.children.length > MOST_NOTICES) this.leastImportant().remove();

@@ -14,7 +14,17 @@ const DOUBLE_CLICK_MS = 500; // what desktops begin with
 /** Structures with their contours. */
 export class StructureList {
   readonly element = el("div", { class: "structures" });
-  readonly filter = el("input", { type: "text", class: "list-filter", placeholder: "Filter: liver, axial 51", "aria-label": "Filter structures and contours", spellcheck: false, autocomplete: "off", "data-test": "list-filter", hidden: true, on: { input: () => this.refresh() } });
+  readonly filter = el("input", {
+    type: "text",
+    class: "list-filter",
+    placeholder: "Filter: liver, axial 51",
+    "aria-label": "Filter structures and contours",
+    spellcheck: false,
+    autocomplete: "off",
+    "data-test": "list-filter",
+    hidden: true,
+    on: { input: () => this.refresh() },
+  });
   /** What the user wants otherwise than `isOpenByItself` has it. */
   private readonly opened = new Map<number, boolean>();
   private readonly rows: ContourRows;
@@ -104,7 +114,12 @@ export class StructureList {
     row!.setAttribute("title", isActive ? "New contours go into this structure" : "Click: new contours go into this structure");
     row!.querySelector(".name")!.setAttribute("aria-current", String(isActive));
     for (const old of contours) old.remove();
-    if (this.isOpen(structure)) entry.append(...this.rows.rowsOf(structure, this.contoursOf(structure)), ...emptyPlaneRows(structure, this.services), ...surfacePointRows(structure, this.services));
+    if (this.isOpen(structure))
+      entry.append(
+        ...this.rows.rowsOf(structure, this.contoursOf(structure)),
+        ...emptyPlaneRows(structure, this.services),
+        ...surfacePointRows(structure, this.services),
+      );
   }
 
   private colorField(structure: Structure): HTMLInputElement {
@@ -112,7 +127,13 @@ export class StructureList {
       field.blur(); // the list is not made anew around a field that has the keyboard
       this.services.call("structure.set", { id: structure.id, color: field.value });
     };
-    const field = el("input", { type: "color", value: structure.color, title: `Colour of ${structure.name}`, class: "color", on: { change, blur: () => this.refresh() } });
+    const field = el("input", {
+      type: "color",
+      value: structure.color,
+      title: `Colour of ${structure.name}`,
+      class: "color",
+      on: { change, blur: () => this.refresh() },
+    });
     return field;
   }
 
@@ -175,12 +196,24 @@ export class StructureList {
       this.opened.set(structure.id, !isOpen);
       this.refresh();
     };
-    const count = button({ label: String(project.contoursOf(structure.id).length), title: isOpen ? "Hide the list of contours" : "List the contours", class: "count", part: "count", click: toggle });
+    const count = button({
+      label: String(project.contoursOf(structure.id).length),
+      title: isOpen ? "Hide the list of contours" : "List the contours",
+      class: "count",
+      part: "count",
+      click: toggle,
+    });
     count.setAttribute("aria-expanded", String(isOpen));
     return [
       count,
       eye(structure.visible, () => call("structure.set", { id: structure.id, visible: !structure.visible })),
-      button({ icon: ICONS.remove, title: "Delete the structure with its contours", class: "icon-button small", part: "remove", click: () => call("structure.remove", { id: structure.id }) }),
+      button({
+        icon: ICONS.remove,
+        title: "Delete the structure with its contours",
+        class: "icon-button small",
+        part: "remove",
+        click: () => call("structure.remove", { id: structure.id }),
+      }),
     ];
   }
 }

@@ -18,7 +18,20 @@ export function surfacePointRows({ id, color, surface_points = [] }: Structure, 
     const isSelected = points.isSelected(point);
     const go = button({ label: placeText(at), title: "Show this point, which the surface passes", class: "contour-plane", part: `point-${i}`, click: show });
     go.setAttribute("aria-pressed", String(isSelected));
-    const remove = button({ icon: ICONS.remove, title: "Remove this point", class: "icon-button small", part: `remove-point-${i}`, click: () => points.remove(point) });
-    return el("div", { class: "contour-row" + (isSelected ? " selected" : ""), "data-test": "surface-point" }, dot, go, el("span", { class: "contour-points" }, "point"), remove);
+    const remove = button({
+      icon: ICONS.remove,
+      title: "Remove this point",
+      class: "icon-button small",
+      part: `remove-point-${i}`,
+      click: () => points.remove(point),
+    });
+    return el(
+      "div",
+      { class: "contour-row" + (isSelected ? " selected" : ""), "data-test": "surface-point" },
+      dot,
+      go,
+      el("span", { class: "contour-points" }, "point"),
+      remove,
+    );
   });
 }

@@ -9,7 +9,14 @@ import { keepSliderKeys } from "./second_image_card";
 export class TimeCard {
   readonly element = el("section", { class: "time-card", "aria-label": "Time", "data-test": "time", hidden: true });
   private readonly play: HTMLButtonElement;
-  private readonly slider = el("input", { type: "range", min: "1", step: "1", "aria-label": "Frame", "data-test": "time-slider", on: { input: () => this.show(this.slider.valueAsNumber - 1), keydown: keepSliderKeys } });
+  private readonly slider = el("input", {
+    type: "range",
+    min: "1",
+    step: "1",
+    "aria-label": "Frame",
+    "data-test": "time-slider",
+    on: { input: () => this.show(this.slider.valueAsNumber - 1), keydown: keepSliderKeys },
+  });
   private readonly frame = el("output", { class: "time-frame", "data-test": "time-frame" });
   private readonly back: HTMLButtonElement;
 

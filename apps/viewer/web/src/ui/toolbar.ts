@@ -46,8 +46,16 @@ export class Toolbar {
   private readonly another: HTMLButtonElement;
   private readonly addImage: HTMLButtonElement;
   private readonly presets = el("select", { title: "Window presets", class: "presets", "data-test": "presets", on: { change: () => this.choosePreset() } });
-  private readonly center = windowField("Window: centre (drag with the right button over a slice)", () => this.typeWindow(), () => this.update());
-  private readonly width = windowField("Window: width", () => this.typeWindow(), () => this.update());
+  private readonly center = windowField(
+    "Window: centre (drag with the right button over a slice)",
+    () => this.typeWindow(),
+    () => this.update(),
+  );
+  private readonly width = windowField(
+    "Window: width",
+    () => this.typeWindow(),
+    () => this.update(),
+  );
   private readonly title = el("span", { class: "file-title" });
   private readonly overflow: Overflow;
   private presetList: Preset[] = [];
@@ -55,14 +63,42 @@ export class Toolbar {
   constructor(private readonly services: ToolbarServices) {
     const { navigation, editor } = services;
     for (const { id, label, key, title, icon, isMinor } of TOOLS)
-      this.tools.set(id, button({ icon, label, title: `${title} (${key.toUpperCase()})`, class: isMinor ? "tool minor" : "tool", test: `tool-${id}`, click: () => editor.choose(id) }));
+      this.tools.set(
+        id,
+        button({
+          icon,
+          label,
+          title: `${title} (${key.toUpperCase()})`,
+          class: isMinor ? "tool minor" : "tool",
+          test: `tool-${id}`,
+          click: () => editor.choose(id),
+        }),
+      );
     for (const [layout, path, title] of LAYOUTS)
       this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, click: () => navigation.setLayout(layout) }));
     this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", click: services.undo });
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", click: services.redo });
-    this.link = button({ icon: ICONS.link, title: "Zoom and shift all slices together (K)", class: "icon-button", test: "link", click: () => navigation.toggleLinked() });
-    this.another = button({ icon: ICONS.open, title: "Open another image or project; this one is kept as it is", class: "icon-button", test: "another", click: services.openAnother });
-    this.addImage = button({ icon: ICONS.second, title: "Add a second image, to see it over this one", class: "icon-button", test: "add-image", click: services.addImage });
+    this.link = button({
+      icon: ICONS.link,
+      title: "Zoom and shift all slices together (K)",
+      class: "icon-button",
+      test: "link",
+      click: () => navigation.toggleLinked(),
+    });
+    this.another = button({
+      icon: ICONS.open,
+      title: "Open another image or project; this one is kept as it is",
+      class: "icon-button",
+      test: "another",
+      click: services.openAnother,
+    });
+    this.addImage = button({
+      icon: ICONS.second,
+      title: "Add a second image, to see it over this one",
+      class: "icon-button",
+      test: "add-image",
+      click: services.addImage,
+    });
     const windows = group(el("label", { class: "window-label" }, "Window"), this.presets, this.center, this.width);
     const layouts = group(...this.layouts.values());
     const looks = group(
@@ -72,7 +108,14 @@ export class Toolbar {
     );
     const files = group(
       button({ icon: ICONS.import, title: "Import contours or a mask", class: "icon-button", test: "import", click: services.openImport }),
-      button({ icon: ICONS.export, label: "Export", title: "Export mask, mesh, contours, project or picture", class: "tool minor", test: "export", click: services.openExport }),
+      button({
+        icon: ICONS.export,
+        label: "Export",
+        title: "Export mask, mesh, contours, project or picture",
+        class: "tool minor",
+        test: "export",
+        click: services.openExport,
+      }),
       button({ icon: ICONS.help, title: "Mouse and keyboard (?)", class: "icon-button", test: "help", click: services.openHelp }),
     );
     this.element.append(
@@ -131,7 +174,8 @@ export class Toolbar {
   }
 
   private typeWindow(): void {
-    const center = this.center.valueAsNumber; const width = this.width.valueAsNumber;
+    const center = this.center.valueAsNumber;
+    const width = this.width.valueAsNumber;
     if (Number.isFinite(center) && width > 0) this.services.navigation.setWindow({ center, width });
   }
 }

@@ -10,10 +10,19 @@ export interface UseImageServices {
 
 /** Whether the image is asked between the contours; hidden where it cannot tell borders, and before anything is drawn. */
 export class UseImageSwitch {
-  private readonly box = el("input", { type: "checkbox", "data-test": "use-image", on: { change: () => this.services.call("image.set", { use: this.box.checked }) } });
+  private readonly box = el("input", {
+    type: "checkbox",
+    "data-test": "use-image",
+    on: { change: () => this.services.call("image.set", { use: this.box.checked }) },
+  });
   readonly element = el(
     "label",
-    { class: "check use-image", hidden: true, title: "Use the image: where it has shown, at contours left out, that it knows better, the surface follows it between the contours; the dotted line is what the contours alone make" },
+    {
+      class: "check use-image",
+      hidden: true,
+      title:
+        "Use the image: where it has shown, at contours left out, that it knows better, the surface follows it between the contours; the dotted line is what the contours alone make",
+    },
     this.box,
     "Use the image",
   );

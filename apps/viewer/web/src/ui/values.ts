@@ -9,7 +9,11 @@ function valueText(value: number | null, unit: string): string {
 }
 
 /** What the images have at a place; with two of them each is named. */
-export function valuesText(values: readonly (number | null)[], { image, identity }: Pick<Session, "image" | "identity">, second: Pick<FurtherImage, "unit" | "identity"> | null): string {
+export function valuesText(
+  values: readonly (number | null)[],
+  { image, identity }: Pick<Session, "image" | "identity">,
+  second: Pick<FurtherImage, "unit" | "identity"> | null,
+): string {
   const [first = null, other = null] = values;
   const own = valueText(first, image.unit);
   if (!second) return own;
@@ -18,6 +22,10 @@ export function valuesText(values: readonly (number | null)[], { image, identity
 
 /** "R 12.0  P 3.4  S 20.1 mm": which way from the frame's origin, and how far. */
 export function placeText(p: Vec3): string {
-  const letters = [["R", "L"], ["A", "P"], ["I", "S"]] as const;
+  const letters = [
+    ["R", "L"],
+    ["A", "P"],
+    ["I", "S"],
+  ] as const;
   return p.map((value, i) => `${letters[i]![value >= 0 ? 1 : 0]} ${Math.abs(value).toFixed(1)}`).join("  ") + " mm";
 }

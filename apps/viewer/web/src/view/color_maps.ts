@@ -19,8 +19,18 @@ const hex = (text: string): Color => [1, 3, 5].map((at) => parseInt(text.slice(a
 export const COLOR_MAPS: readonly ColorMap[] = [
   { name: "gray", label: "Grey", stops: ["#000000", "#ffffff"].map(hex), fades: false },
   { name: "inverse", label: "Grey, inverted", stops: ["#ffffff", "#000000"].map(hex), fades: true },
-  { name: "hot", label: "Hot", stops: ["#000000", "#550000", "#aa0000", "#ff0000", "#ff5500", "#ffaa00", "#ffff00", "#ffff80", "#ffffff"].map(hex), fades: true },
-  { name: "cividis", label: "Cividis", stops: ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"].map(hex), fades: true },
+  {
+    name: "hot",
+    label: "Hot",
+    stops: ["#000000", "#550000", "#aa0000", "#ff0000", "#ff5500", "#ffaa00", "#ffff00", "#ffff80", "#ffffff"].map(hex),
+    fades: true,
+  },
+  {
+    name: "cividis",
+    label: "Cividis",
+    stops: ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"].map(hex),
+    fades: true,
+  },
 ];
 
 const FADE_SHADES = 64; // of 256, from nothing to all
@@ -45,5 +55,7 @@ export function colorTable(name: ColorMapName, over: boolean): Uint32Array {
 
 /** For a bar that shows what colours mean, from left to right. */
 export function gradientOf(name: ColorMapName): string {
-  return `linear-gradient(to right, ${mapNamed(name).stops.map(([r, g, b]) => `rgb(${r}, ${g}, ${b})`).join(", ")})`;
+  return `linear-gradient(to right, ${mapNamed(name)
+    .stops.map(([r, g, b]) => `rgb(${r}, ${g}, ${b})`)
+    .join(", ")})`;
 }

@@ -53,8 +53,7 @@ export class OverlayPainter {
     for (const { contour, first, count } of header.crossings) {
       const color = colorOf(contour);
       if (!color) continue;
-      for (let i = first; i < first + count; ++i)
-        this.diamond([a * points[2 * i]! + dx, a * points[2 * i + 1]! + dy], color);
+      for (let i = first; i < first + count; ++i) this.diamond([a * points[2 * i]! + dx, a * points[2 * i + 1]! + dy], color);
     }
   }
 
@@ -116,7 +115,10 @@ export class OverlayPainter {
       this.stroke(path, tinted(color, 0.82), 2.4 * this.appearance.width);
       ctx.setLineDash([]);
     }
-    const [x, y] = lines.flat().map((p) => toScreen(this.screen, p)).reduce((top, p) => (p[1] < top[1] ? p : top));
+    const [x, y] = lines
+      .flat()
+      .map((p) => toScreen(this.screen, p))
+      .reduce((top, p) => (p[1] < top[1] ? p : top));
     this.text("Enter accepts, Esc drops", [x, Math.max(y - 8, 52)], "center", "bottom", `${this.fontPixels}px system-ui, sans-serif`);
   }
 
@@ -132,7 +134,10 @@ export class OverlayPainter {
   }
 
   brush(at: Point2, radius: number): void {
-    for (const [color, width] of [[SHADE, 3], [INK, 1.3]] as const) {
+    for (const [color, width] of [
+      [SHADE, 3],
+      [INK, 1.3],
+    ] as const) {
       const path = new Path2D();
       path.arc(at[0], at[1], radius, 0, 2 * Math.PI);
       this.stroke(path, color, width);
@@ -189,14 +194,21 @@ export class OverlayPainter {
   scaleBar(): void {
     const { screen } = this;
     const bar = scaleBar(screen.mm_per_pixel, Math.min(140, screen.width / 3));
-    const x = 12; const y = screen.height - 13;
+    const x = 12;
+    const y = screen.height - 13;
     const path = new Path2D(`M${x} ${y - 4}V${y}H${x + bar.pixels}V${y - 4}`);
     this.stroke(path, SHADE, 4);
     this.stroke(path, INK, 1.5);
     this.text(bar.label, [x + 1, y - 7], "left", "bottom", `${0.85 * this.fontPixels}px system-ui, sans-serif`);
   }
 
-  private text(text: string, [x, y]: Point2, align: CanvasTextAlign, baseline: CanvasTextBaseline, font = `600 ${this.fontPixels}px system-ui, sans-serif`): void {
+  private text(
+    text: string,
+    [x, y]: Point2,
+    align: CanvasTextAlign,
+    baseline: CanvasTextBaseline,
+    font = `600 ${this.fontPixels}px system-ui, sans-serif`,
+  ): void {
     const { ctx } = this;
     ctx.font = font;
     ctx.textAlign = align;
@@ -225,7 +237,8 @@ export class OverlayPainter {
     const path = new Path2D();
     for (const { first, count, closed } of runs) {
       for (let i = first; i < first + count; ++i) {
-        const x = a * points[2 * i]! + dx; const y = a * points[2 * i + 1]! + dy;
+        const x = a * points[2 * i]! + dx;
+        const y = a * points[2 * i + 1]! + dy;
         if (i === first) path.moveTo(x, y);
         else path.lineTo(x, y);
       }

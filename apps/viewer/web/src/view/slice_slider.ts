@@ -14,7 +14,12 @@ interface Tick {
 /** Which slice a view shows, beside it: to drag, with a tick at each slice on which something is drawn. */
 export class SliceSlider {
   readonly element: HTMLElement;
-  private readonly input = el("input", { type: "range", class: "slice-slider", title: "Slice (mouse wheel, arrow keys); a tick marks each drawn slice (N, Shift + N)", on: { input: () => this.slid() } });
+  private readonly input = el("input", {
+    type: "range",
+    class: "slice-slider",
+    title: "Slice (mouse wheel, arrow keys); a tick marks each drawn slice (N, Shift + N)",
+    on: { input: () => this.slid() },
+  });
   private readonly ticks = el("div", { class: "slice-ticks", "aria-hidden": "true" });
   private shown = "";
 

@@ -104,7 +104,10 @@ export class SliceVectors {
     const { editor, navigation, project } = this.services;
     const hover = editor.hover && "point" in editor.hover && editor.hover.view === this.name ? editor.hover.point : null;
     for (const point of editor.points.lyingIn(screen, navigation.step(this.name)))
-      painter.surfacePoint(point.at, project.structures.get(point.structure)?.color ?? "#888888", { selected: editor.points.isSelected(point), hovered: hover?.at === point.at });
+      painter.surfacePoint(point.at, project.structures.get(point.structure)?.color ?? "#888888", {
+        selected: editor.points.isSelected(point),
+        hovered: hover?.at === point.at,
+      });
   }
 
   private paintMeasurements(painter: OverlayPainter, screen: Screen): void {
@@ -130,7 +133,13 @@ export class SliceVectors {
     const { sketch } = drawing;
     if (sketch && areParallel(sketch.plane, screen.axes) && near(sketch.first)) {
       const placed = drawing.placedLine.length > 1 ? drawing.placedLine : sketch.line();
-      painter.sketch(placed, drawing.rubberLine, sketch.points.map((point) => point.at), color, drawing.pointerCloses);
+      painter.sketch(
+        placed,
+        drawing.rubberLine,
+        sketch.points.map((point) => point.at),
+        color,
+        drawing.pointerCloses,
+      );
     }
     for (const { sketch: closed, line } of drawing.outbox.lines())
       if (areParallel(closed.plane, screen.axes) && near(line[0])) painter.hand(line, project.structures.get(closed.structure)?.color ?? color);

@@ -96,7 +96,15 @@ export class SliceView {
     const dot = el("span", { class: "plane-dot" });
     dot.style.background = PLANE_COLORS[name];
     this.header.append(dot, this.title, this.position, el("span", { class: "spring" }), reset, enlarge);
-    this.element = el("section", { class: "pane slice", "data-view": name }, this.image.canvas, this.second.canvas, this.overlay, this.header, this.slider.element);
+    this.element = el(
+      "section",
+      { class: "pane slice", "data-view": name },
+      this.image.canvas,
+      this.second.canvas,
+      this.overlay,
+      this.header,
+      this.slider.element,
+    );
     this.element.style.setProperty("--plane-color", PLANE_COLORS[name]);
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
@@ -271,11 +279,18 @@ export class SliceView {
     const key = this.imageKey();
     try {
       const raster = { view: this.name, plane, width, height };
-      const [reply, laySecond] = await Promise.all([this.services.http.slice({ ...raster, window, pixels, outlines: true, ...(isAway && { time }) }), this.second.ask(raster, this.planeKey())]);
+      const [reply, laySecond] = await Promise.all([
+        this.services.http.slice({ ...raster, window, pixels, outlines: true, ...(isAway && { time }) }),
+        this.second.ask(raster, this.planeKey()),
+      ]);
       this.slice = {
         plane,
         header: reply.header,
-        outlines: newestOutlines(reply.header.outlines, reply.f32("outline_points"), this.slice && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null),
+        outlines: newestOutlines(
+          reply.header.outlines,
+          reply.f32("outline_points"),
+          this.slice && isSamePlane(plane, this.slice.plane) ? this.slice.outlines : null,
+        ),
         crossingPoints: reply.f32("crossing_points"),
       };
       if (pixels) this.keepPixels(reply, width, height, key);
@@ -311,7 +326,9 @@ export class SliceView {
   private tellState(): void {
     const { dataset } = this.element;
     dataset["revisions"] = [...(this.slice?.outlines.values() ?? [])].map((outline) => `${outline.structure}:${outline.revision}`).join(" ");
-    dataset["withoutImage"] = [...(this.slice?.outlines.values() ?? [])].flatMap(({ structure, without_image }) => (without_image ? [structure] : [])).join(" ");
+    dataset["withoutImage"] = [...(this.slice?.outlines.values() ?? [])]
+      .flatMap(({ structure, without_image }) => (without_image ? [structure] : []))
+      .join(" ");
     dataset["crossings"] = String(this.slice?.header.crossings.length ?? 0);
   }
 

@@ -7,12 +7,16 @@ const SIZE: Vec3 = [110, 110, 60];
 const SPACING: Vec3 = [1.5, 1.5, 2.5];
 const TURN = (48 * Math.PI) / 180; // of its plane about the body's axis, from the left-right axis
 const BEND_MM = 33; // radius of the middle line
-const ASCENDING_MM = 45; const DESCENDING_MM = 75; // the legs
-const WIDE_MM = 15; const NARROW_MM = 11; // radius of the tube at its beginning and end
+const ASCENDING_MM = 45;
+const DESCENDING_MM = 75; // the legs
+const WIDE_MM = 15;
+const NARROW_MM = 11; // radius of the tube at its beginning and end
 
 /** How deep a place lies in the tube, in mm; negative: how far outside. */
 function depth([x, y, z]: Vec3): number {
-  const across = x * Math.cos(TURN) + y * Math.sin(TURN); const off = -x * Math.sin(TURN) + y * Math.cos(TURN); const up = z - 15;
+  const across = x * Math.cos(TURN) + y * Math.sin(TURN);
+  const off = -x * Math.sin(TURN) + y * Math.cos(TURN);
+  const up = z - 15;
   const isBend = up > 0;
   const toLine = isBend ? Math.hypot(across, up) - BEND_MM : Math.abs(across) - BEND_MM;
   const whole = ASCENDING_MM + Math.PI * BEND_MM + DESCENDING_MM;
@@ -42,7 +46,8 @@ export function writeArch(image: string, mask: string): void {
     file.write("n+1\0", 344);
     return file;
   };
-  const values = header(16); const truth = header(8);
+  const values = header(16);
+  const truth = header(8);
   let seed = 5;
   const chance = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
   for (let k = 0, at = 0; k < SIZE[2]; ++k)

@@ -26,7 +26,8 @@ function writeBigImage(path: string): void {
   writeSync(file, header);
   for (let k = 0; k < size[2]; ++k) {
     const slice = Int16Array.from({ length: size[0] * size[1] }, (_, n) => {
-      const i = n % size[0]; const j = Math.floor(n / size[0]);
+      const i = n % size[0];
+      const j = Math.floor(n / size[0]);
       return (((i >> 6) + (j >> 6) + (k >> 6)) % 2) * 120 + (i % 64) - k / 4;
     });
     writeSync(file, new Uint8Array(slice.buffer));
@@ -36,7 +37,9 @@ function writeBigImage(path: string): void {
 
 const median = (values: number[]): number => values.sort((a, b) => a - b)[Math.floor(values.length / 2)]!;
 const line = (label: string, values: number[], unit = "ms"): void =>
-  console.log(`${label.padEnd(62)} ${median(values).toFixed(0).padStart(6)} ${unit}   (${Math.min(...values).toFixed(0)} to ${Math.max(...values).toFixed(0)})`);
+  console.log(
+    `${label.padEnd(62)} ${median(values).toFixed(0).padStart(6)} ${unit}   (${Math.min(...values).toFixed(0)} to ${Math.max(...values).toFixed(0)})`,
+  );
 
 interface Waits {
   outlines: number;
@@ -53,8 +56,7 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
     const panel = document.querySelector<HTMLElement>(".panel")!;
     const observer = new MutationObserver(() => {
       if (state.start === 0) return;
-      for (const pane of panes)
-        if (pane.dataset["revisions"] !== before.get(pane)) state.shown[pane.dataset["view"]!] ??= performance.now() - state.start;
+      for (const pane of panes) if (pane.dataset["revisions"] !== before.get(pane)) state.shown[pane.dataset["view"]!] ??= performance.now() - state.start;
       const last = `:${panel.dataset["revision"]}`;
       const isDone = panel.dataset["stage"] === "refined" && panes.every((pane) => pane.dataset["revisions"]?.endsWith(last));
       if (isDone && Object.keys(state.shown).length === panes.length) state.refined ||= performance.now() - state.start;
@@ -81,7 +83,8 @@ async function measureEdits(viewer: Viewer): Promise<void> {
   await viewer.surfaceShown();
   const view = await page.evaluate(() => document.querySelector<HTMLElement>(".pane.focused")!.dataset["view"]!);
   await page.keyboard.press("m");
-  const moves: Waits[] = []; const releases: Waits[] = [];
+  const moves: Waits[] = [];
+  const releases: Waits[] = [];
   // The contour lies around its outline's middle, where no line is: it is taken where the outline crosses the crosshair's row.
   const grip = await findLine(viewer, view);
   for (let i = 0; i < EDITS; ++i) {
@@ -98,11 +101,26 @@ async function measureEdits(viewer: Viewer): Promise<void> {
     await viewer.saved();
     await viewer.surfaceShown();
   }
-  line("pointer moves a contour -> outlines in all four views", moves.map((wait) => wait.outlines));
-  line("pointer moves a contour -> surface in 3D", moves.map((wait) => wait.surface));
-  line("pointer up -> first new outlines in all four views", releases.map((wait) => wait.outlines));
-  line("pointer up -> first new surface in 3D", releases.map((wait) => wait.surface));
-  line("pointer up -> refined surface and outlines everywhere", releases.map((wait) => wait.refined));
+  line(
+    "pointer moves a contour -> outlines in all four views",
+    moves.map((wait) => wait.outlines),
+  );
+  line(
+    "pointer moves a contour -> surface in 3D",
+    moves.map((wait) => wait.surface),
+  );
+  line(
+    "pointer up -> first new outlines in all four views",
+    releases.map((wait) => wait.outlines),
+  );
+  line(
+    "pointer up -> first new surface in 3D",
+    releases.map((wait) => wait.surface),
+  );
+  line(
+    "pointer up -> refined surface and outlines everywhere",
+    releases.map((wait) => wait.refined),
+  );
 }
 
 /** Looks for the contour under the pointer along a row of the view. */
@@ -113,7 +131,12 @@ async function findLine(viewer: Viewer, view: string): Promise<[number, number]>
       const at: [number, number] = [box.x + x, box.y + row * box.height];
       await viewer.page.mouse.move(...at);
       const cursor = await viewer.page.evaluate(
-        (name) => new Promise<string>((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve(document.querySelector<HTMLElement>(`[data-view=${name}] .overlay`)!.style.cursor)))),
+        (name) =>
+          new Promise<string>((resolve) =>
+            requestAnimationFrame(() =>
+              requestAnimationFrame(() => resolve(document.querySelector<HTMLElement>(`[data-view=${name}] .overlay`)!.style.cursor)),
+            ),
+          ),
         view,
       );
       if (cursor === "move") return at;
@@ -131,13 +154,17 @@ async function measureScrolls(viewer: Viewer, label: string): Promise<void> {
       await page.evaluate((name) => {
         const pane = document.querySelector<HTMLElement>(`[data-view=${name}]`)!;
         const scrolled = { ms: 0 };
-        pane.addEventListener("wheel", (event) => {
-          const observer = new MutationObserver(() => {
-            observer.disconnect();
-            requestAnimationFrame(() => (scrolled.ms = performance.now() - event.timeStamp));
-          });
-          observer.observe(pane, { attributes: true, attributeFilter: ["data-slices"] });
-        }, { capture: true, once: true });
+        pane.addEventListener(
+          "wheel",
+          (event) => {
+            const observer = new MutationObserver(() => {
+              observer.disconnect();
+              requestAnimationFrame(() => (scrolled.ms = performance.now() - event.timeStamp));
+            });
+            observer.observe(pane, { attributes: true, attributeFilter: ["data-slices"] });
+          },
+          { capture: true, once: true },
+        );
         Object.assign(window, { scrolled });
       }, view);
       await page.mouse.wheel(0, i % 20 < 10 ? 120 : -120);

@@ -71,29 +71,36 @@ export class Truth {
     let count = 0;
     for (let k = 0, at = 0; k < this.size[2]; ++k)
       for (let j = 0; j < this.size[1]; ++j)
-        for (let i = 0; i < this.size[0]; ++i, ++at)
-          if (this.bytes[at]) [i, j, k].forEach((index, axis) => (sum[axis]! += index)), ++count;
+        for (let i = 0; i < this.size[0]; ++i, ++at) if (this.bytes[at]) ([i, j, k].forEach((index, axis) => (sum[axis]! += index)), ++count);
     return this.at(sum.map((value) => value / count) as Vec3);
   }
 
   /** The borders of the pieces of the mask in a plane, in mm from its middle; the largest first. */
   outlines(frame: Frame, reach_mm = 120, step_mm = 0.6): Place[][] {
-    const n = Math.round(reach_mm / step_mm); const side = 2 * n + 1;
+    const n = Math.round(reach_mm / step_mm);
+    const side = 2 * n + 1;
     const mm = (index: number) => (index - n) * step_mm;
-    const isIn = Array.from({ length: side * side }, (_, at) => this.has(along(along(frame.middle, frame.u, mm(at % side)), frame.v, mm(Math.floor(at / side)))));
+    const isIn = Array.from({ length: side * side }, (_, at) =>
+      this.has(along(along(frame.middle, frame.u, mm(at % side)), frame.v, mm(Math.floor(at / side)))),
+    );
     const piece = new Int32Array(side * side);
     const traced: Place[][] = [];
     for (let at = 0, found = 0; at < isIn.length; ++at) {
       if (!isIn[at] || piece[at]) continue;
       fill(isIn, piece, side, at, ++found);
-      traced.push(trace((x, y) => x >= 0 && y >= 0 && x < side && y < side && piece[x + side * y] === found, at % side, Math.floor(at / side)).map(([x, y]) => [mm(x), mm(y)]));
+      traced.push(
+        trace((x, y) => x >= 0 && y >= 0 && x < side && y < side && piece[x + side * y] === found, at % side, Math.floor(at / side)).map(([x, y]) => [
+          mm(x),
+          mm(y),
+        ]),
+      );
     }
     return traced.filter((line) => line.length > 12).sort((a, b) => b.length - a.length);
   }
 }
 
 function fill(isIn: readonly boolean[], piece: Int32Array, side: number, from: number, number: number): void {
-  for (const open = [from]; open.length > 0; ) {
+  for (const open = [from]; open.length > 0;) {
     const at = open.pop()!;
     if (!isIn[at] || piece[at]) continue;
     piece[at] = number;
@@ -103,9 +110,19 @@ function fill(isIn: readonly boolean[], piece: Int32Array, side: number, from: n
 
 /** Moore's walk around a piece, from its first place in reading order. */
 function trace(has: (x: number, y: number) => boolean, startX: number, startY: number): Place[] {
-  const AROUND: readonly Place[] = [[-1, 0], [-1, -1], [0, -1], [1, -1], [1, 0], [1, 1], [0, 1], [-1, 1]];
+  const AROUND: readonly Place[] = [
+    [-1, 0],
+    [-1, -1],
+    [0, -1],
+    [1, -1],
+    [1, 0],
+    [1, 1],
+    [0, 1],
+    [-1, 1],
+  ];
   const line: Place[] = [];
-  let [x, y] = [startX, startY]; let came = 0;
+  let [x, y] = [startX, startY];
+  let came = 0;
   do {
     line.push([x, y]);
     let turn = 0;

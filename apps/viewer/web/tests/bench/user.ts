@@ -103,11 +103,13 @@ export class User {
     const { page } = this.viewer;
     const frame = await this.frame(view);
     const away = (middle: Vec3) => {
-      const d = p.map((value, i) => value - middle[i]!) as Vec3; const [x, y] = placeIn({ ...frame, middle }, p);
+      const d = p.map((value, i) => value - middle[i]!) as Vec3;
+      const [x, y] = placeIn({ ...frame, middle }, p);
       return Math.sqrt(Math.max(Math.hypot(...d) ** 2 - x * x - y * y, 0));
     };
-    let best = away(frame.middle); let direction = 120;
-    for (let turns = 0; turns < 2 && best > 0.5; ) {
+    let best = away(frame.middle);
+    let direction = 120;
+    for (let turns = 0; turns < 2 && best > 0.5;) {
       await page.mouse.wheel(0, direction);
       await this.waits(WHEEL_MS);
       const now = away(await this.middle(view));
@@ -194,7 +196,8 @@ function spaced(line: readonly Place[], step: number): Place[] {
   const points: Place[] = [];
   let rest = 0;
   for (let i = 0; i < line.length; ++i) {
-    const a = line[i]!; const b = line[(i + 1) % line.length]!;
+    const a = line[i]!;
+    const b = line[(i + 1) % line.length]!;
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     for (; rest < length; rest += step) points.push([a[0] + ((b[0] - a[0]) * rest) / length, a[1] + ((b[1] - a[1]) * rest) / length]);
     rest -= length;

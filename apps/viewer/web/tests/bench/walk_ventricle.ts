@@ -24,9 +24,9 @@ try {
   const viewer = await Viewer.open(browser, server.address);
   const user = new User(viewer, truth);
   await user.takesFreehand();
-  const [acquisition, row, column] = await viewer.page.locator(".pane.slice").evaluateAll((panes) =>
-    ["1", "2", "3"].map((place) => panes.find((pane) => (pane as HTMLElement).dataset["place"] === place)!.getAttribute("data-view")!),
-  );
+  const [acquisition, row, column] = await viewer.page
+    .locator(".pane.slice")
+    .evaluateAll((panes) => ["1", "2", "3"].map((place) => panes.find((pane) => (pane as HTMLElement).dataset["place"] === place)!.getAttribute("data-view")!));
   const target = truth.center();
   await user.scrollsTo(acquisition!, target);
   await user.jumpsTo(acquisition!, target);

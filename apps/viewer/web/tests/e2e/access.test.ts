@@ -32,7 +32,12 @@ const open = () => (opened ??= prepare());
 async function prepare(): Promise<void> {
   viewer = await visits.next();
   await viewer.page.keyboard.press("f");
-  for (const [i, [view, mm]] of ([["axial", BALL_RADIUS_MM], ["coronal", BALL_RADIUS_MM - 7]] as const).entries()) {
+  for (const [i, [view, mm]] of (
+    [
+      ["axial", BALL_RADIUS_MM],
+      ["coronal", BALL_RADIUS_MM - 7],
+    ] as const
+  ).entries()) {
     await viewer.drag(view, circle(await viewer.pixels(view, mm), 48));
     await viewer.waitForContours(i + 1);
   }
@@ -76,7 +81,11 @@ describe("axe finds nothing", () => {
 describe("axe finds nothing in the theme", () => {
   const background = (place: string) => viewer.page.locator(place).evaluate((one) => getComputedStyle(one).backgroundColor);
 
-  for (const [theme, surface] of [["light", "rgb(242, 245, 247)"], ["dark-contrast", "rgb(5, 7, 10)"], ["light-contrast", "rgb(255, 255, 255)"]] as const)
+  for (const [theme, surface] of [
+    ["light", "rgb(242, 245, 247)"],
+    ["dark-contrast", "rgb(5, 7, 10)"],
+    ["light-contrast", "rgb(255, 255, 255)"],
+  ] as const)
     test(theme, async () => {
       await open();
       await choose(theme);
@@ -131,10 +140,12 @@ describe("the keyboard alone", () => {
     const reached = new Set<string>();
     for (let i = 0; i < all + 8; ++i) {
       await page.keyboard.press("Tab");
-      reached.add(await page.evaluate(() => {
-        const one = document.activeElement!;
-        return one === document.body ? "" : [...document.querySelectorAll("*")].indexOf(one).toString();
-      }));
+      reached.add(
+        await page.evaluate(() => {
+          const one = document.activeElement!;
+          return one === document.body ? "" : [...document.querySelectorAll("*")].indexOf(one).toString();
+        }),
+      );
     }
     reached.delete("");
     assert.ok(reached.size >= all, `${reached.size} of ${all} controls`);
@@ -151,13 +162,17 @@ describe("the system's wishes", () => {
     await page.waitForFunction(() => document.documentElement.dataset["contrast"] === "more");
     assert.notEqual(await line(), usual);
     await page.emulateMedia({ contrast: null, reducedMotion: "reduce" });
-    const moves = () => page.evaluate(() => [...document.querySelectorAll("*")].filter((one) => Number.parseFloat(getComputedStyle(one).transitionDuration) > 0.01).length);
+    const moves = () =>
+      page.evaluate(() => [...document.querySelectorAll("*")].filter((one) => Number.parseFloat(getComputedStyle(one).transitionDuration) > 0.01).length);
     assert.equal(await moves(), 0);
     await page.emulateMedia({ reducedMotion: null });
     assert.ok((await moves()) > 0, "the test can fail");
     await page.emulateMedia({ forcedColors: "active" });
     assert.deepEqual(await violations(), []);
-    const pressed = await page.locator('[aria-pressed="true"]').first().evaluate((one) => getComputedStyle(one).forcedColorAdjust);
+    const pressed = await page
+      .locator('[aria-pressed="true"]')
+      .first()
+      .evaluate((one) => getComputedStyle(one).forcedColorAdjust);
     assert.equal(pressed, "none", "what is pressed keeps a colour of its own");
     await page.emulateMedia({ forcedColors: null });
   });

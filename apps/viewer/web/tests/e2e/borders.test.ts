@@ -11,7 +11,9 @@ let viewer: Viewer;
 let outlines: Map<number, number[][]>;
 let pairs: { first: number; second: number; relation: string }[];
 
-const RADIUS_MM = 36; const HALF_GAP_MM = 0.5; const APART_MM = 16;
+const RADIUS_MM = 36;
+const HALF_GAP_MM = 0.5;
+const APART_MM = 16;
 
 type Place = [number, number];
 
@@ -28,7 +30,10 @@ function half(side: -1 | 1, radius: number): Place[] {
 async function draw(side: -1 | 1, radius: number): Promise<void> {
   const scale = await viewer.pixels("axial", 1);
   const before = await viewer.contours();
-  await viewer.drag("axial", half(side, radius).map(([x, y]): Place => [x * scale, y * scale]));
+  await viewer.drag(
+    "axial",
+    half(side, radius).map(([x, y]): Place => [x * scale, y * scale]),
+  );
   await viewer.waitForContours(before + 1);
   await viewer.saved();
 }
@@ -48,7 +53,8 @@ async function crossingsOf(structure: number, down: number): Promise<number[]> {
   const found: number[] = [];
   for (const line of outlines.get(structure) ?? [])
     for (let i = 0; i < line.length; i += 2) {
-      const [x, y] = [line[i]!, line[i + 1]!]; const [nextX, nextY] = [line[(i + 2) % line.length]!, line[(i + 3) % line.length]!];
+      const [x, y] = [line[i]!, line[i + 1]!];
+      const [nextX, nextY] = [line[(i + 2) % line.length]!, line[(i + 3) % line.length]!];
       if (y < row !== nextY < row) found.push(x + ((row - y) / (nextY - y)) * (nextX - x) - box.width / 2);
     }
   return found.sort((a, b) => a - b);
@@ -102,7 +108,9 @@ beforeEach(async () => {
   }
   await scroll(APART_MM / 4);
   await viewer.saved();
-  second = Math.max(...(await page.locator(".structures > .structure").evaluateAll((rows) => rows.map((row) => Number((row as HTMLElement).dataset["structure"])))));
+  second = Math.max(
+    ...(await page.locator(".structures > .structure").evaluateAll((rows) => rows.map((row) => Number((row as HTMLElement).dataset["structure"])))),
+  );
   await refined();
   await until(async () => {
     const [left, right] = await border(0);
@@ -123,7 +131,10 @@ function checkBorder(rows: number[][]): void {
   assert.ok(both.length > 25, `${both.length} rows with both`);
   for (const row of both.slice(3, -3)) {
     const last = row.length - 1 - [...row].reverse().findIndex((value) => value > 0);
-    const labelled = row.slice(row.findIndex((value) => value > 0), last + 1);
+    const labelled = row.slice(
+      row.findIndex((value) => value > 0),
+      last + 1,
+    );
     assert.ok(!labelled.includes(0), `a gap: ${labelled.join("")}`);
     assert.equal(labelled.filter((value, i) => i > 0 && value !== labelled[i - 1]).length, 1, `one border: ${labelled.join("")}`);
   }
@@ -132,7 +143,10 @@ function checkBorder(rows: number[][]): void {
 describe("structures that share borders", () => {
   test("have one border, and a drag of one's line moves the other's, in the same step of the history; exports have no gap", async () => {
     const { page } = viewer;
-    assert.deepEqual(pairs.map(({ relation }) => relation), ["exclusive"]);
+    assert.deepEqual(
+      pairs.map(({ relation }) => relation),
+      ["exclusive"],
+    );
     await page.locator("[data-test=border-sentence]", { hasText: "Structure 1 and Structure 2 exclude each other: chosen, as they" }).waitFor();
     const scale = await viewer.pixels("axial", 1);
     const by = 7 * scale;

@@ -11,7 +11,12 @@ let viewer: Viewer;
 beforeEach(async () => {
   viewer = await visits.next();
   await viewer.page.keyboard.press("f");
-  for (const [i, [view, mm]] of ([["axial", BALL_RADIUS_MM], ["coronal", BALL_RADIUS_MM - 7]] as const).entries()) {
+  for (const [i, [view, mm]] of (
+    [
+      ["axial", BALL_RADIUS_MM],
+      ["coronal", BALL_RADIUS_MM - 7],
+    ] as const
+  ).entries()) {
     await viewer.drag(view, circle(await viewer.pixels(view, mm), 48));
     await viewer.waitForContours(i + 1);
   }
@@ -23,12 +28,19 @@ describe("a conflict", () => {
     const { page } = viewer;
     const rows = page.locator("[data-test=conflict]");
     await rows.nth(1).waitFor();
-    const names = await page.locator(".contour-plane").evaluateAll((planes) => planes.map((plane) => [plane.querySelector(".contour-view")!.textContent, plane.querySelector(".contour-slice")!.textContent].join(" ")));
+    const names = await page
+      .locator(".contour-plane")
+      .evaluateAll((planes) =>
+        planes.map((plane) => [plane.querySelector(".contour-view")!.textContent, plane.querySelector(".contour-slice")!.textContent].join(" ")),
+      );
     const text = (await rows.first().innerText()).replaceAll("\n", " ");
     for (const name of names) assert.ok(text.includes(name), `${name} is named in "${text}"`);
     assert.match(text, /[67]\.\d mm/);
     for (const left of [1, 0]) {
-      await page.getByRole("button", { name: `Keep ${names.find((name) => name.startsWith("Axial"))}` }).first().click();
+      await page
+        .getByRole("button", { name: `Keep ${names.find((name) => name.startsWith("Axial"))}` })
+        .first()
+        .click();
       await viewer.waitForStep("undo", "Bend a contour");
       await viewer.surfaceShown();
       await page.waitForFunction((count) => document.querySelectorAll("[data-test=conflict]").length === count, left);

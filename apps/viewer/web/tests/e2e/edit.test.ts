@@ -15,7 +15,9 @@ interface Drawing {
 }
 
 const points = async (): Promise<[number, number, number][]> =>
-  (JSON.parse((await viewer.export("contours.json")).bytes.toString()) as Drawing).planes.flatMap((plane) => plane.contours.flatMap((contour) => contour.points));
+  (JSON.parse((await viewer.export("contours.json")).bytes.toString()) as Drawing).planes.flatMap((plane) =>
+    plane.contours.flatMap((contour) => contour.points),
+  );
 const most = (all: [number, number, number][], axis: number): number => Math.max(...all.map((p) => p[axis]!));
 const near = (actual: number, expected: number, tolerance: number, what: string): void =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected} to within ${tolerance}`);
@@ -46,7 +48,10 @@ describe("contours", () => {
     await viewer.page.keyboard.press("r");
     const bulge = circle(radius, 36).slice(-4).concat(circle(radius, 36).slice(1, 5)); // 40 degrees on both sides of the right end
     const end = bulge.length - 1;
-    await viewer.drag("axial", bulge.map(([x, y], i): [number, number] => [x * (1 + 0.3 * Math.sin((Math.PI * i) / end)), y]));
+    await viewer.drag(
+      "axial",
+      bulge.map(([x, y], i): [number, number] => [x * (1 + 0.3 * Math.sin((Math.PI * i) / end)), y]),
+    );
     await viewer.waitForStep("undo", "Redraw a part");
     await viewer.surfaceShown();
     const redrawn = await points();
@@ -60,7 +65,11 @@ describe("contours", () => {
   test("a stretch is pulled, and the rest stays", async () => {
     const radius = await drawBall("axial");
     const pull = await viewer.pixels("axial", 8);
-    await viewer.drag("axial", [[radius, 0], [radius + pull / 2, 0], [radius + pull, 0]]);
+    await viewer.drag("axial", [
+      [radius, 0],
+      [radius + pull / 2, 0],
+      [radius + pull, 0],
+    ]);
     await viewer.waitForStep("undo", "Bend a contour");
     await viewer.surfaceShown();
     const pulled = await points();
@@ -72,7 +81,11 @@ describe("contours", () => {
     const radius = await drawBall("axial");
     const by = await viewer.pixels("axial", 10);
     await viewer.page.keyboard.press("m");
-    await viewer.drag("axial", [[0, radius], [by / 2, radius], [by, radius]]);
+    await viewer.drag("axial", [
+      [0, radius],
+      [by / 2, radius],
+      [by, radius],
+    ]);
     await viewer.waitForStep("undo", "Move a contour");
     const moved = await points();
     near(most(moved, 0), BALL_RADIUS_MM + 10, 2, "the moved end");
@@ -93,12 +106,18 @@ describe("contours", () => {
     let before = first;
     for (const step of [4, 8, 12]) {
       await page.mouse.move(...(await viewer.at("axial", radius + step, 0)));
-      await page.waitForFunction((old) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].every((pane) => pane.dataset["revisions"] !== old), before);
+      await page.waitForFunction(
+        (old) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].every((pane) => pane.dataset["revisions"] !== old),
+        before,
+      );
       before = await revisionsOf();
     }
     await viewer.surfaceShown();
     const surfaces = Number((await revisionsOf()).split(":")[1]) - Number(first.split(":")[1]);
-    assert.deepEqual(asked.filter((path) => !path.startsWith("mesh/")), []);
+    assert.deepEqual(
+      asked.filter((path) => !path.startsWith("mesh/")),
+      [],
+    );
     assert.ok(surfaces >= 4 && asked.length <= surfaces, `${asked.length} meshes for ${surfaces} surfaces`);
     asked.length = 0;
     await page.mouse.up();
@@ -124,7 +143,11 @@ describe("contours", () => {
     await page.keyboard.up("Control");
     await viewer.waitForStep("undo", "Insert a point");
     await waitForPoints(7);
-    await viewer.drag("coronal", [[x, y], [x + 6, y - 3], [x + 12, y - 6]]);
+    await viewer.drag("coronal", [
+      [x, y],
+      [x + 6, y - 3],
+      [x + 12, y - 6],
+    ]);
     await viewer.waitForStep("undo", "Move a point");
     await page.keyboard.press("Delete");
     await viewer.waitForStep("undo", "Delete a point");
@@ -216,7 +239,10 @@ describe("live-wire", () => {
         const box = (await viewer.pane("axial").boundingBox())!;
         const line = 0.33 * Math.min(box.width, box.height);
         await page.keyboard.press("v");
-        await viewer.drag("axial", [[line * Math.SQRT1_2, line * Math.SQRT1_2], [line, line * 0.3]]);
+        await viewer.drag("axial", [
+          [line * Math.SQRT1_2, line * Math.SQRT1_2],
+          [line, line * 0.3],
+        ]);
         await page.waitForSelector("[data-view=oblique][data-turned=true]");
         await viewer.slicesShown();
       }
@@ -276,11 +302,19 @@ describe("views", () => {
     const box = (await viewer.pane("axial").boundingBox())!;
     const reach = 0.33 * Math.min(box.width, box.height);
     const before = await viewer.slice("coronal");
-    await viewer.drag("axial", [[0.6 * reach, 0], [0.6 * reach, 15], [0.6 * reach, 30]]);
+    await viewer.drag("axial", [
+      [0.6 * reach, 0],
+      [0.6 * reach, 15],
+      [0.6 * reach, 30],
+    ]);
     await page.waitForFunction((slice) => document.querySelector<HTMLElement>("[data-view=coronal]")!.dataset["slice"] !== String(slice), before);
     assert.equal(await viewer.pane("coronal").getAttribute("data-turned"), "false");
     const moved = 30; // the crosshair has gone down with the line
-    await viewer.drag("axial", [[reach, moved], [reach * Math.cos(0.2), moved + reach * Math.sin(0.2)], [reach * Math.cos(0.5), moved + reach * Math.sin(0.5)]]);
+    await viewer.drag("axial", [
+      [reach, moved],
+      [reach * Math.cos(0.2), moved + reach * Math.sin(0.2)],
+      [reach * Math.cos(0.5), moved + reach * Math.sin(0.5)],
+    ]);
     await page.waitForSelector("[data-view=coronal][data-turned=true]");
     await viewer.slicesShown();
     await viewer.pane("coronal").hover();
@@ -292,7 +326,15 @@ describe("views", () => {
     const { page } = viewer;
     const numbers = () => page.locator(".toolbar .number").evaluateAll((inputs) => inputs.map((input) => Number((input as HTMLInputElement).value)));
     const [center, width] = await numbers();
-    await viewer.drag("axial", [[0, 0], [20, 10], [40, 20]], "right");
+    await viewer.drag(
+      "axial",
+      [
+        [0, 0],
+        [20, 10],
+        [40, 20],
+      ],
+      "right",
+    );
     const [darker, wider] = await numbers();
     assert.ok(darker! > center! && wider! > width!, `${darker} / ${wider} from ${center} / ${width}`);
     const before = await viewer.pane("axial").screenshot();
@@ -321,69 +363,77 @@ describe("views", () => {
     assert.equal(await page.locator("[data-test=tool-wire]").getAttribute("aria-pressed"), "true");
   });
 
-  test("a slice that another request overtook is asked for again, under the name of this load of the page", onlyChromium("Playwright is not told what Firefox's requests hold"), async () => {
-    const { page } = viewer;
-    const pages = new Set<unknown>();
-    let refusals = 3;
-    await page.route("**/api/slice", async (route) => {
-      const request = route.request().postDataJSON() as { view: string; page: unknown; pixels: boolean };
-      pages.add(request.page);
-      if (request.view !== "axial" || !request.pixels || refusals === 0) return route.continue();
-      --refusals;
-      return route.fulfill({ status: 409, json: { error: { kind: "cancelled", message: "a later slice of this view was asked for" } } });
-    });
-    const before = Number(await viewer.pane("axial").getAttribute("data-slices"));
-    await page.mouse.move(...(await viewer.at("axial", 0, 0)));
-    await page.mouse.wheel(0, 120);
-    await page.waitForFunction((count) => Number(document.querySelector<HTMLElement>("[data-view=axial]")!.dataset["slices"]) > count, before);
-    assert.equal(refusals, 0);
-    const [name] = pages;
-    assert.equal(pages.size, 1);
-    assert.match(String(name), /^[0-9a-f]{16,64}$/);
-    assert.equal(await page.locator(".notice").count(), 0);
-  });
+  test(
+    "a slice that another request overtook is asked for again, under the name of this load of the page",
+    onlyChromium("Playwright is not told what Firefox's requests hold"),
+    async () => {
+      const { page } = viewer;
+      const pages = new Set<unknown>();
+      let refusals = 3;
+      await page.route("**/api/slice", async (route) => {
+        const request = route.request().postDataJSON() as { view: string; page: unknown; pixels: boolean };
+        pages.add(request.page);
+        if (request.view !== "axial" || !request.pixels || refusals === 0) return route.continue();
+        --refusals;
+        return route.fulfill({ status: 409, json: { error: { kind: "cancelled", message: "a later slice of this view was asked for" } } });
+      });
+      const before = Number(await viewer.pane("axial").getAttribute("data-slices"));
+      await page.mouse.move(...(await viewer.at("axial", 0, 0)));
+      await page.mouse.wheel(0, 120);
+      await page.waitForFunction((count) => Number(document.querySelector<HTMLElement>("[data-view=axial]")!.dataset["slices"]) > count, before);
+      assert.equal(refusals, 0);
+      const [name] = pages;
+      assert.equal(pages.size, 1);
+      assert.match(String(name), /^[0-9a-f]{16,64}$/);
+      assert.equal(await page.locator(".notice").count(), 0);
+    },
+  );
 
-  test("a slice that was made before a surface, and comes after it, is asked for again", onlyChromium("Playwright cannot send Firefox's requests itself"), async () => {
-    const { page } = viewer;
-    const radius = await drawBall("axial");
-    await viewer.surfaceShown();
-    await viewer.slicesShown();
-    const revisionOf = (view: string) => page.evaluate((name) => document.querySelector<HTMLElement>(`[data-view=${name}]`)!.dataset["revisions"]!, view);
-    const scroll = async (by: 1 | -1) => {
-      const number = (await viewer.slice("sagittal")) + by;
-      await page.mouse.move(...(await viewer.at("sagittal", 0, 0)));
-      await page.mouse.wheel(0, by * 120);
-      await page.waitForSelector(`[data-view=sagittal][data-slice="${number}"]`);
-    };
-    let made: Buffer | undefined; // the next slice with the first surface
-    await page.route("**/api/slice", async (route) => {
-      const response = await route.fetch();
-      made = await response.body();
-      return route.fulfill({ response });
-    });
-    await scroll(1);
-    await viewer.slicesShown();
-    await page.unroute("**/api/slice");
-    await scroll(-1);
-    await viewer.slicesShown();
+  test(
+    "a slice that was made before a surface, and comes after it, is asked for again",
+    onlyChromium("Playwright cannot send Firefox's requests itself"),
+    async () => {
+      const { page } = viewer;
+      const radius = await drawBall("axial");
+      await viewer.surfaceShown();
+      await viewer.slicesShown();
+      const revisionOf = (view: string) => page.evaluate((name) => document.querySelector<HTMLElement>(`[data-view=${name}]`)!.dataset["revisions"]!, view);
+      const scroll = async (by: 1 | -1) => {
+        const number = (await viewer.slice("sagittal")) + by;
+        await page.mouse.move(...(await viewer.at("sagittal", 0, 0)));
+        await page.mouse.wheel(0, by * 120);
+        await page.waitForSelector(`[data-view=sagittal][data-slice="${number}"]`);
+      };
+      let made: Buffer | undefined; // the next slice with the first surface
+      await page.route("**/api/slice", async (route) => {
+        const response = await route.fetch();
+        made = await response.body();
+        return route.fulfill({ response });
+      });
+      await scroll(1);
+      await viewer.slicesShown();
+      await page.unroute("**/api/slice");
+      await scroll(-1);
+      await viewer.slicesShown();
 
-    let comes = () => {};
-    const isTime = new Promise<void>((resolve) => (comes = resolve));
-    await page.route("**/api/slice", (route) => isTime.then(() => route.fulfill({ body: made! })), { times: 1 });
-    const first = await revisionOf("sagittal");
-    await scroll(1);
-    await page.mouse.move(...(await viewer.at("axial", radius, 0)));
-    await page.mouse.down();
-    await page.mouse.move(...(await viewer.at("axial", radius + 8, 0)));
-    await page.waitForFunction((old) => document.querySelector<HTMLElement>("[data-view=sagittal]")!.dataset["revisions"] !== old, first);
-    await viewer.surfaceShown();
-    comes();
-    await viewer.slicesShown();
-    await viewer.surfaceShown();
-    assert.equal(await revisionOf("sagittal"), await revisionOf("coronal"));
-    await page.mouse.up();
-    await viewer.saved();
-  });
+      let comes = () => {};
+      const isTime = new Promise<void>((resolve) => (comes = resolve));
+      await page.route("**/api/slice", (route) => isTime.then(() => route.fulfill({ body: made! })), { times: 1 });
+      const first = await revisionOf("sagittal");
+      await scroll(1);
+      await page.mouse.move(...(await viewer.at("axial", radius, 0)));
+      await page.mouse.down();
+      await page.mouse.move(...(await viewer.at("axial", radius + 8, 0)));
+      await page.waitForFunction((old) => document.querySelector<HTMLElement>("[data-view=sagittal]")!.dataset["revisions"] !== old, first);
+      await viewer.surfaceShown();
+      comes();
+      await viewer.slicesShown();
+      await viewer.surfaceShown();
+      assert.equal(await revisionOf("sagittal"), await revisionOf("coronal"));
+      await page.mouse.up();
+      await viewer.saved();
+    },
+  );
 
   test("zoom and shift one slice, or all that are linked", async () => {
     const { page } = viewer;

@@ -67,7 +67,10 @@ async function border(view: string, count: number): Promise<[number, number][]> 
   writeFileSync(planes, JSON.stringify({ frame: "LPS mm", planes: [{ origin, normal: cross(right, down) }] }));
   run("trace", truth, "--planes", planes, "--output", lines, "--quiet");
   const found = JSON.parse(readFileSync(lines, "utf8")) as { planes: { contours: { points: Vec3[] }[] }[] };
-  const points = found.planes.flatMap((plane) => plane.contours).map((contour) => contour.points).sort((a, b) => b.length - a.length)[0];
+  const points = found.planes
+    .flatMap((plane) => plane.contours)
+    .map((contour) => contour.points)
+    .sort((a, b) => b.length - a.length)[0];
   assert.ok(points, `the ${view} view shows no liver`);
   return Array.from({ length: count }, (_, i) => {
     const from = plus(points[Math.floor((i * points.length) / count)]!, origin, -1);
@@ -128,7 +131,12 @@ describe("the guide's steps in the viewer", () => {
   });
 
   test(STEPS[3], async () => {
-    for (const [name, start] of [["mask.nii.gz", "\x1f\x8b"], ["mesh.stl", "kontur"], ["contours.json", "{"], ["picture.png", "\x89PNG"]] as const) {
+    for (const [name, start] of [
+      ["mask.nii.gz", "\x1f\x8b"],
+      ["mesh.stl", "kontur"],
+      ["contours.json", "{"],
+      ["picture.png", "\x89PNG"],
+    ] as const) {
       const { bytes } = await viewer.export(name);
       assert.equal(bytes.subarray(0, start.length).toString("latin1"), start, name);
     }

@@ -18,10 +18,11 @@ beforeEach(async () => {
 const names = () => viewer.page.locator(".structure-row button.name").allTextContents();
 const activeName = () => viewer.page.locator(".structure-row.active .name").textContent();
 const notice = (words: string) => viewer.page.locator(".notice", { hasText: words });
-const focused = () => viewer.page.evaluate(() => {
-  const { dataset, className } = document.activeElement as HTMLElement;
-  return dataset["test"] ?? dataset["part"] ?? className;
-});
+const focused = () =>
+  viewer.page.evaluate(() => {
+    const { dataset, className } = document.activeElement as HTMLElement;
+    return dataset["test"] ?? dataset["part"] ?? className;
+  });
 
 async function tabTo(wanted: string): Promise<string[]> {
   const passed: string[] = [];
@@ -56,28 +57,46 @@ describe("the keyboard", () => {
     await tabTo("tool-edit");
     const passed = await tabTo("delete-contour");
     await tabTo("tool-edit");
-    for (const control of ["presets", "number", "layout-overview", "layout-single", "import", "export", "help", "overlay", "slice-slider", "add-structure", "color", "name", "eye"])
+    for (const control of [
+      "presets",
+      "number",
+      "layout-overview",
+      "layout-single",
+      "import",
+      "export",
+      "help",
+      "overlay",
+      "slice-slider",
+      "add-structure",
+      "color",
+      "name",
+      "eye",
+    ])
       assert.ok(passed.includes(control), `${control}: ${passed.join(" ")}`);
   });
 
-  test("opens export, and the chooser of a file to import", onlyChromium("from the last control Tab goes to Firefox's own toolbar, where Playwright's keys do not follow"), async () => {
-    const { page } = viewer;
-    await tabTo("export");
-    await page.keyboard.press("Enter");
-    await page.waitForSelector("[data-test=export-dialog]");
-    await page.keyboard.press("Escape");
-    await tabTo("import");
-    await page.keyboard.press("Enter");
-    await tabTo("import-file");
-    // A browser opens a chooser only within seconds of a key: on a busy machine they may have passed before the page gets to it.
-    const chooser = page.waitForEvent("filechooser");
-    const isOpen = () => Promise.race([chooser.then(() => true), page.waitForTimeout(8000).then(() => false)]);
-    for (let tries = 0; tries < 5; ++tries) {
+  test(
+    "opens export, and the chooser of a file to import",
+    onlyChromium("from the last control Tab goes to Firefox's own toolbar, where Playwright's keys do not follow"),
+    async () => {
+      const { page } = viewer;
+      await tabTo("export");
       await page.keyboard.press("Enter");
-      if (await isOpen()) break;
-    }
-    assert.ok(!(await chooser).isMultiple());
-  });
+      await page.waitForSelector("[data-test=export-dialog]");
+      await page.keyboard.press("Escape");
+      await tabTo("import");
+      await page.keyboard.press("Enter");
+      await tabTo("import-file");
+      // A browser opens a chooser only within seconds of a key: on a busy machine they may have passed before the page gets to it.
+      const chooser = page.waitForEvent("filechooser");
+      const isOpen = () => Promise.race([chooser.then(() => true), page.waitForTimeout(8000).then(() => false)]);
+      for (let tries = 0; tries < 5; ++tries) {
+        await page.keyboard.press("Enter");
+        if (await isOpen()) break;
+      }
+      assert.ok(!(await chooser).isMultiple());
+    },
+  );
 
   test("types the window's numbers, and what is no window is not kept", async () => {
     const { page } = viewer;
@@ -160,7 +179,7 @@ describe("the pointer", () => {
     await page.mouse.down();
     await page.evaluate(() => {
       const work = () => {
-        for (const until = performance.now() + 150; performance.now() < until; );
+        for (const until = performance.now() + 150; performance.now() < until;);
         setTimeout(work);
       };
       work();
@@ -175,7 +194,10 @@ describe("the pointer", () => {
   const half = (from: number, to: number) => circle(1, 24).slice(from, to + 1);
 
   /** A circle of which the second half follows after something else has touched the screen. */
-  async function strokeAround(hand: (type: "mousePressed" | "mouseMoved" | "mouseReleased", at: [number, number]) => Promise<unknown>, meanwhile: () => Promise<void>): Promise<void> {
+  async function strokeAround(
+    hand: (type: "mousePressed" | "mouseMoved" | "mouseReleased", at: [number, number]) => Promise<unknown>,
+    meanwhile: () => Promise<void>,
+  ): Promise<void> {
     const radius = await viewer.pixels("axial", BALL_RADIUS_MM);
     const place = ([x, y]: [number, number]) => viewer.at("axial", x * radius, y * radius);
     await hand("mousePressed", await place([1, 0]));
@@ -187,8 +209,18 @@ describe("the pointer", () => {
     await viewer.surfaceShown();
   }
 
-  const asPen = (input: CDPSession) => (type: string, [x, y]: [number, number]) =>
-    input.send("Input.dispatchMouseEvent", { type: type as "mouseMoved", x, y, button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1, pointerType: "pen" });
+  const asPen =
+    (input: CDPSession) =>
+    (type: string, [x, y]: [number, number]) =>
+      input.send("Input.dispatchMouseEvent", {
+        type: type as "mouseMoved",
+        x,
+        y,
+        button: "left",
+        buttons: type === "mouseReleased" ? 0 : 1,
+        clickCount: 1,
+        pointerType: "pen",
+      });
 
   async function palm(input: CDPSession): Promise<void> {
     const [x, y] = await viewer.at("axial", 40, 60);
@@ -197,18 +229,22 @@ describe("the pointer", () => {
     await input.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
   }
 
-  test("that drew first draws on: a touch of the palm beside the pen does nothing, then or later", onlyChromium("pen and touch need its DevTools"), async () => {
-    const input = await viewer.page.context().newCDPSession(viewer.page);
-    await viewer.page.keyboard.press("f");
-    const said = notice("A pen draws here").waitFor(); // it is gone again after some seconds
-    await strokeAround(asPen(input), () => palm(input));
-    const whole = await viewer.volume();
-    assert.ok(whole > 200, `${whole} ml: the whole circle, not a half`);
-    await palm(input);
-    await said;
-    await viewer.saved();
-    assert.equal(await viewer.contours(), 1);
-  });
+  test(
+    "that drew first draws on: a touch of the palm beside the pen does nothing, then or later",
+    onlyChromium("pen and touch need its DevTools"),
+    async () => {
+      const input = await viewer.page.context().newCDPSession(viewer.page);
+      await viewer.page.keyboard.press("f");
+      const said = notice("A pen draws here").waitFor(); // it is gone again after some seconds
+      await strokeAround(asPen(input), () => palm(input));
+      const whole = await viewer.volume();
+      assert.ok(whole > 200, `${whole} ml: the whole circle, not a half`);
+      await palm(input);
+      await said;
+      await viewer.saved();
+      assert.equal(await viewer.contours(), 1);
+    },
+  );
 
   test("of a second finger neither ends nor bends the first one's stroke", onlyChromium("pen and touch need its DevTools"), async () => {
     const input = await viewer.page.context().newCDPSession(viewer.page);
@@ -232,7 +268,8 @@ describe("the pointer", () => {
 });
 
 describe("what a hand gets wrong is said, with a way back", () => {
-  const eight = (radius: number) => Array.from({ length: 41 }, (_, i): [number, number] => [radius * Math.sin((Math.PI * i) / 20), 0.6 * radius * Math.sin((Math.PI * i) / 10)]);
+  const eight = (radius: number) =>
+    Array.from({ length: 41 }, (_, i): [number, number] => [radius * Math.sin((Math.PI * i) / 20), 0.6 * radius * Math.sin((Math.PI * i) / 10)]);
 
   test("a contour that crosses itself", async () => {
     const { page } = viewer;
@@ -251,9 +288,17 @@ describe("what a hand gets wrong is said, with a way back", () => {
   test("a slip of a few pixels, which is a contour only if it is meant", async () => {
     const { page } = viewer;
     await page.keyboard.press("f");
-    await viewer.drag("axial", [[0, 0], [3, 3], [7, 2]]);
+    await viewer.drag("axial", [
+      [0, 0],
+      [3, 3],
+      [7, 2],
+    ]);
     await notice("less than 5 pixels wide").waitFor();
-    await viewer.drag("axial", [[0, 0], [60, 1], [90, 2]]);
+    await viewer.drag("axial", [
+      [0, 0],
+      [60, 1],
+      [90, 2],
+    ]);
     await viewer.saved();
     assert.equal(await viewer.contours(), 0);
     await notice("less than 5 pixels wide").locator("button").click();
@@ -288,7 +333,9 @@ describe("what a hand gets wrong is said, with a way back", () => {
     const { page } = viewer;
     const path = join(visits.folder.path, "elsewhere.json");
     await drawBall("axial", 1);
-    const drawing = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as { planes: { origin: number[]; contours: { points: number[][] }[] }[] };
+    const drawing = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as {
+      planes: { origin: number[]; contours: { points: number[][] }[] }[];
+    };
     for (const plane of drawing.planes) for (const p of [plane.origin, ...plane.contours.flatMap((contour) => contour.points)]) p[0]! += 800;
     writeFileSync(path, JSON.stringify(drawing));
     await viewer.import(path);

@@ -57,7 +57,8 @@ describe("kontur open", () => {
   });
 
   test("opens a folder of DICOM files, tilted as a gantry is", async (t) => {
-    const python = process.env["KONTUR_TEST_PYTHON"]; const script = process.env["KONTUR_DICOM_SERIES"];
+    const python = process.env["KONTUR_TEST_PYTHON"];
+    const script = process.env["KONTUR_DICOM_SERIES"];
     if (!python || !script) return t.skip("no script that writes DICOM files");
     const { status, stderr } = spawnSync(python, [script, "tilt", join(folder.path, "series")], { encoding: "utf8" });
     assert.equal(status, 0, stderr);

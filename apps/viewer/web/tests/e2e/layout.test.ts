@@ -44,7 +44,7 @@ describe("dividers", () => {
     isNear(await height("oblique"), upper + 80);
     await drag("surface", 100, 0);
     isNear(await width("surface"), surface - 100);
-    const stage = await width("axial") + (await width("sagittal"));
+    const stage = (await width("axial")) + (await width("sagittal"));
     isNear(stage, axial + sagittal + 100);
     await drag("panel", -120, 0);
     const panel = (await viewer.page.locator(".panel").boundingBox())!.width;
@@ -141,7 +141,13 @@ describe("a second window", () => {
 });
 
 describe("the page", () => {
-  for (const [pageWidth, pageHeight] of [[820, 1180], [820, 620], [1280, 720], [1920, 1080], [3840, 2160]] as const)
+  for (const [pageWidth, pageHeight] of [
+    [820, 1180],
+    [820, 620],
+    [1280, 720],
+    [1920, 1080],
+    [3840, 2160],
+  ] as const)
     test(`has everything in reach at ${pageWidth} x ${pageHeight}`, async () => {
       const { page } = viewer;
       await page.setViewportSize({ width: pageWidth, height: pageHeight });
@@ -159,7 +165,10 @@ describe("the page", () => {
         const box = (await page.locator(`[data-test=${name}]`).boundingBox())!;
         const isMenu = hidden.includes(name);
         assert.ok(isMenu || box.y < 60, `${name} is in the bar`);
-        assert.ok(box.x >= 0 && box.x + box.width <= pageWidth && box.y + box.height <= pageHeight, `${name} ends at ${box.x + box.width}, ${box.y + box.height}`);
+        assert.ok(
+          box.x >= 0 && box.x + box.width <= pageWidth && box.y + box.height <= pageHeight,
+          `${name} ends at ${box.x + box.width}, ${box.y + box.height}`,
+        );
       }
       if (hidden.length === 0) return;
       await page.click("[data-test=layout-single]");

@@ -25,7 +25,10 @@ test("slices come compressed where the connection is slow, and look as before", 
     await page.waitForTimeout(100);
   };
   for (const delta of [120, -120, 120, -120, 120, -120]) await scroll(delta);
-  assert.ok(encodings.every((encoding) => encoding === undefined), "not on the way through the machine itself");
+  assert.ok(
+    encodings.every((encoding) => encoding === undefined),
+    "not on the way through the machine itself",
+  );
   const before = await bright();
   assert.ok(before > 1000);
   const devTools = await page.context().newCDPSession(page);

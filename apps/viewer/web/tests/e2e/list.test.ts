@@ -33,7 +33,11 @@ async function importMask(how: string, only?: number): Promise<void> {
   writeLabels(path, only);
   const { address, token } = visits.server;
   const origin = new URL(address).origin;
-  const reply = await fetch(`${origin}/api/import/mask?name=labels.nii&${how}`, { method: "POST", body: readFileSync(path), headers: { Authorization: `Bearer ${token}`, Origin: origin } });
+  const reply = await fetch(`${origin}/api/import/mask?name=labels.nii&${how}`, {
+    method: "POST",
+    body: readFileSync(path),
+    headers: { Authorization: `Bearer ${token}`, Origin: origin },
+  });
   assert.equal(reply.status, 200, await reply.text());
 }
 
@@ -61,9 +65,15 @@ describe("a list of thirty structures", () => {
     const own = Number(await viewer.page.locator(".structure-row.active .count").textContent());
     await viewer.waitForContours(own);
     const groups = await viewer.page.locator(".contour-group").allTextContents();
-    assert.deepEqual(groups.map((text) => text.replace(/\d+$/, "")), ["Axial", "Sagittal", "Coronal"]);
+    assert.deepEqual(
+      groups.map((text) => text.replace(/\d+$/, "")),
+      ["Axial", "Sagittal", "Coronal"],
+    );
     const slices = (await viewer.page.locator(".contour-row:has-text('Coronal') .contour-slice").allTextContents()).map(Number);
-    assert.deepEqual(slices, [...slices].sort((a, b) => a - b));
+    assert.deepEqual(
+      slices,
+      [...slices].sort((a, b) => a - b),
+    );
     assert.ok(slices.length >= 3);
     await viewer.page.click(".group-title >> text=Axial");
     await viewer.page.waitForFunction((before) => document.querySelectorAll(".contour-row").length < before, own);
@@ -118,6 +128,9 @@ describe("a list of thirty structures", () => {
     await viewer.page.keyboard.press("Control+z");
     await nameOf("Imported mask").click();
     await viewer.waitForContours(before);
-    assert.deepEqual(viewer.complaints.filter((text) => !/WebGL/.test(text)), []);
+    assert.deepEqual(
+      viewer.complaints.filter((text) => !/WebGL/.test(text)),
+      [],
+    );
   });
 });

@@ -29,7 +29,13 @@ describe("all structures", () => {
   test("are measured: volume, surface, diameter, values; the table is saved as CSV", async () => {
     const { page } = viewer;
     await page.click("[data-test=statistics-open]");
-    const row = async (head: string) => (await page.locator("[data-test=statistics] tr", { has: page.locator(`th:text-is("${head}")`) }).locator("td").allInnerTexts()).map(Number);
+    const row = async (head: string) =>
+      (
+        await page
+          .locator("[data-test=statistics] tr", { has: page.locator(`th:text-is("${head}")`) })
+          .locator("td")
+          .allInnerTexts()
+      ).map(Number);
     await page.locator("[data-test=statistics]").waitFor();
     const [large, small] = await row("Volume, ml");
     const ball = (mm: number) => BALL_ML * (mm / BALL_RADIUS_MM) ** 3;
@@ -53,7 +59,13 @@ describe("all structures", () => {
     const { page } = viewer;
     await page.click("[data-test=statistics-open]");
     await page.click("[data-test=compare]");
-    const row = async (head: string) => Number.parseFloat(await page.locator("[data-test=comparison] tr", { has: page.locator(`th:text-is("${head}")`) }).locator("td").innerText());
+    const row = async (head: string) =>
+      Number.parseFloat(
+        await page
+          .locator("[data-test=comparison] tr", { has: page.locator(`th:text-is("${head}")`) })
+          .locator("td")
+          .innerText(),
+      );
     await page.locator("[data-test=comparison] tr").first().waitFor();
     const [large, small] = [BALL_RADIUS_MM ** 3, SMALL_MM ** 3];
     assert.ok(Math.abs((await row("Dice")) - (2 * small) / (large + small)) < 0.02, `Dice ${await row("Dice")}`);
@@ -115,15 +127,28 @@ describe("all structures", () => {
 });
 
 describe("the measuring tool", () => {
-  const shows = (wanted: RegExp) => viewer.page.waitForFunction((pattern) => new RegExp(pattern).test(document.querySelector<HTMLElement>("[data-view=axial]")!.dataset["measured"] ?? ""), wanted.source);
+  const shows = (wanted: RegExp) =>
+    viewer.page.waitForFunction(
+      (pattern) => new RegExp(pattern).test(document.querySelector<HTMLElement>("[data-view=axial]")!.dataset["measured"] ?? ""),
+      wanted.source,
+    );
 
   test("tells distances and angles, which come back with the project; Del takes the last away", async () => {
     const { page } = viewer;
     await page.keyboard.press("d");
     const far = await viewer.pixels("axial", 30);
-    await viewer.drag("axial", [[-far, 20], [-far / 2, 20], [0, 20]]);
+    await viewer.drag("axial", [
+      [-far, 20],
+      [-far / 2, 20],
+      [0, 20],
+    ]);
     await shows(/^(29|30)\.\d mm$/);
-    for (const [x, y] of [[60, -60], [20, -60], [20, -20]] as const) await viewer.click("axial", x, y);
+    for (const [x, y] of [
+      [60, -60],
+      [20, -60],
+      [20, -20],
+    ] as const)
+      await viewer.click("axial", x, y);
     await shows(/mm; 90\.0°$/);
     await page.waitForTimeout(1000); // the page keeps it a moment after
     await page.reload();
@@ -137,29 +162,36 @@ describe("the measuring tool", () => {
 });
 
 describe("the window", () => {
-  test("is dragged without a picture from the server: values come once for each slice, and the image follows", onlyChromium("Playwright is not told what Firefox's requests hold"), async () => {
-    const { page } = viewer;
-    await viewer.slicesShown();
-    const asked: string[] = [];
-    page.on("request", (request) => void (request.url().endsWith("/api/slice") && asked.push((JSON.parse(request.postData()!) as { pixels: string }).pixels)));
-    const bright = () => viewer.countPixels("coronal", (r, g, b) => r > 200 && r === g && g === b);
-    const before = await bright();
-    const typed = await page.locator(".toolbar .number").evaluateAll((fields) => fields.map((field) => (field as HTMLInputElement).value));
-    const path = (to: number): [number, number][] => Array.from({ length: 31 }, (_, i) => [(to * i) / 30, (-to * i) / 30]);
-    await viewer.drag("coronal", path(90), "right");
-    await viewer.slicesShown();
-    const values = asked.filter((pixels) => pixels === "values").length;
-    assert.ok(values >= 4 && asked.length <= 8, asked.join());
-    const after = await bright();
-    assert.notEqual(after, before);
-    asked.length = 0;
-    await viewer.drag("coronal", path(-90), "right");
-    for (const [i, value] of typed.entries()) {
-      await viewer.type(page.locator(".toolbar .number").nth(i), value);
-      await page.keyboard.press("Enter");
-    }
-    await viewer.slicesShown();
-    assert.deepEqual(asked, []);
-    assert.ok(Math.abs((await bright()) - before) <= 0.02 * before + 5, "and back as it was");
-  });
+  test(
+    "is dragged without a picture from the server: values come once for each slice, and the image follows",
+    onlyChromium("Playwright is not told what Firefox's requests hold"),
+    async () => {
+      const { page } = viewer;
+      await viewer.slicesShown();
+      const asked: string[] = [];
+      page.on(
+        "request",
+        (request) => void (request.url().endsWith("/api/slice") && asked.push((JSON.parse(request.postData()!) as { pixels: string }).pixels)),
+      );
+      const bright = () => viewer.countPixels("coronal", (r, g, b) => r > 200 && r === g && g === b);
+      const before = await bright();
+      const typed = await page.locator(".toolbar .number").evaluateAll((fields) => fields.map((field) => (field as HTMLInputElement).value));
+      const path = (to: number): [number, number][] => Array.from({ length: 31 }, (_, i) => [(to * i) / 30, (-to * i) / 30]);
+      await viewer.drag("coronal", path(90), "right");
+      await viewer.slicesShown();
+      const values = asked.filter((pixels) => pixels === "values").length;
+      assert.ok(values >= 4 && asked.length <= 8, asked.join());
+      const after = await bright();
+      assert.notEqual(after, before);
+      asked.length = 0;
+      await viewer.drag("coronal", path(-90), "right");
+      for (const [i, value] of typed.entries()) {
+        await viewer.type(page.locator(".toolbar .number").nth(i), value);
+        await page.keyboard.press("Enter");
+      }
+      await viewer.slicesShown();
+      assert.deepEqual(asked, []);
+      assert.ok(Math.abs((await bright()) - before) <= 0.02 * before + 5, "and back as it was");
+    },
+  );
 });

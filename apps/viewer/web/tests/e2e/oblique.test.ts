@@ -14,7 +14,11 @@ let viewer: Viewer;
 cleanUp(folder, () => [browser, server]);
 
 /** Turned by 58 degrees about the left-right axis: nearer to coronal slices than to axial ones. */
-const SHORT_AXIS: Steps = [[2, 0, 0], [0, 2 * Math.cos(1.012), 2 * Math.sin(1.012)], [0, -4 * Math.sin(1.012), 4 * Math.cos(1.012)]];
+const SHORT_AXIS: Steps = [
+  [2, 0, 0],
+  [0, 2 * Math.cos(1.012), 2 * Math.sin(1.012)],
+  [0, -4 * Math.sin(1.012), 4 * Math.cos(1.012)],
+];
 
 before(async () => {
   const image = join(folder.path, "heart.nii");
@@ -29,7 +33,10 @@ test("the slices as they were acquired come first, have the keyboard, and are ca
   const { page } = viewer;
   const titles = await page.locator(".pane.slice").evaluateAll((panes) =>
     panes
-      .map((pane) => ({ title: pane.querySelector(".pane-title")!.textContent, ...pane.getBoundingClientRect().toJSON() }) as { title: string; x: number; y: number })
+      .map(
+        (pane) =>
+          ({ title: pane.querySelector(".pane-title")!.textContent, ...pane.getBoundingClientRect().toJSON() }) as { title: string; x: number; y: number },
+      )
       .sort((a, b) => a.y - b.y || a.x - b.x)
       .map(({ title }) => title),
   );

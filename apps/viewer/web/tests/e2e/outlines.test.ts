@@ -38,7 +38,9 @@ interface Drawing {
 async function drawnAt(z_mm: number): Promise<[number, number, number][]> {
   const { planes } = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as Drawing;
   const all = planes.flatMap((plane) => plane.contours.map(({ points }) => points));
-  return all.find((points) => points.every((p) => Math.abs(p[2] - z_mm) < 0.01)) ?? assert.fail(`no contour at ${z_mm} mm: ${JSON.stringify(all.map(([p]) => p))}`);
+  return (
+    all.find((points) => points.every((p) => Math.abs(p[2] - z_mm) < 0.01)) ?? assert.fail(`no contour at ${z_mm} mm: ${JSON.stringify(all.map(([p]) => p))}`)
+  );
 }
 
 /** Adopts the outline of the axial slice by the key, with the pointer beside it. */
@@ -57,7 +59,8 @@ const notice = (words: string) => viewer.page.locator(".notice", { hasText: word
 /** Presses on the outline, away from plane lines, and pulls it outwards by so many mm; the button is still held. */
 async function pull(by_mm: number): Promise<void> {
   const { mouse } = viewer.page;
-  const from = await viewer.pixels("axial", FITTED_MM); const by = await viewer.pixels("axial", by_mm);
+  const from = await viewer.pixels("axial", FITTED_MM);
+  const by = await viewer.pixels("axial", by_mm);
   await mouse.move(...(await viewer.at("axial", ...diagonal(from))));
   await viewer.page.waitForFunction(() => document.querySelector<HTMLElement>("[data-view=axial] .overlay")!.style.cursor === "grab");
   await mouse.down();
@@ -77,7 +80,13 @@ describe("a computed outline", () => {
     await page.mouse.up();
     await viewer.waitForContours(3);
     await viewer.saved();
-    const moved = (await drawnAt(HEIGHT_MM)).map((p) => ({ p, by: nearestOnLoop(fitted.map(([x, y]) => [x, y]), [p[0], p[1]]).distance }));
+    const moved = (await drawnAt(HEIGHT_MM)).map((p) => ({
+      p,
+      by: nearestOnLoop(
+        fitted.map(([x, y]) => [x, y]),
+        [p[0], p[1]],
+      ).distance,
+    }));
     const most = moved.reduce((a, b) => (a.by > b.by ? a : b));
     assert.ok(Math.abs(most.by - 8) < 0.8, `pulled by ${most.by} mm`);
     assert.ok(Math.abs(most.p[0] - most.p[1]) < 4 && most.p[0] > 0, `at ${most.p.join()}`);
@@ -110,7 +119,10 @@ describe("a computed outline", () => {
     await viewer.surfaceShown();
     const volume = await viewer.volume();
     const radii = (await adopted()).map(([x, y]) => Math.hypot(x, y));
-    assert.ok(radii.every((r) => Math.abs(r - FITTED_MM) < 3), `${Math.min(...radii)} to ${Math.max(...radii)}, around ${FITTED_MM} expected`);
+    assert.ok(
+      radii.every((r) => Math.abs(r - FITTED_MM) < 3),
+      `${Math.min(...radii)} to ${Math.max(...radii)}, around ${FITTED_MM} expected`,
+    );
     await viewer.surfaceShown();
     assert.ok(Math.abs((await viewer.volume()) / volume - 1) < 0.01, "what is kept as it was changes nothing");
     await page.keyboard.press("a");

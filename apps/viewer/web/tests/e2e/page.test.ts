@@ -74,7 +74,10 @@ describe("the page", () => {
   test("draws spline and hand-drawn stretches in one contour on the turned oblique plane", async () => {
     await viewer.page.keyboard.press("v");
     const line = 0.33 * Math.min((await viewer.pane("axial").boundingBox())!.width, (await viewer.pane("axial").boundingBox())!.height);
-    await viewer.drag("axial", [[line * Math.SQRT1_2, line * Math.SQRT1_2], [line, line * 0.2]]);
+    await viewer.drag("axial", [
+      [line * Math.SQRT1_2, line * Math.SQRT1_2],
+      [line, line * 0.2],
+    ]);
     await viewer.page.waitForFunction(() => document.querySelector<HTMLElement>("[data-view=oblique]")!.dataset["turned"] === "true");
     await viewer.slicesShown();
     await viewer.page.keyboard.press("s");
@@ -123,7 +126,11 @@ describe("the page", () => {
     await page.locator(".contour-row[data-kind=livewire]").click();
     await viewer.slicesShown();
     const radius = await viewer.pixels("coronal", BALL_RADIUS_MM);
-    await viewer.drag("coronal", [[radius, 0], [radius + 8, 3], [radius + 16, 6]]);
+    await viewer.drag("coronal", [
+      [radius, 0],
+      [radius + 8, 3],
+      [radius + 16, 6],
+    ]);
     await page.waitForFunction(() => !document.querySelector("[data-test=undo]")!.getAttribute("title")!.includes("Draw"));
     await viewer.surfaceShown();
     const edited = await contoursNow();

@@ -66,12 +66,17 @@ describe("points of the surface", () => {
     const viewer = await opened();
     const { page } = viewer;
     await page.keyboard.press("q");
-    const near = (await viewer.pixels("sagittal", BALL_RADIUS_MM)) * Math.SQRT1_2; const far = (await viewer.pixels("sagittal", BALL_RADIUS_MM + 10)) * Math.SQRT1_2;
+    const near = (await viewer.pixels("sagittal", BALL_RADIUS_MM)) * Math.SQRT1_2;
+    const far = (await viewer.pixels("sagittal", BALL_RADIUS_MM + 10)) * Math.SQRT1_2;
     await viewer.click("sagittal", near, -near);
     await viewer.click("sagittal", -near, -near);
     await waitForPoints(viewer, 2);
     await page.keyboard.press("v");
-    await viewer.drag("sagittal", [[near, -near], [near + 5, -near - 5], [far, -far]]);
+    await viewer.drag("sagittal", [
+      [near, -near],
+      [near + 5, -near - 5],
+      [far, -far],
+    ]);
     await viewer.waitForStep("undo", "Move a point on Structure 1");
     await viewer.surfaceShown();
     assert.ok(Math.abs(Math.hypot(...millimetres(await place(viewer, 0))) - BALL_RADIUS_MM - 10) < 1.5, await place(viewer, 0));

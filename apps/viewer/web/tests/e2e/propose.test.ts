@@ -54,7 +54,10 @@ describe("the outline of the next slice", () => {
     const z = DRAWN_MM - 12;
     const expected = Math.sqrt(BALL_RADIUS_MM ** 2 - z ** 2);
     const radii = await radiiAt(z);
-    assert.ok(radii.length > 20 && radii.every((r) => Math.abs(r - expected) < 2.5), `${Math.min(...radii)} to ${Math.max(...radii)}, around ${expected} expected`);
+    assert.ok(
+      radii.length > 20 && radii.every((r) => Math.abs(r - expected) < 2.5),
+      `${Math.min(...radii)} to ${Math.max(...radii)}, around ${expected} expected`,
+    );
     await page.keyboard.press("Control+z");
     await viewer.waitForContours(2);
     await viewer.waitForStep("redo", "Accept the proposal");

@@ -19,7 +19,8 @@ beforeEach(async () => {
 
 type Drawing = { planes: { contours: { points: [number, number, number][] }[] }[] };
 
-const contours = async () => (JSON.parse((await viewer.export("contours.json")).bytes.toString()) as Drawing).planes.flatMap((plane) => plane.contours.map(({ points }) => points));
+const contours = async () =>
+  (JSON.parse((await viewer.export("contours.json")).bytes.toString()) as Drawing).planes.flatMap((plane) => plane.contours.map(({ points }) => points));
 const right = (points: [number, number, number][]) => Math.max(...points.map(([x]) => x));
 const left = (points: [number, number, number][]) => Math.min(...points.map(([x]) => x));
 
@@ -29,12 +30,20 @@ describe("the brush", () => {
     const [before] = await contours();
     await page.keyboard.press("p");
     const edge = await viewer.pixels("axial", BALL_RADIUS_MM);
-    await viewer.drag("axial", [[edge - 45, 0], [edge - 30, 0], [edge - 15, 0], [edge - 5, 0]]);
+    await viewer.drag("axial", [
+      [edge - 45, 0],
+      [edge - 30, 0],
+      [edge - 15, 0],
+      [edge - 5, 0],
+    ]);
     await viewer.waitForStep("undo", "Redraw a part");
     await viewer.saved();
     const mm = BALL_RADIUS_MM / edge;
     const [after] = await contours();
-    assert.ok(Math.abs(right(after!) - (right(before!) + (24 - 5) * mm)) < 1.5 * mm + 0.2, `${right(after!)} after ${right(before!)}; the brush reaches ${(24 - 5) * mm} mm beyond`);
+    assert.ok(
+      Math.abs(right(after!) - (right(before!) + (24 - 5) * mm)) < 1.5 * mm + 0.2,
+      `${right(after!)} after ${right(before!)}; the brush reaches ${(24 - 5) * mm} mm beyond`,
+    );
     assert.equal(left(after!), left(before!));
     await page.keyboard.press("Control+z");
     await viewer.waitForStep("undo", "Draw a contour");
@@ -54,12 +63,20 @@ describe("the brush", () => {
     assert.equal(BALL_RADIUS_MM / (await viewer.pixels("axial", BALL_RADIUS_MM)), mm, "not zoomed");
     const radius = 24 * Math.exp(-1);
     const edge = BALL_RADIUS_MM / mm;
-    await viewer.drag("axial", [[edge + 40, 0], [edge + 20, 0], [edge, 0], [edge - 6, 0]]);
+    await viewer.drag("axial", [
+      [edge + 40, 0],
+      [edge + 20, 0],
+      [edge, 0],
+      [edge - 6, 0],
+    ]);
     await viewer.waitForStep("undo", "Redraw a part");
     await viewer.saved();
     const [after] = await contours();
     const dent = Math.max(...after!.filter(([, y]) => Math.abs(y + 1) < 1.5).map(([x]) => x)); // the view's middle lies at y = -1
-    assert.ok(Math.abs(dent - (right(before!) - (6 + radius) * mm)) < 1.5 * mm + 0.3, `dented to ${dent} mm from ${right(before!)}, by ${(6 + radius) * mm} expected`);
+    assert.ok(
+      Math.abs(dent - (right(before!) - (6 + radius) * mm)) < 1.5 * mm + 0.3,
+      `dented to ${dent} mm from ${right(before!)}, by ${(6 + radius) * mm} expected`,
+    );
   });
 
   test("pushes the computed outline where nothing is drawn: then it is a contour", async () => {
@@ -70,7 +87,12 @@ describe("the brush", () => {
     await viewer.slicesShown();
     await viewer.surfaceShown();
     const edge = await viewer.pixels("axial", BALL_RADIUS_MM);
-    await viewer.drag("axial", [[edge - 45, 0], [edge - 30, 0], [edge - 15, 0], [edge, 0]]);
+    await viewer.drag("axial", [
+      [edge - 45, 0],
+      [edge - 30, 0],
+      [edge - 15, 0],
+      [edge, 0],
+    ]);
     await viewer.waitForContours(2);
     await viewer.saved();
     await viewer.surfaceShown();

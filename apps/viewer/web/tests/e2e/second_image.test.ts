@@ -33,7 +33,8 @@ cleanUp(folder, () => [browser, server]);
 
 /** The same voxels several times. */
 function writeFrames(path: string, of: string, count: number): void {
-  const file = readFileSync(of); const voxels = file.subarray(352);
+  const file = readFileSync(of);
+  const voxels = file.subarray(352);
   file.writeInt16LE(4, 40);
   file.writeInt16LE(count, 48);
   writeFileSync(path, Buffer.concat([file.subarray(0, 352), ...Array.from({ length: count }, () => voxels)]));
@@ -156,16 +157,37 @@ describe("a second image", () => {
   test("has a window of its own: right drag where it is alone, with Shift where both are seen", async () => {
     const windows = async () => Promise.all([viewer.page.locator(".toolbar .number").first().inputValue(), field("low").inputValue()]);
     const before = await windows();
-    await viewer.drag("axial", [[0, 0], [10, 20]], "right");
+    await viewer.drag(
+      "axial",
+      [
+        [0, 0],
+        [10, 20],
+      ],
+      "right",
+    );
     const afterFirst = await windows();
     assert.ok(afterFirst[0] !== before[0] && afterFirst[1] === before[1], JSON.stringify([before, afterFirst]));
     await viewer.page.keyboard.down("Shift");
-    await viewer.drag("axial", [[0, 0], [10, 20]], "right");
+    await viewer.drag(
+      "axial",
+      [
+        [0, 0],
+        [10, 20],
+      ],
+      "right",
+    );
     await viewer.page.keyboard.up("Shift");
     const afterSecond = await windows();
     assert.ok(afterSecond[0] === afterFirst[0] && afterSecond[1] !== afterFirst[1], JSON.stringify([afterFirst, afterSecond]));
     await press("i");
-    await viewer.drag("axial", [[0, 0], [-10, 20]], "right");
+    await viewer.drag(
+      "axial",
+      [
+        [0, 0],
+        [-10, 20],
+      ],
+      "right",
+    );
     const alone = await windows();
     assert.ok(alone[0] === afterSecond[0] && alone[1] !== afterSecond[1], JSON.stringify([afterSecond, alone]));
     await viewer.page.selectOption("[data-test=second-presets]", { label: "Full range" });
@@ -180,9 +202,14 @@ describe("a second image", () => {
     for (const place of circle(beside, 6).slice(0, 6)) await viewer.click("axial", ...place);
     await viewer.page.keyboard.press("Enter");
     await viewer.waitForContours(1);
-    const { planes } = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as { planes: { contours: { points: [number, number, number][] }[] }[] };
+    const { planes } = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as {
+      planes: { contours: { points: [number, number, number][] }[] }[];
+    };
     const radii = planes[0]!.contours[0]!.points.map((p) => Math.hypot(...p));
-    assert.ok(radii.every((radius) => Math.abs(radius - SMALL_RADIUS_MM) < 2), `from ${Math.min(...radii)} to ${Math.max(...radii)} mm`);
+    assert.ok(
+      radii.every((radius) => Math.abs(radius - SMALL_RADIUS_MM) < 2),
+      `from ${Math.min(...radii)} to ${Math.max(...radii)} mm`,
+    );
     await viewer.saved();
     assert.deepEqual(viewer.complaints, []);
   });
@@ -190,13 +217,22 @@ describe("a second image", () => {
   test("leaves the list its rows in a low window, all of the panel in reach, and has a card that folds", async () => {
     const { page } = viewer;
     const box = async (part: string) => (await page.locator(part).boundingBox())!;
-    for (const [width, height] of [[1280, 720], [820, 620]] as const) {
+    for (const [width, height] of [
+      [1280, 720],
+      [820, 620],
+    ] as const) {
       await page.setViewportSize({ width, height });
-      const panel = await box(".panel"); const list = await box(".structures");
-      assert.ok(list.height > 140 && list.y + list.height <= panel.y + panel.height, `${width} x ${height}: the list from ${list.y} to ${list.y + list.height}`);
+      const panel = await box(".panel");
+      const list = await box(".structures");
+      assert.ok(
+        list.height > 140 && list.y + list.height <= panel.y + panel.height,
+        `${width} x ${height}: the list from ${list.y} to ${list.y + list.height}`,
+      );
       await page.mouse.move(panel.x + panel.width / 2, panel.y + 20);
       for (let n = 0; n < 12; ++n) await page.mouse.wheel(0, 100);
-      await page.waitForFunction(() => document.querySelector(".quality")!.getBoundingClientRect().bottom <= document.querySelector(".panel")!.getBoundingClientRect().bottom + 1); // its end is in reach
+      await page.waitForFunction(
+        () => document.querySelector(".quality")!.getBoundingClientRect().bottom <= document.querySelector(".panel")!.getBoundingClientRect().bottom + 1,
+      ); // its end is in reach
     }
     await page.setViewportSize({ width: 1280, height: 720 });
     assert.ok(await field("opacity").isVisible());

@@ -16,13 +16,20 @@ test("a step of the slider is one of the history, is kept, and exports what kont
   await page.keyboard.press("f");
   for (const [n, view] of ["axial", "coronal"].entries()) {
     const radius = await viewer.pixels(view, BALL_RADIUS_MM);
-    await viewer.drag(view, circle(1, 90).map(([x, y], i) => [x * radius * (1 + 0.05 * Math.sin(1.3 * i)), y * radius * (1 + 0.05 * Math.sin(1.3 * i))]));
+    await viewer.drag(
+      view,
+      circle(1, 90).map(([x, y], i) => [x * radius * (1 + 0.05 * Math.sin(1.3 * i)), y * radius * (1 + 0.05 * Math.sin(1.3 * i))]),
+    );
     await viewer.waitForContours(n + 1);
   }
   await viewer.surfaceShown();
   const rms = async () => Number.parseFloat((await page.locator(".figure", { hasText: "Residual" }).locator("strong").textContent())!);
   const usual = await rms();
-  const isUsual = () => page.waitForFunction((mm) => [...document.querySelectorAll(".figure")].some((figure) => figure.textContent!.includes("Residual") && figure.textContent!.includes(mm)), usual.toFixed(2));
+  const isUsual = () =>
+    page.waitForFunction(
+      (mm) => [...document.querySelectorAll(".figure")].some((figure) => figure.textContent!.includes("Residual") && figure.textContent!.includes(mm)),
+      usual.toFixed(2),
+    );
   const slice = await viewer.slice("axial");
 
   await slider.focus();

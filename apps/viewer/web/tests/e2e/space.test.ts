@@ -22,7 +22,8 @@ async function placesLike(r: number, g: number, b: number, tolerance: number): P
       const pixels = context.getImageData(0, 0, image.width, image.height).data;
       const found: [number, number][] = [];
       for (let i = 0; i < pixels.length; i += 4)
-        if (wanted.every((value, channel) => Math.abs(pixels[i + channel]! - value) <= most)) found.push([(i / 4) % image.width, Math.floor(i / 4 / image.width)]);
+        if (wanted.every((value, channel) => Math.abs(pixels[i + channel]! - value) <= most))
+          found.push([(i / 4) % image.width, Math.floor(i / 4 / image.width)]);
       return found;
     },
     [picture, [r, g, b], tolerance] as const,
@@ -41,7 +42,10 @@ async function prepare(): Promise<void> {
   await viewer.waitForContours(1);
   const wide = circle(1, 48).map(([x, y]): [number, number] => [x, y]);
   const [radius, other] = [await viewer.pixels("coronal", BALL_RADIUS_MM), await viewer.pixels("coronal", BALL_RADIUS_MM - 9)];
-  await viewer.drag("coronal", wide.map(([x, y]) => [x * (x > 0 ? other : radius), y * radius])); // contradicts the first one on the left side
+  await viewer.drag(
+    "coronal",
+    wide.map(([x, y]) => [x * (x > 0 ? other : radius), y * radius]),
+  ); // contradicts the first one on the left side
   await viewer.waitForContours(2);
   await viewer.surfaceShown();
   await isDrawn();

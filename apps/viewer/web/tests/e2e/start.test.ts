@@ -74,7 +74,10 @@ describe("the start page", () => {
     assert.deepEqual(await names(viewer, "folder"), ["scans", "study"], "no hidden folder");
     await enter(viewer, "scans");
     assert.deepEqual(await names(viewer, "folder"), ["old"], "no link that leads out");
-    assert.deepEqual((await names(viewer, "file")).map((text) => /^[a-z]+\.nii/.exec(text)?.[0]), ["ball.nii", "broken.nii", "second.nii"]);
+    assert.deepEqual(
+      (await names(viewer, "file")).map((text) => /^[a-z]+\.nii/.exec(text)?.[0]),
+      ["ball.nii", "broken.nii", "second.nii"],
+    );
     await viewer.type(viewer.page.locator("[data-test=filter]"), "sec");
     assert.equal((await names(viewer, "file")).length, 1);
     await viewer.page.click("[data-test=folder-up]");
@@ -124,7 +127,11 @@ describe("the start page", () => {
     await viewer.page.click("[data-test=another]");
     await viewer.page.waitForSelector("[data-test=start][open]");
     const recent = await names(viewer, "recent");
-    assert.deepEqual(recent.map((text) => /^[a-z]+\.nii/.exec(text)?.[0]), ["second.nii", "ball.nii"], "the latest first");
+    assert.deepEqual(
+      recent.map((text) => /^[a-z]+\.nii/.exec(text)?.[0]),
+      ["second.nii", "ball.nii"],
+      "the latest first",
+    );
     await viewer.page.locator("[data-test=recent]").last().focus();
     await viewer.page.keyboard.press("Enter");
     await viewer.ready();
@@ -149,9 +156,13 @@ describe("the start page", () => {
   });
 
   test("lists the series of a DICOM folder with pictures, and opens the one that is chosen", async (t) => {
-    const python = process.env["KONTUR_TEST_PYTHON"]; const script = process.env["KONTUR_DICOM_SERIES"];
+    const python = process.env["KONTUR_TEST_PYTHON"];
+    const script = process.env["KONTUR_DICOM_SERIES"];
     if (!python || !script) return t.skip("no script that writes DICOM files");
-    for (const [name, into] of [["other_series", "a"], ["echoes", "b"]] as const) {
+    for (const [name, into] of [
+      ["other_series", "a"],
+      ["echoes", "b"],
+    ] as const) {
       const made: { status: number | null; stderr: string } = spawnSync(python, [script, name, join(home, "study", into)], { encoding: "utf8" });
       assert.equal(made.status, 0, made.stderr);
     }
@@ -160,7 +171,9 @@ describe("the start page", () => {
     await enter(viewer, "study");
     const volumes = viewer.page.locator("[data-test=volume]");
     await volumes.first().waitFor();
-    await viewer.page.waitForFunction(() => [...document.querySelectorAll<HTMLElement>(".volume canvas")].every((canvas) => canvas.dataset["painted"] === "true"));
+    await viewer.page.waitForFunction(() =>
+      [...document.querySelectorAll<HTMLElement>(".volume canvas")].every((canvas) => canvas.dataset["painted"] === "true"),
+    );
     const texts = await volumes.allTextContents();
     assert.equal(texts.length, 4, texts.join("; ")); // two series, and two echoes of one
     for (const text of texts) assert.match(text, /CT.*\d+ slices of 14 × 12/);

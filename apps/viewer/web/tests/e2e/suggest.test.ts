@@ -25,10 +25,16 @@ const proposed = () => viewer.page.locator(".hint", { hasText: "A proposal" });
 const slices = () => viewer.page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map((pane) => pane.dataset["slice"]).join(" "));
 
 /** The slices of the views, and whether they are turned. */
-const looks = () => viewer.page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map(({ dataset }) => `${dataset["slice"]}${dataset["turned"]}`).join(" "));
+const looks = () =>
+  viewer.page.evaluate(() =>
+    [...document.querySelectorAll<HTMLElement>(".pane.slice")].map(({ dataset }) => `${dataset["slice"]}${dataset["turned"]}`).join(" "),
+  );
 
 async function looksOtherThan(before: string): Promise<string> {
-  await viewer.page.waitForFunction((known) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map(({ dataset }) => `${dataset["slice"]}${dataset["turned"]}`).join(" ") !== known, before);
+  await viewer.page.waitForFunction(
+    (known) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map(({ dataset }) => `${dataset["slice"]}${dataset["turned"]}`).join(" ") !== known,
+    before,
+  );
   return looks();
 }
 
@@ -71,7 +77,10 @@ describe("where to draw next", () => {
     const first = await slices();
     assert.notEqual(first, start, "the views go there");
     await page.keyboard.press("g");
-    await page.waitForFunction((before) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map((pane) => pane.dataset["slice"]).join(" ") !== before, first);
+    await page.waitForFunction(
+      (before) => [...document.querySelectorAll<HTMLElement>(".pane.slice")].map((pane) => pane.dataset["slice"]).join(" ") !== before,
+      first,
+    );
     await proposed().waitFor();
     await page.keyboard.press("Escape");
     await proposed().waitFor({ state: "detached" });
@@ -104,7 +113,8 @@ describe("how sure the surface is", () => {
   test("is told, and coloured from dark near the lines to light where nothing was drawn, until one clicks again", async () => {
     const { page } = viewer;
     assert.match((await page.locator(".certainty").textContent())!, /expected Dice 0?\.\d+/);
-    const band = page.locator("[data-test=band]"); const scale = page.locator("[data-test=band-scale]");
+    const band = page.locator("[data-test=band]");
+    const scale = page.locator("[data-test=band-scale]");
     // The structure's own colour, and the dark end of the band's.
     const isAmber = (r: number, g: number, b: number) => r > 90 && r > 1.25 * g && g > 1.3 * b;
     const isBlue = (r: number, g: number, b: number) => b > 1.6 * r && b > 50 && g > r;

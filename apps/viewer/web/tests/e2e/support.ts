@@ -35,9 +35,17 @@ export const BALL_ML = (4 / 3) * Math.PI * (BALL_RADIUS_MM / 10) ** 3;
 
 /** Columns of a NIfTI's matrix (RAS): the steps in mm along i, j and k. */
 export type Steps = readonly [readonly number[], readonly number[], readonly number[]];
-const STRAIGHT: Steps = [[2, 0, 0], [0, 2, 0], [0, 0, 4]];
+const STRAIGHT: Steps = [
+  [2, 0, 0],
+  [0, 2, 0],
+  [0, 0, 4],
+];
 /** Turned by 25 degrees about x, and the slices shifted against each other as a tilted gantry does. */
-export const SHEARED: Steps = [[2, 0, 0], [0, 1.81, 0.85], [0.6, -0.7, 3.8]];
+export const SHEARED: Steps = [
+  [2, 0, 0],
+  [0, 1.81, 0.85],
+  [0.6, -0.7, 3.8],
+];
 
 /** A NIfTI image of 96 x 80 x 40 voxels with a ball of 100 in the middle of space, in a little noise; with several radii as many frames. */
 export function writeBallImage(path: string, steps: Steps = STRAIGHT, ...radii_mm: number[]): void {
@@ -62,13 +70,13 @@ export function writeBallImage(path: string, steps: Steps = STRAIGHT, ...radii_m
   const noise = () => (seed = (seed * 16807) % 2147483647) % 21;
   let at = 352;
   for (const radius_mm of radii)
-   for (let k = 0; k < size[2]; ++k)
-    for (let j = 0; j < size[1]; ++j)
-      for (let i = 0; i < size[0]; ++i) {
-        const place = first.map((from, axis) => from + i * steps[0][axis]! + j * steps[1][axis]! + k * steps[2][axis]!);
-        file.writeInt16LE((Math.hypot(...place) < radius_mm ? 100 : 0) + noise(), at);
-        at += 2;
-      }
+    for (let k = 0; k < size[2]; ++k)
+      for (let j = 0; j < size[1]; ++j)
+        for (let i = 0; i < size[0]; ++i) {
+          const place = first.map((from, axis) => from + i * steps[0][axis]! + j * steps[1][axis]! + k * steps[2][axis]!);
+          file.writeInt16LE((Math.hypot(...place) < radius_mm ? 100 : 0) + noise(), at);
+          at += 2;
+        }
   writeFileSync(path, file);
 }
 
@@ -315,7 +323,9 @@ export class Viewer {
 
   /** The click has to open the browser's colour picker, a window of its own that no test reaches: what is chosen there is set. */
   async pickColor(field: Locator, color: string): Promise<void> {
-    await this.page.evaluate(() => window.addEventListener("click", (event) => (document.body.dataset["clicked"] = event.defaultPrevented ? "cancelled" : "through"), { once: true }));
+    await this.page.evaluate(() =>
+      window.addEventListener("click", (event) => (document.body.dataset["clicked"] = event.defaultPrevented ? "cancelled" : "through"), { once: true }),
+    );
     await field.click();
     assert.equal(await this.page.evaluate(() => document.body.dataset["clicked"]), "through", "the click opens the colour picker");
     await field.evaluate((input: HTMLInputElement, chosen) => {

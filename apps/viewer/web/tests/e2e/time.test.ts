@@ -9,7 +9,9 @@ import { circle, cleanUp, Server, temporaryFolder, Viewer, writeBallImage } from
 
 const folder = temporaryFolder();
 const RADII_MM = [40, 32, 24, 16];
-let browser: Browser; let server: Server; let viewer: Viewer;
+let browser: Browser;
+let server: Server;
+let viewer: Viewer;
 cleanUp(folder, () => [browser, server]);
 
 before(async () => {
@@ -39,12 +41,15 @@ async function reaches(mm: number): Promise<boolean> {
 /** The shade of the slice at a place on its way out from the middle, between the two sizes of neighbouring frames. */
 async function brightAt(mm: number): Promise<boolean> {
   await viewer.slicesShown();
-  const [x, y] = [await viewer.pixels("axial", mm) * Math.SQRT1_2, -(await viewer.pixels("axial", mm)) * Math.SQRT1_2];
-  return viewer.page.evaluate(([right, down]) => {
-    const canvas = document.querySelector<HTMLCanvasElement>("[data-view=axial] canvas")!;
-    const ratio = canvas.width / canvas.clientWidth;
-    return canvas.getContext("2d")!.getImageData(canvas.width / 2 + right * ratio, canvas.height / 2 + down * ratio, 1, 1).data[0]! > 120;
-  }, [x, y] as const);
+  const [x, y] = [(await viewer.pixels("axial", mm)) * Math.SQRT1_2, -(await viewer.pixels("axial", mm)) * Math.SQRT1_2];
+  return viewer.page.evaluate(
+    ([right, down]) => {
+      const canvas = document.querySelector<HTMLCanvasElement>("[data-view=axial] canvas")!;
+      const ratio = canvas.width / canvas.clientWidth;
+      return canvas.getContext("2d")!.getImageData(canvas.width / 2 + right * ratio, canvas.height / 2 + down * ratio, 1, 1).data[0]! > 120;
+    },
+    [x, y] as const,
+  );
 }
 
 /** Waits until the status line says of the second image whether it reaches this far. */
@@ -98,7 +103,10 @@ describe("an image of several frames", () => {
     await viewer.surfaceShown();
     await page.keyboard.press("v");
     await page.keyboard.press(".");
-    await viewer.drag("axial", [[await viewer.pixels("axial", 32), 0], [await viewer.pixels("axial", 50), 0]]);
+    await viewer.drag("axial", [
+      [await viewer.pixels("axial", 32), 0],
+      [await viewer.pixels("axial", 50), 0],
+    ]);
     await viewer.slicesShown();
     await viewer.waitForStep("undo", "Draw a contour");
     await page.keyboard.press(",");
@@ -113,7 +121,11 @@ describe("an image of several frames", () => {
     await page.keyboard.press(".");
     const notice = page.locator(".notice", { hasText: "Contours belong to frame 2; frame 3 is only to be looked at." });
     await page.mouse.move(...(await viewer.at("coronal", await viewer.pixels("coronal", 32), 0)));
-    const tries = [...["Enter", "Delete", "Backspace", "a", "c", "g", "e", "h", "Control+z", "Control+y"].map((key) => () => page.keyboard.press(key)), () => page.click("[data-test=undo]"), () => page.click("[data-test=propose-next]")];
+    const tries = [
+      ...["Enter", "Delete", "Backspace", "a", "c", "g", "e", "h", "Control+z", "Control+y"].map((key) => () => page.keyboard.press(key)),
+      () => page.click("[data-test=undo]"),
+      () => page.click("[data-test=propose-next]"),
+    ];
     for (const attempt of tries) {
       await attempt();
       await notice.waitFor();

@@ -36,7 +36,11 @@ async function two(view: string, first: [Place, Place], last: [Place, Place], st
   await touch("touchEnd", view);
 }
 
-const window = async () => (await viewer.page.locator(".toolbar .number").all()).reduce(async (all, field) => [...(await all), Number(await field.inputValue())], Promise.resolve<number[]>([]));
+const window = async () =>
+  (await viewer.page.locator(".toolbar .number").all()).reduce(
+    async (all, field) => [...(await all), Number(await field.inputValue())],
+    Promise.resolve<number[]>([]),
+  );
 const slices = () => Promise.all(["axial", "sagittal", "coronal"].map((view) => viewer.slice(view)));
 
 describe("fingers", { skip: BROWSER === "chromium" ? false : "touches need Chromium's DevTools" }, () => {
@@ -48,22 +52,62 @@ describe("fingers", { skip: BROWSER === "chromium" ? false : "touches need Chrom
   test("that part zoom, and neither move a plane nor leave a slice, whatever the tool", async () => {
     const before = await slices();
     const scale = await viewer.pixels("axial", 1);
-    await two("axial", [[-20, 10], [30, 10]], [[-70, 10], [80, 10]]);
+    await two(
+      "axial",
+      [
+        [-20, 10],
+        [30, 10],
+      ],
+      [
+        [-70, 10],
+        [80, 10],
+      ],
+    );
     await viewer.slicesShown();
     const zoom = (await viewer.pixels("axial", 1)) / scale;
     assert.ok(Math.abs(zoom - 3) < 0.05, `${zoom} times as large`);
     assert.deepEqual(await slices(), before);
-    await two("axial", [[-70, 10], [80, 10]], [[-20, 10], [30, 10]]);
+    await two(
+      "axial",
+      [
+        [-70, 10],
+        [80, 10],
+      ],
+      [
+        [-20, 10],
+        [30, 10],
+      ],
+    );
     assert.ok(Math.abs((await viewer.pixels("axial", 1)) / scale - 1) < 0.05);
   });
 
   test("that go down together scroll on, and up back again", async () => {
     const before = await slices();
-    await two("axial", [[-30, -60], [20, -60]], [[-30, 40], [20, 40]]);
+    await two(
+      "axial",
+      [
+        [-30, -60],
+        [20, -60],
+      ],
+      [
+        [-30, 40],
+        [20, 40],
+      ],
+    );
     const [axial, ...others] = await slices();
     assert.ok(axial! > before[0]! + 3, `slice ${axial}, and before ${before[0]}`);
     assert.deepEqual(others, before.slice(1));
-    await two("axial", [[-30, 40], [20, 40]], [[-30, -60], [20, -60]]);
+    await two(
+      "axial",
+      [
+        [-30, 40],
+        [20, 40],
+      ],
+      [
+        [-30, -60],
+        [20, -60],
+      ],
+    );
     assert.deepEqual(await slices(), before);
   });
 
@@ -104,7 +148,17 @@ describe("fingers", { skip: BROWSER === "chromium" ? false : "touches need Chrom
     }
     await viewer.surfaceShown();
     await page.keyboard.press("v");
-    await two("axial", [[-30, -50], [20, -50]], [[-30, -20], [20, -20]]); // to a slice without a contour
+    await two(
+      "axial",
+      [
+        [-30, -50],
+        [20, -50],
+      ],
+      [
+        [-30, -20],
+        [20, -20],
+      ],
+    ); // to a slice without a contour
     await viewer.slicesShown();
     await viewer.surfaceShown();
     assert.equal(await viewer.contours(), 2);
@@ -134,7 +188,17 @@ describe("fingers", { skip: BROWSER === "chromium" ? false : "touches need Chrom
     await page.waitForTimeout(600);
     const turned = await picture();
     assert.notEqual(turned, first);
-    await two("surface", [[-20, 0], [20, 0]], [[-60, 0], [60, 0]]);
+    await two(
+      "surface",
+      [
+        [-20, 0],
+        [20, 0],
+      ],
+      [
+        [-60, 0],
+        [60, 0],
+      ],
+    );
     await page.waitForTimeout(600);
     assert.notEqual(await picture(), turned);
     assert.deepEqual(await page.evaluate(() => [scrollX, scrollY, visualViewport!.scale]), [0, 0, 1]);

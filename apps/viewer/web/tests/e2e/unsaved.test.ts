@@ -55,7 +55,10 @@ async function drawByHand(): Promise<void> {
 async function redraw(): Promise<void> {
   await viewer.page.keyboard.press("r");
   const radius = await viewer.pixels("axial", BALL_RADIUS_MM);
-  await viewer.drag("axial", Array.from({ length: 13 }, (_, i) => [radius * (1 + 0.3 * Math.sin((Math.PI * i) / 12)) * Math.cos((i - 6) / 10), radius * Math.sin((i - 6) / 10)]));
+  await viewer.drag(
+    "axial",
+    Array.from({ length: 13 }, (_, i) => [radius * (1 + 0.3 * Math.sin((Math.PI * i) / 12)) * Math.cos((i - 6) / 10), radius * Math.sin((i - 6) / 10)]),
+  );
 }
 
 /** Loads the page again, with a connection that is lost in place of the first reply to this call. */
@@ -77,35 +80,40 @@ async function cutReplyTo(call: string): Promise<() => boolean> {
 }
 
 /** No file may grow any longer, or all may. */
-const fillDisk = (full: boolean) => assert.equal(spawnSync("prlimit", ["--pid", String(server.pid), `--fsize=${full ? "4096" : "unlimited"}:unlimited`]).status, 0);
+const fillDisk = (full: boolean) =>
+  assert.equal(spawnSync("prlimit", ["--pid", String(server.pid), `--fsize=${full ? "4096" : "unlimited"}:unlimited`]).status, 0);
 
 const restart = async () => (server = await Server.start(folder.path, project, "--port", server.port, "--token", server.token));
 
 describe("a contour that was closed", () => {
   for (const draw of [clickSpline, drawByHand])
-    test(`stays while the disk is full, and is saved once by Enter when it is not (${draw.name})`, { skip: !canFillDisk && "there is no prlimit" }, async () => {
-      const { page } = viewer;
-      if (draw === clickSpline) await clickSpline();
-      fillDisk(true);
-      if (draw === drawByHand) await drawByHand();
-      else await page.keyboard.press("Enter");
-      await notice("is not saved").waitFor();
-      await saved("unsaved");
-      await page.keyboard.press("v"); // takes leave of what is only begun
-      assert.ok(await hasSketch());
-      await page.click("[data-test=export]");
-      await page.locator("[data-test=export-missing]").waitFor();
-      await page.keyboard.press("Escape");
-      fillDisk(false);
-      await page.keyboard.press("Enter");
-      await viewer.waitForContours(1);
-      await saved("saved");
-      assert.equal(await notice("is not saved").count(), 0);
-      await page.reload();
-      await viewer.ready();
-      assert.equal(await viewer.contours(), 1);
-      assert.ok(!(await hasSketch()));
-    });
+    test(
+      `stays while the disk is full, and is saved once by Enter when it is not (${draw.name})`,
+      { skip: !canFillDisk && "there is no prlimit" },
+      async () => {
+        const { page } = viewer;
+        if (draw === clickSpline) await clickSpline();
+        fillDisk(true);
+        if (draw === drawByHand) await drawByHand();
+        else await page.keyboard.press("Enter");
+        await notice("is not saved").waitFor();
+        await saved("unsaved");
+        await page.keyboard.press("v"); // takes leave of what is only begun
+        assert.ok(await hasSketch());
+        await page.click("[data-test=export]");
+        await page.locator("[data-test=export-missing]").waitFor();
+        await page.keyboard.press("Escape");
+        fillDisk(false);
+        await page.keyboard.press("Enter");
+        await viewer.waitForContours(1);
+        await saved("saved");
+        assert.equal(await notice("is not saved").count(), 0);
+        await page.reload();
+        await viewer.ready();
+        assert.equal(await viewer.contours(), 1);
+        assert.ok(!(await hasSketch()));
+      },
+    );
 
   test("stays when kontur was killed; the page says what is lost and where to go on, and saves when it is back", async () => {
     const { page } = viewer;

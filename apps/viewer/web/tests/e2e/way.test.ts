@@ -46,7 +46,10 @@ after(async () => {
 });
 
 const waitForSlice = (view: string, slice: number) =>
-  viewer.page.waitForFunction(([name, wanted]) => document.querySelector<HTMLElement>(`[data-view=${name}]`)!.dataset["slice"] === wanted, [view, String(slice)]);
+  viewer.page.waitForFunction(
+    ([name, wanted]) => document.querySelector<HTMLElement>(`[data-view=${name}]`)!.dataset["slice"] === wanted,
+    [view, String(slice)],
+  );
 const ticks = (view: string) => viewer.page.locator(`[data-view=${view}] .slice-ticks span`);
 const notice = (words: string) => viewer.page.locator(".notice", { hasText: words });
 
@@ -118,7 +121,8 @@ describe("the bare image", () => {
     return viewer.page.locator("[data-view=axial] .overlay").evaluate((canvas: HTMLCanvasElement) => {
       const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
       let count = 0;
-      for (let i = 0; i < data.length; i += 4) if (data[i + 3]! > 20 && Math.max(data[i]!, data[i + 1]!, data[i + 2]!) - Math.min(data[i]!, data[i + 1]!, data[i + 2]!) > 40) ++count;
+      for (let i = 0; i < data.length; i += 4)
+        if (data[i + 3]! > 20 && Math.max(data[i]!, data[i + 1]!, data[i + 2]!) - Math.min(data[i]!, data[i + 1]!, data[i + 2]!) > 40) ++count;
       return count;
     });
   }
@@ -134,7 +138,11 @@ describe("the bare image", () => {
     assert.equal(await colored(), 0);
     const slice = await viewer.slice("axial");
     const radius = await viewer.pixels("axial", BALL_RADIUS_MM);
-    await viewer.drag("axial", [[0, radius], [0, radius + 8], [0, radius + 20]]);
+    await viewer.drag("axial", [
+      [0, radius],
+      [0, radius + 8],
+      [0, radius + 20],
+    ]);
     await page.mouse.wheel(0, 100);
     await waitForSlice("axial", slice + 1);
     await page.mouse.wheel(0, -100);

@@ -10,19 +10,34 @@ import { AXIAL, CORONAL, session, SKEW, started } from "./support";
 
 let id = 0;
 const contour = (axes: { u: Contour["plane"]["u"]; v: Contour["plane"]["v"]; normal: Contour["plane"]["normal"] }, height: number, structure = 1): Contour => ({
-  id: ++id, structure, kind: "freehand", hole: false, visible: true, points: [], control: [], self_crossings: [],
+  id: ++id,
+  structure,
+  kind: "freehand",
+  hole: false,
+  visible: true,
+  points: [],
+  control: [],
+  self_crossings: [],
   plane: { ...axes, origin: [axes.normal[0] * height, axes.normal[1] * height, axes.normal[2] * height] },
 });
 
 describe("a long list of contours", () => {
   test("is grouped by view, each group in the order in which one scrolls", () => {
-    const high = contour(AXIAL, 20); const low = contour(AXIAL, -20); const front = contour(CORONAL, 10);
+    const high = contour(AXIAL, 20);
+    const low = contour(AXIAL, -20);
+    const front = contour(CORONAL, 10);
     const across = contour({ u: [0, 1, 0], v: [0, 0, 1], normal: [0.6, 0.8, 0] }, 5);
     const navigation = started();
     const groups = groupsOf([across, front, low, high], navigation);
-    assert.deepEqual(groups.map(({ view }) => view), ["axial", "coronal", null]);
+    assert.deepEqual(
+      groups.map(({ view }) => view),
+      ["axial", "coronal", null],
+    );
     const slices = groups[0]!.contours.map(({ plane }) => navigation.unturnedSliceOf("axial", plane.origin));
-    assert.deepEqual(slices, [...slices].sort((a, b) => a - b));
+    assert.deepEqual(
+      slices,
+      [...slices].sort((a, b) => a - b),
+    );
     assert.equal(groupsOf([contour(SKEW, 1)], navigation)[0]!.view, "oblique");
     assert.ok(!isGrouped(12) && isGrouped(13));
   });
@@ -78,13 +93,39 @@ describe("marks", () => {
 });
 
 describe("the start page", () => {
-  const volume = { series: "1.2", volume: 1, modality: "CT", description: "Thorax", distinction: "", slices: 40, columns: 512, rows: 512, patient_name: "Doe, Jane", patient_id: "7", study_date: "2026-11-23", study_description: "", series_number: "3", picture: { file: "/a", frame: 1 } };
+  const volume = {
+    series: "1.2",
+    volume: 1,
+    modality: "CT",
+    description: "Thorax",
+    distinction: "",
+    slices: 40,
+    columns: 512,
+    rows: 512,
+    patient_name: "Doe, Jane",
+    patient_id: "7",
+    study_date: "2026-11-23",
+    study_description: "",
+    series_number: "3",
+    picture: { file: "/a", frame: 1 },
+  };
 
   test("puts volumes together by patient and study", () => {
     const groups = studiesOf([volume, { ...volume, patient_id: "8" }, { ...volume, series: "1.3" }]);
-    assert.deepEqual(groups.map(([title, members]) => [title, members.length]), [["Doe, Jane · ID 7 · 2026-11-23", 2], ["Doe, Jane · ID 8 · 2026-11-23", 1]]);
+    assert.deepEqual(
+      groups.map(([title, members]) => [title, members.length]),
+      [
+        ["Doe, Jane · ID 7 · 2026-11-23", 2],
+        ["Doe, Jane · ID 8 · 2026-11-23", 1],
+      ],
+    );
     assert.deepEqual(volumeLines(volume), ["Thorax", "CT · series 3", "40 slices of 512 × 512"]);
-    assert.deepEqual(volumeLines({ ...volume, description: "", distinction: "echo 2", slices: 1 }), ["Without a description", "echo 2", "CT · series 3", "1 slice of 512 × 512"]);
+    assert.deepEqual(volumeLines({ ...volume, description: "", distinction: "echo 2", slices: 1 }), [
+      "Without a description",
+      "echo 2",
+      "CT · series 3",
+      "1 slice of 512 × 512",
+    ]);
   });
 
   test("says sizes as people read them", () => {

@@ -18,17 +18,34 @@ function drawn(...contours: Contour[]) {
 }
 
 test("the slices with contours come in the order in which they are scrolled, each once", () => {
-  const { navigation, project } = drawn(at(1, -6), at(2, 10), at(3, -6, { structure: 3 }), at(4, 2.0004), at(5, 2), square(6, { plane: { ...CORONAL, origin: [0, 8, 0] } }));
+  const { navigation, project } = drawn(
+    at(1, -6),
+    at(2, 10),
+    at(3, -6, { structure: 3 }),
+    at(4, 2.0004),
+    at(5, 2),
+    square(6, { plane: { ...CORONAL, origin: [0, 8, 0] } }),
+  );
   const slices = drawnSlices("axial", navigation, project);
-  assert.deepEqual(slices.map(({ depth_mm }) => depth_mm), [-10, -2, 6], "from the head to the feet");
+  assert.deepEqual(
+    slices.map(({ depth_mm }) => depth_mm),
+    [-10, -2, 6],
+    "from the head to the feet",
+  );
   assert.deepEqual(slices.at(-1)!.structures, [1, 3]);
-  assert.deepEqual(drawnSlices("coronal", navigation, project).map(({ depth_mm }) => depth_mm), [8]);
+  assert.deepEqual(
+    drawnSlices("coronal", navigation, project).map(({ depth_mm }) => depth_mm),
+    [8],
+  );
   assert.deepEqual(drawnSlices("sagittal", navigation, project), []);
 });
 
 test("what is hidden has no tick, and turned views have those of contours in their own planes", () => {
   const { navigation, project } = drawn(at(1, -6, { visible: false }), at(2, 10, { structure: 2 }), at(3, 4));
-  assert.deepEqual(drawnSlices("axial", navigation, project).map(({ depth_mm }) => depth_mm), [-4]);
+  assert.deepEqual(
+    drawnSlices("axial", navigation, project).map(({ depth_mm }) => depth_mm),
+    [-4],
+  );
   navigation.rotate("axial", "sagittal", 0.3);
   assert.deepEqual(drawnSlices("axial", navigation, project), []);
 });

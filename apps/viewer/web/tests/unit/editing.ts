@@ -25,7 +25,12 @@ export function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3)
   const calls: Call[] = [];
   const complaints: string[] = [];
   const remedies: Remedy[] = [];
-  const server: { refusal: ServerError | null; outlines: ShownOutlines | null; lines: (plane: Plane) => Vec3[][]; planes: Suggestion[] } = { refusal: null, outlines: null, lines: () => [], planes: [] };
+  const server: { refusal: ServerError | null; outlines: ShownOutlines | null; lines: (plane: Plane) => Vec3[][]; planes: Suggestion[] } = {
+    refusal: null,
+    outlines: null,
+    lines: () => [],
+    planes: [],
+  };
   const project = new Project();
   project.start(session({ contours }));
   const navigation = started();
@@ -35,7 +40,13 @@ export function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3)
       calls.push({ name, args: structuredClone(args) }); // the sketch goes on
       if (server.refusal) return Promise.reject(server.refusal);
       const control = ((args["control"] ?? []) as SketchPoint[]).map((point, index) => ({ ...point, at: name === "path" ? snap(point.at) : point.at, index }));
-      return Promise.resolve({ control, points: control.map((point) => point.at), lines: name === "outline" ? server.lines(args["plane"] as Plane) : [], planes: server.planes, contour: square((args["id"] as number) ?? 9) } as never);
+      return Promise.resolve({
+        control,
+        points: control.map((point) => point.at),
+        lines: name === "outline" ? server.lines(args["plane"] as Plane) : [],
+        planes: server.planes,
+        contour: square((args["id"] as number) ?? 9),
+      } as never);
     },
     screenOf: () => screen,
     outlinesOf: () => server.outlines,

@@ -52,9 +52,15 @@ test("a stroke keeps every place from the first touch on", () => {
   const { these, said, passTime } = fingers();
   these.begin(1, [0, 0]);
   these.move(1, [[3, 0]]);
-  these.move(1, [[6, 0], [12, 0]]);
+  these.move(1, [
+    [6, 0],
+    [12, 0],
+  ]);
   passTime();
-  these.move(1, [[20, 0], [30, 0]]);
+  these.move(1, [
+    [20, 0],
+    [30, 0],
+  ]);
   these.lift(1, [31, 0]);
   assert.deepEqual(said(), ["press 0,0", "tool 3,0", "tool 6,0", "tool 12,0", "tool 20,0", "tool 30,0", "tool ends 31,0"]);
 });
@@ -62,8 +68,14 @@ test("a stroke keeps every place from the first touch on", () => {
 test("what is no stroke hears of the latest place alone", () => {
   const { these, said } = fingers(false);
   these.begin(1, [0, 0]);
-  these.move(1, [[6, 0], [12, 0]]);
-  these.move(1, [[20, 0], [30, 0]]);
+  these.move(1, [
+    [6, 0],
+    [12, 0],
+  ]);
+  these.move(1, [
+    [20, 0],
+    [30, 0],
+  ]);
   assert.deepEqual(said(), ["press 0,0", "tool 12,0", "tool 30,0"]);
 });
 

@@ -82,10 +82,26 @@ test("the nearest point of a line is its end where the pointer is beyond it", ()
 });
 
 test("the narrow width of points is that of the rectangle they lie in, however it is turned", () => {
-  const corners: [number, number][] = [[0, 0], [80, 0], [80, 3], [0, 3], [40, 1]];
+  const corners: [number, number][] = [
+    [0, 0],
+    [80, 0],
+    [80, 3],
+    [0, 3],
+    [40, 1],
+  ];
   for (let angle = 0; angle < 3.2; angle += 0.1)
     near([narrowWidth(corners.map(([x, y]) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)]))], [3], 0.05);
-  near([narrowWidth([[1, 2], [4, 6], [7, 10]])], [0], 1e-9);
+  near(
+    [
+      narrowWidth([
+        [1, 2],
+        [4, 6],
+        [7, 10],
+      ]),
+    ],
+    [0],
+    1e-9,
+  );
   const ring = Array.from({ length: 40 }, (_, i): [number, number] => [10 * Math.cos(i), 10 * Math.sin(i)]);
   assert.ok(narrowWidth(ring) > 19);
 });

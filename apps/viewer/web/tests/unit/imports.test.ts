@@ -8,7 +8,10 @@ const { imports } = session();
 
 test("a file's name, in capitals or not, says what it is imported as", () => {
   const names = ["a.json", "a.mrk.json", "A.NII.GZ", "b.mgz", "b.gz", "b.txt", "nii"];
-  assert.deepEqual(names.map((name) => importKind(name, imports)), ["contours", "contours", "mask", "mask", null, null, null]);
+  assert.deepEqual(
+    names.map((name) => importKind(name, imports)),
+    ["contours", "contours", "mask", "mask", null, null, null],
+  );
 });
 
 test("the file chooser is given the last part of every ending, once", () => {

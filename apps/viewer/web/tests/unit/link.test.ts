@@ -9,7 +9,9 @@ function after(...replies: [bytes: number, ms: number][]): boolean {
   return link.isSlow;
 }
 
-const slow: [number, number] = [260_000, 100]; const fast: [number, number] = [260_000, 2]; const small: [number, number] = [900, 40];
+const slow: [number, number] = [260_000, 100];
+const fast: [number, number] = [260_000, 2];
+const small: [number, number] = [900, 40];
 
 test("a way is slow where several large replies took long, and none was fast", () => {
   assert.equal(after(slow, slow, slow, slow, slow), true);

@@ -22,8 +22,12 @@ test("the linter refuses handler properties", async () => {
 });
 
 test("the linter refuses handlers that return what they were not asked for, and promises that nobody hears of", async () => {
-  assert.deepEqual(await broken("field.addEventListener('keydown', (event) => event.key === 'Enter' && field.blur());"), ["@typescript-eslint/strict-void-return"]);
-  assert.deepEqual(await broken("el('input', { on: { keydown: (event) => event.key === 'Enter' && field.blur() } });"), ["@typescript-eslint/strict-void-return"]);
+  assert.deepEqual(await broken("field.addEventListener('keydown', (event) => event.key === 'Enter' && field.blur());"), [
+    "@typescript-eslint/strict-void-return",
+  ]);
+  assert.deepEqual(await broken("el('input', { on: { keydown: (event) => event.key === 'Enter' && field.blur() } });"), [
+    "@typescript-eslint/strict-void-return",
+  ]);
   assert.deepEqual(await broken("save();"), ["@typescript-eslint/no-floating-promises"]);
   assert.deepEqual(await broken("el('input', { on: { keydown: (event) => { if (event.key === 'Enter') field.blur(); } } });"), []);
 });

@@ -43,7 +43,10 @@ test("Del takes the last one away, and contours only when the tool has none", ()
   all.editor.remove();
   assert.deepEqual([texts(all), all.edits()], [[], []]);
   all.editor.remove();
-  assert.deepEqual(all.edits().map(({ name }) => name), ["contour.remove"]);
+  assert.deepEqual(
+    all.edits().map(({ name }) => name),
+    ["contour.remove"],
+  );
 });
 
 test("shades of coded values are those of the server's formula, to the last step; outside is black", () => {

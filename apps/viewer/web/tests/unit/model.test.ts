@@ -11,7 +11,10 @@ import { near, session, SKEW, square, started } from "./support";
 const history = { undo: null, redo: null };
 
 test("the whole image fits into a view of any shape", () => {
-  for (const [width, height] of [[300, 900], [900, 300]] as const) {
+  for (const [width, height] of [
+    [300, 900],
+    [900, 300],
+  ] as const) {
     const screen = started().screen("axial", width, height);
     assert.ok(200 / screen.mm_per_pixel <= width && 100 / screen.mm_per_pixel <= height);
     assert.ok(200 / screen.mm_per_pixel > 0.9 * width || 100 / screen.mm_per_pixel > 0.9 * height);
@@ -153,7 +156,10 @@ test("a selection ends with what it selects", () => {
 test("contours of hidden structures are not shown", () => {
   const project = new Project();
   project.start(session({ contours: [square(5), square(6, { visible: false })] }));
-  assert.deepEqual(project.shownContours().map((contour) => contour.id), [5]);
+  assert.deepEqual(
+    project.shownContours().map((contour) => contour.id),
+    [5],
+  );
   project.apply({ event: "changed", structures: { set: [{ id: 1, name: "Liver", color: "#ffffff", visible: false }], removed: [] }, history });
   assert.deepEqual(project.shownContours(), []);
 });

@@ -23,10 +23,16 @@ const settled = () => new Promise((resolve) => setImmediate(resolve));
 test("one request runs at a time, and of those that wait only the latest follows", async () => {
   const { started, latest } = jobs();
   for (const request of [1, 2, 3, 4]) latest.send(request);
-  assert.deepEqual(started.map((job) => job.request), [1]);
+  assert.deepEqual(
+    started.map((job) => job.request),
+    [1],
+  );
   started[0]!.finish();
   await settled();
-  assert.deepEqual(started.map((job) => job.request), [1, 4]);
+  assert.deepEqual(
+    started.map((job) => job.request),
+    [1, 4],
+  );
   started[1]!.finish();
   await latest.idle();
   assert.equal(latest.busy, false);
@@ -34,7 +40,10 @@ test("one request runs at a time, and of those that wait only the latest follows
 
 test("requests that wait are merged as told", async () => {
   const seen: boolean[] = [];
-  const latest = new Latest<boolean>(async (pixels) => void seen.push(pixels), (a, b) => a || b);
+  const latest = new Latest<boolean>(
+    async (pixels) => void seen.push(pixels),
+    (a, b) => a || b,
+  );
   for (const pixels of [false, true, false]) latest.send(pixels);
   await latest.idle();
   assert.deepEqual(seen, [false, true]);
@@ -117,7 +126,11 @@ function connecting(context: TestContext, knock = () => new Promise<void>(() => 
   return { socket, told, timers: { tick: () => intervals.forEach((act) => act()) } };
 }
 
-const failure = (call: Promise<unknown>): Promise<string> => call.then(() => "done", ({ kind, edits }: ServerError) => `${kind}${edits ? ", an edit" : ""}`);
+const failure = (call: Promise<unknown>): Promise<string> =>
+  call.then(
+    () => "done",
+    ({ kind, edits }: ServerError) => `${kind}${edits ? ", an edit" : ""}`,
+  );
 
 test("of a connection's calls none is sent before the session is known, and lost edits are told as such", async (context) => {
   const { socket, told } = connecting(context);
@@ -157,7 +170,10 @@ test("a connection over which nothing comes for 10 s is silent until something d
   last.answer(last.sent[9]!.seq);
   assert.equal(await edit, "done");
   assert.deepEqual(told, ["open", "0 acknowledged"]);
-  assert.deepEqual(last.sent.slice(9).map(({ call }) => call), ["undo", "ping"]);
+  assert.deepEqual(
+    last.sent.slice(9).map(({ call }) => call),
+    ["undo", "ping"],
+  );
 });
 
 test("a server that takes long over a call, and answers otherwise, is not silent", async (context) => {
@@ -206,7 +222,11 @@ test("a silent connection that is lost is opened again, and silent only after as
   FakeWebSocket.last.tell(session());
   for (let i = 0; i < 3; ++i) timers.tick();
   assert.deepEqual(told, ["connecting", "open", "session", "1", "silent", "lost", "0", "connecting", "open", "session"]);
-  assert.deepEqual(FakeWebSocket.last.sent.map(({ call }) => call), ["ping"], "the edit is not repeated");
+  assert.deepEqual(
+    FakeWebSocket.last.sent.map(({ call }) => call),
+    ["ping"],
+    "the edit is not repeated",
+  );
 });
 
 function reply(header: object, size: number): { buffer: ArrayBuffer; start: number } {

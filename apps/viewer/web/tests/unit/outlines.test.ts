@@ -20,7 +20,16 @@ const ring = (radius: number, x = 200, y = 200, count = 120): Point2[] =>
 /** An editor in whose axial view these lines of structure 1 are fitted. */
 function fitted(lines: Point2[][], contours = [] as ReturnType<typeof square>[], shownOn = plane) {
   const all = editing("edit", contours);
-  all.server.outlines = { plane: shownOn, outlines: [toldOutline(1, 1, lines.map((line) => line.flat()))] };
+  all.server.outlines = {
+    plane: shownOn,
+    outlines: [
+      toldOutline(
+        1,
+        1,
+        lines.map((line) => line.flat()),
+      ),
+    ],
+  };
   all.editor.toggleLines(); // which would be hit, too
   return { ...all, hoverAt: (p: Point2) => (all.editor.moved("axial", screen, p), all.editor.hover) };
 }
@@ -44,13 +53,25 @@ test("a pull moves the point by all of it, those within its reach by less and le
 });
 
 test("the nearest place of a closed line may lie between its last point and its first", () => {
-  const corners: Point2[] = [[0, 0], [10, 0], [10, 10], [0, 10]];
+  const corners: Point2[] = [
+    [0, 0],
+    [10, 0],
+    [10, 10],
+    [0, 10],
+  ];
   assert.deepEqual(nearestOnLoop(corners, [-3, 4]), { index: 3, at: [0, 4], distance: 3 });
   assert.deepEqual(nearestOnLoop(corners, [4, 1]), { index: 0, at: [4, 0], distance: 1 });
 });
 
 test("the inside of a line that turns back is inside", () => {
-  const hook: Point2[] = [[0, 0], [10, 0], [10, 10], [8, 10], [8, 2], [0, 2]];
+  const hook: Point2[] = [
+    [0, 0],
+    [10, 0],
+    [10, 10],
+    [8, 10],
+    [8, 2],
+    [0, 2],
+  ];
   assert.ok(isInside(hook, [9, 8]) && isInside(hook, [4, 1]));
   assert.ok(!isInside(hook, [4, 5]) && !isInside(hook, [12, 5]) && !isInside(hook, [-1, 1]));
 });
@@ -63,11 +84,17 @@ test("a dragged outline becomes a contour in one edit, which the surface follows
     await settled();
   }
   const drafts = calls.filter(({ args }) => args["draft"] === true);
-  assert.deepEqual(drafts.map(({ name }) => name), ["contour.add", "contour.add"]);
+  assert.deepEqual(
+    drafts.map(({ name }) => name),
+    ["contour.add", "contour.add"],
+  );
   assert.ok(Math.max(...drawing.handLine.map(([x]) => x)) > 49.9, "the line is seen at once");
   gesture.end([306, 201]);
   await settled();
-  assert.deepEqual(edits().map(({ name }) => name), ["contour.add"]);
+  assert.deepEqual(
+    edits().map(({ name }) => name),
+    ["contour.add"],
+  );
   const line = lineOf(edits()[0]!.args);
   near([Math.max(...line.map(([x]) => x))], [53], 0.05);
   near([Math.min(...line.map(([x]) => x))], [-40], 1e-9);
@@ -86,7 +113,10 @@ test("a click on an outline moves the crosshair there, and Esc gives a pull up",
   gesture.cancel!();
   await settled();
   assert.equal(calls.at(-1)!.name, "draft.drop");
-  assert.deepEqual(edits().filter(({ name }) => name !== "draft.drop"), []);
+  assert.deepEqual(
+    edits().filter(({ name }) => name !== "draft.drop"),
+    [],
+  );
 });
 
 test("with a drawing tool an outline is not in the way", async () => {
@@ -123,7 +153,10 @@ test("a key makes a contour of the outline as it is: the one under the pointer, 
   await settled();
   await settled();
   await settled();
-  assert.deepEqual(edits().map(({ name }) => name), ["contour.add", "contour.add", "contour.add"]);
+  assert.deepEqual(
+    edits().map(({ name }) => name),
+    ["contour.add", "contour.add", "contour.add"],
+  );
   [0, 1, 0].forEach((which, i) => {
     const line = lineOf(edits()[i]!.args);
     assert.equal(line.length, 120);
@@ -148,7 +181,10 @@ test("where there is nothing to adopt, or a contour is being drawn, the key says
   assert.ok(drawing.sketch);
   editor.adoptOutline("axial");
   assert.match(complaints[1]!, /^Close the contour that you are drawing first/);
-  assert.deepEqual(calls.filter(({ name }) => name === "contour.add"), []);
+  assert.deepEqual(
+    calls.filter(({ name }) => name === "contour.add"),
+    [],
+  );
 });
 
 test("of several outlines the nearest is found", () => {

@@ -8,7 +8,11 @@ import { session } from "./support";
 test("a divider leaves room on both sides, and goes back to where it was", () => {
   const sizes = new PaneSizes();
   const usual = sizes.share("surface");
-  for (const [share, stays] of [[0.4, 0.4], [-3, LEAST], [7, MOST]] as const) {
+  for (const [share, stays] of [
+    [0.4, 0.4],
+    [-3, LEAST],
+    [7, MOST],
+  ] as const) {
     sizes.move("surface", share);
     assert.equal(sizes.share("surface"), stays);
   }

@@ -6,7 +6,12 @@ import type { Vec3 } from "../../src/geometry/vec";
 import { editing, type Call } from "./editing";
 import { AXIAL, near, SKEW, square } from "./support";
 
-const ring = (half: number, z: number): Vec3[] => [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
+const ring = (half: number, z: number): Vec3[] => [
+  [-half, -half, z],
+  [half, -half, z],
+  [half, half, z],
+  [-half, half, z],
+];
 
 /** With the contour on the slice 0 selected; the server knows these outlines of any plane. */
 function proposing(lines: (z: number) => Vec3[][], contours = [square(5)]) {
@@ -27,7 +32,13 @@ test("a proposal is no contour before it is accepted, and then it is one by that
   assert.equal(proposals.accept(), true);
   await drawing.outbox.afterSending(() => undefined);
   await settled();
-  assert.deepEqual(added().map(({ args }) => [args["origin"], args["hole"] ?? false, (args["plane"] as Plane).origin]), [["proposed", false, [0, 0, -2]], ["proposed", true, [0, 0, -2]]]);
+  assert.deepEqual(
+    added().map(({ args }) => [args["origin"], args["hole"] ?? false, (args["plane"] as Plane).origin]),
+    [
+      ["proposed", false, [0, 0, -2]],
+      ["proposed", true, [0, 0, -2]],
+    ],
+  );
   assert.equal(proposals.accept(), false);
 });
 
@@ -62,7 +73,10 @@ test("Enter while the next outline is on its way accepts nothing: the one before
   assert.equal(proposals.accept(), true);
   await drawing.outbox.afterSending(() => undefined);
   await settled();
-  assert.deepEqual(added().map(({ args }) => (args["plane"] as Plane).origin[2]), [-4]);
+  assert.deepEqual(
+    added().map(({ args }) => (args["plane"] as Plane).origin[2]),
+    [-4],
+  );
 });
 
 test("an answer that comes after the next key or after Esc shows nothing", async () => {
@@ -110,7 +124,9 @@ test("a proposal that shows nothing becomes an empty plane of its structure, bes
   const other = proposals.shown!.plane;
   proposals.nothingHere();
   await settled();
-  const told = edits().filter(({ name }) => name === "structure.set").map(({ args }) => args["empty_planes"]);
+  const told = edits()
+    .filter(({ name }) => name === "structure.set")
+    .map(({ args }) => args["empty_planes"]);
   assert.deepEqual(told, [[plane], [plane, other]]);
 });
 
@@ -132,5 +148,8 @@ test("where to draw next is shown on the oblique view with the expected outline;
   server.planes = [];
   assert.equal(await proposals.suggest(), null);
   assert.match(complaints.at(-1)!, /No other plane is suggested/);
-  assert.deepEqual(calls.filter(({ name }) => name === "suggest").map(({ args }) => (args["skip"] as Plane[]).length), [0, 1, 2]);
+  assert.deepEqual(
+    calls.filter(({ name }) => name === "suggest").map(({ args }) => (args["skip"] as Plane[]).length),
+    [0, 1, 2],
+  );
 });

@@ -16,7 +16,16 @@ const line = (points: readonly Point2[]): BrushPoint[] => points.map((at, origin
 const places = (points: readonly BrushPoint[]) => points.map(({ at }) => at);
 
 test("a brush leaves no line within it, also where it moved far at once, and all else as it was", () => {
-  for (const [from, to] of [[[200, 200], [290, 200]], [[320, 200], [270, 200]]] as [Point2, Point2][]) {
+  for (const [from, to] of [
+    [
+      [200, 200],
+      [290, 200],
+    ],
+    [
+      [320, 200],
+      [270, 200],
+    ],
+  ] as [Point2, Point2][]) {
     const before = line(ring(80));
     const after = brushed(before, from, to, 24);
     const { distance: away } = nearestOnLoop(places(after), to);
@@ -35,7 +44,12 @@ test("a brush that touches nothing changes nothing", () => {
 });
 
 test("a brush between two points of a straight line finds it", () => {
-  const corners = line([[0, 0], [100, 0], [100, 100], [0, 100]]);
+  const corners = line([
+    [0, 0],
+    [100, 0],
+    [100, 100],
+    [0, 100],
+  ]);
   const after = brushed(corners, [50, -30], [50, 5], 10);
   assert.equal(after.filter(({ original }) => original !== undefined).length, 4);
   near([nearestOnLoop(places(after), [50, 5]).distance], [10], 0.2);
@@ -61,12 +75,22 @@ test("a contour that is pushed a little is redrawn there, in one edit", async ()
   const { drag, calls, edits, settled } = editing("push", [contour]);
   drag([200, 180], [240, 180], [275, 180]);
   await settled();
-  assert.ok(calls.some(({ name, args }) => name === "contour.redraw" && args["draft"] === true), "the surface follows on the way");
-  assert.deepEqual(edits().map(({ name }) => name), ["contour.redraw"]);
+  assert.ok(
+    calls.some(({ name, args }) => name === "contour.redraw" && args["draft"] === true),
+    "the surface follows on the way",
+  );
+  assert.deepEqual(
+    edits().map(({ name }) => name),
+    ["contour.redraw"],
+  );
   const { id, path, whole } = edits()[0]!.args as { id: number; path: Vec3[]; whole?: boolean };
   assert.equal(id, 5);
   assert.equal(whole, undefined);
-  for (const end of [path[0]!, path.at(-1)!]) assert.ok(contour.points.some((p) => distance(p, end) === 0), "the ends are points of the contour");
+  for (const end of [path[0]!, path.at(-1)!])
+    assert.ok(
+      contour.points.some((p) => distance(p, end) === 0),
+      "the ends are points of the contour",
+    );
   near([Math.max(...path.map(([x]) => x))], [(275 + 24 - 200) / 2], 0.3);
 });
 
@@ -94,7 +118,10 @@ test("where nothing is drawn the computed outline is pushed, and becomes a conto
   server.outlines = { plane: { ...AXIAL, origin: [-100, -100, 0], mm_per_pixel: 0.5 }, outlines: [toldOutline(1, 1, [ring(80).flat()])] };
   drag([200, 180], [275, 180]);
   await settled();
-  assert.deepEqual(edits().map(({ name }) => name), ["contour.add"]);
+  assert.deepEqual(
+    edits().map(({ name }) => name),
+    ["contour.add"],
+  );
   const [{ at, path }] = edits()[0]!.args["control"] as [SketchPoint];
   near([Math.max(...[at, ...path!].map(([x]) => x))], [(275 + 24 - 200) / 2], 0.3);
 });
@@ -106,7 +133,10 @@ test("a push that reaches no line, or is given up, makes no edit", async () => {
   gesture.move([275, 180]);
   gesture.cancel!();
   await settled();
-  assert.deepEqual(edits().map(({ name }) => name), ["draft.drop"]);
+  assert.deepEqual(
+    edits().map(({ name }) => name),
+    ["draft.drop"],
+  );
   assert.equal(calls.at(-1)!.name, "draft.drop");
 });
 

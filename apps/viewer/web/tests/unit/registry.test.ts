@@ -29,7 +29,10 @@ test("the key of every tool takes it, and the ? sheet and the status line know i
     const command = COMMANDS.find(({ keys }) => keys.includes(key))!;
     command.run({ editor } as Parameters<typeof command.run>[0], false);
     assert.equal(editor.tool.id, id);
-    assert.ok(rows.some(([keys]) => keys.split(/[ ,]+/).includes(key.toUpperCase())), `${key.toUpperCase()} is on the sheet`);
+    assert.ok(
+      rows.some(([keys]) => keys.split(/[ ,]+/).includes(key.toUpperCase())),
+      `${key.toUpperCase()} is on the sheet`,
+    );
     assert.notEqual(hintFor(editor), "");
   }
 });

@@ -11,7 +11,23 @@ import { AXIAL, session } from "./support";
 
 function pet(changes: Partial<FurtherImage> = {}): FurtherImage {
   const identity = { ...session().identity, modality: "PT" };
-  return { image: 1, key: "a", title: "pet", size: [30, 27, 48], spacing_mm: [5, 5, 3], unit: "SUV (g/ml)", range: [0, 20], notes: [], identity, emission: true, window: { center: 5, width: 10 }, presets: [], times: 1, time: 0, ...changes };
+  return {
+    image: 1,
+    key: "a",
+    title: "pet",
+    size: [30, 27, 48],
+    spacing_mm: [5, 5, 3],
+    unit: "SUV (g/ml)",
+    range: [0, 20],
+    notes: [],
+    identity,
+    emission: true,
+    window: { center: 5, width: 10 },
+    presets: [],
+    times: 1,
+    time: 0,
+    ...changes,
+  };
 }
 
 describe("a second image", () => {
@@ -86,13 +102,18 @@ describe("colours", () => {
 
   test("run from the first stop to the last; over another image what is low fades out, but not in grey", () => {
     for (const { name, stops, fades } of COLOR_MAPS) {
-      const alone = colorTable(name, false); const over = colorTable(name, true);
+      const alone = colorTable(name, false);
+      const over = colorTable(name, true);
       assert.deepEqual(part(alone[0]!), [...stops[0]!, 255], name);
       assert.deepEqual(part(alone[255]!), [...stops.at(-1)!, 255], name);
       assert.equal(part(over[0]!)[3], fades ? 0 : 255, name);
       assert.equal(part(over[255]!)[3], 255, name);
       const alphas = [...over].map((color) => part(color)[3]!);
-      assert.deepEqual(alphas, [...alphas].sort((a, b) => a - b), name);
+      assert.deepEqual(
+        alphas,
+        [...alphas].sort((a, b) => a - b),
+        name,
+      );
     }
     assert.deepEqual(part(colorTable("gray", true)[77]!), [77, 77, 77, 255]);
   });
@@ -103,7 +124,8 @@ describe("colours", () => {
   });
 
   test("of values are those of their shades, and nothing outside of the image", () => {
-    const coding = { first: -3, step: 0.25 }; const window = { center: 4, width: 9 };
+    const coding = { first: -3, step: 0.25 };
+    const window = { center: 4, width: 9 };
     const codes = Uint16Array.from({ length: 300 }, (_, i) => i);
     const shades = shadesOf(codes, coding, window, new Uint8Array(codes.length));
     const table = colorTable("hot", false);
@@ -132,7 +154,11 @@ describe("a sketch of wires", () => {
   });
 
   test("keeps what the hand has drawn", () => {
-    const sketch = Sketch.closedFree({ ...AXIAL, origin: [0, 0, 0] }, 1, [[0, 0, 0], [1, 0, 0], [1, 1, 0]]);
+    const sketch = Sketch.closedFree({ ...AXIAL, origin: [0, 0, 0] }, 1, [
+      [0, 0, 0],
+      [1, 0, 0],
+      [1, 1, 0],
+    ]);
     sketch.setImage(1);
     assert.deepEqual(images(sketch), [undefined]);
   });

@@ -5,11 +5,17 @@ import type { Vec3 } from "../../src/geometry/vec";
 import { crossingNear, distinct, settled } from "../../src/tools/settling";
 import { CORONAL, near, square } from "./support";
 
-const coronal = (half: number): Vec3[] => [[-half, 0, -half], [half, 0, -half], [half, 0, half], [-half, 0, half]];
+const coronal = (half: number): Vec3[] => [
+  [-half, 0, -half],
+  [half, 0, -half],
+  [half, 0, half],
+  [-half, 0, half],
+];
 const upright = (id: number, half: number) => square(id, { plane: { ...CORONAL, origin: [0, 0, 0] }, points: coronal(half) });
 
 test("the one that yields is bent to where the other crosses its plane, on the side of the conflict", () => {
-  const flat = square(5); const tall = upright(6, 7); // they cross the x axis at 10 and at 7
+  const flat = square(5);
+  const tall = upright(6, 7); // they cross the x axis at 10 and at 7
   const conflict = { at: [-8.5, 0, 0] as Vec3, distance_mm: 3, contours: [5, 6] as [number, number] };
   assert.deepEqual(settled(conflict, flat, tall)?.id, 6);
   near(settled(conflict, flat, tall)!.from, [-7, 0, 0]);

@@ -8,5 +8,9 @@ test("each step of the slider is found again, and others go to the nearest", () 
   assert.equal(stepOf(1e-5), 2);
   assert.equal(stepOf(2e-3), 4);
   assert.equal(stepOf(99), 5);
-  assert.deepEqual([...SMOOTHINGS].map((value) => value ?? 1e-5).sort((a, b) => a - b), SMOOTHINGS.map((value) => value ?? 1e-5), "from exact to smooth");
+  assert.deepEqual(
+    [...SMOOTHINGS].map((value) => value ?? 1e-5).sort((a, b) => a - b),
+    SMOOTHINGS.map((value) => value ?? 1e-5),
+    "from exact to smooth",
+  );
 });

@@ -9,7 +9,12 @@ import { square } from "./support";
 function withPoints(tool: "point" | "edit", ...places: Vec3[]) {
   const all = editing(tool);
   const { project } = all;
-  const tell = (...now: Vec3[]) => project.apply({ event: "changed", structures: { set: [{ ...project.structures.get(1)!, surface_points: now.map((at) => ({ at })) }] }, history: { undo: null, redo: null } });
+  const tell = (...now: Vec3[]) =>
+    project.apply({
+      event: "changed",
+      structures: { set: [{ ...project.structures.get(1)!, surface_points: now.map((at) => ({ at })) }] },
+      history: { undo: null, redo: null },
+    });
   tell(...places);
   return { ...all, points: all.editor.points, tell, seen: () => all.editor.points.shown().map(({ at }) => at) };
 }
@@ -24,7 +29,10 @@ test("a click sets a point where it began, and a drag where it ends; it is seen 
   ]);
   assert.deepEqual(seen(), [[-50, -40, 0]]);
   tell([50, 0, 0], [-50, -40, 0]);
-  assert.deepEqual(seen(), [[50, 0, 0], [-50, -40, 0]]);
+  assert.deepEqual(seen(), [
+    [50, 0, 0],
+    [-50, -40, 0],
+  ]);
 });
 
 test("a point is dragged with Point and with Edit, and a press alone leaves it where it is", () => {
@@ -34,7 +42,16 @@ test("a point is dragged with Point and with Edit, and a press alone leaves it w
     assert.deepEqual([edits(), points.selected], [[], { structure: 1, at: [30, 0, 0.4] }]);
     drag([260, 200], [280, 200], [300, 220]);
     assert.deepEqual(edits(), [{ name: "point.move", args: { structure: 1, at: [30, 0, 0.4], to: [50, 10, 0] } }]);
-    assert.deepEqual([seen(), points.selected?.at], [[[0, 30, 0], [50, 10, 0]], [50, 10, 0]]);
+    assert.deepEqual(
+      [seen(), points.selected?.at],
+      [
+        [
+          [0, 30, 0],
+          [50, 10, 0],
+        ],
+        [50, 10, 0],
+      ],
+    );
   }
 });
 
@@ -59,12 +76,20 @@ test("Del removes the selected point, and a contour only where none is selected"
   project.select({ contour: 5, point: null });
   assert.equal(points.selected, null);
   editor.remove();
-  assert.deepEqual(edits(), [{ name: "point.remove", args: { structure: 1, at: [30, 0, 0] } }, { name: "contour.remove", args: { ids: [5] } }]);
+  assert.deepEqual(edits(), [
+    { name: "point.remove", args: { structure: 1, at: [30, 0, 0] } },
+    { name: "contour.remove", args: { ids: [5] } },
+  ]);
 });
 
 test("a click in 3D sets a point of the structure that is hit; near one that is there it selects that", () => {
   const { editor, project, edits, points } = withPoints("point", [30, 0, 0]);
-  project.apply({ event: "changed", structures: { set: [{ id: 2, name: "Spleen", color: "#56b4e9", visible: true }] }, contours: { set: [square(6, { structure: 2 })] }, history: { undo: null, redo: null } });
+  project.apply({
+    event: "changed",
+    structures: { set: [{ id: 2, name: "Spleen", color: "#56b4e9", visible: true }] },
+    contours: { set: [square(6, { structure: 2 })] },
+    history: { undo: null, redo: null },
+  });
   const click = (structure: number, at: Vec3) => editor.tool.clickSurface!(editor, { structure, at, reach_mm: 3 });
   click(1, [31, 2, 0]);
   assert.deepEqual([edits(), points.selected?.at], [[], [30, 0, 0]]);
@@ -79,7 +104,12 @@ test("nothing is set on a structure that is hidden, or has no contour; points of
   project.apply({ event: "changed", structures: { set: [{ ...project.structures.get(1)!, visible: false }] }, history: { undo: null, redo: null } });
   drag([100, 100], [100, 100]);
   assert.match(complaints.at(-1)!, /hidden/);
-  project.apply({ event: "changed", structures: { set: [{ ...project.structures.get(1)!, visible: true }] }, contours: { removed: [5] }, history: { undo: null, redo: null } });
+  project.apply({
+    event: "changed",
+    structures: { set: [{ ...project.structures.get(1)!, visible: true }] },
+    contours: { removed: [5] },
+    history: { undo: null, redo: null },
+  });
   drag([100, 100], [100, 100]);
   assert.match(complaints.at(-1)!, /Liver has no contour yet/);
   assert.deepEqual([edits(), editor.points.shown().length], [[], 1]);

@@ -48,6 +48,7 @@ test("colours that mean something differ in every theme for readers of any colou
   assert.equal(accent!.length, 4);
   for (const [name, vision] of Object.entries(VISION))
     accent!.forEach((color, theme) => {
-      for (const other of [warn, error]) assert.ok(least([color, other![theme]!], vision) > 18, `${name}, theme ${theme}: ${color} ${other![theme]} ${least([color, other![theme]!], vision)}`);
+      for (const other of [warn, error])
+        assert.ok(least([color, other![theme]!], vision) > 18, `${name}, theme ${theme}: ${color} ${other![theme]} ${least([color, other![theme]!], vision)}`);
     });
 });

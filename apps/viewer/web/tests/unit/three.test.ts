@@ -31,7 +31,7 @@ class Bench {
   }
 
   async pass(ms: number): Promise<void> {
-    for (const end = this.ms + ms; this.ms < end; ) {
+    for (const end = this.ms + ms; this.ms < end;) {
       ++this.ms;
       const due = this.timers.filter(({ at }) => at <= this.ms);
       this.timers = this.timers.filter(({ at }) => at > this.ms);
@@ -111,7 +111,8 @@ test("where they take seconds, they take a small part of the time", async () => 
 
 /** A ball of `rings` times twice as many points. */
 function ball(rings: number): { positions: Float32Array; triangles: Uint32Array } {
-  const positions: number[] = []; const triangles: number[] = [];
+  const positions: number[] = [];
+  const triangles: number[] = [];
   const around = 2 * rings;
   for (let i = 0; i <= rings; ++i)
     for (let j = 0; j < around; ++j) {
@@ -149,8 +150,19 @@ test("a surface without extent has no triangles left", () => {
 });
 
 test("a renderer without a graphics processor is known by its name", () => {
-  const software = ["ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero) (0x0000C0DE)), SwiftShader driver)", "llvmpipe (LLVM 15.0.6, 256 bits)", "ANGLE (Microsoft, Microsoft Basic Render Driver Direct3D11)", "Apple Software Renderer"];
+  const software = [
+    "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero) (0x0000C0DE)), SwiftShader driver)",
+    "llvmpipe (LLVM 15.0.6, 256 bits)",
+    "ANGLE (Microsoft, Microsoft Basic Render Driver Direct3D11)",
+    "Apple Software Renderer",
+  ];
   const hardware = ["ANGLE (Intel, Mesa Intel(R) UHD Graphics 620 (KBL GT2), OpenGL 4.6)", "Apple M2", "Mali-G78", "WebKit WebGL"];
-  assert.deepEqual(software.map(isSoftwareRenderer), software.map(() => true));
-  assert.deepEqual(hardware.map(isSoftwareRenderer), hardware.map(() => false));
+  assert.deepEqual(
+    software.map(isSoftwareRenderer),
+    software.map(() => true),
+  );
+  assert.deepEqual(
+    hardware.map(isSoftwareRenderer),
+    hardware.map(() => false),
+  );
 });

@@ -20,7 +20,10 @@ test("hand-drawn and clicked stretches make one sketch", () => {
   sketch.drawFree(line(10));
   sketch.setKind("spline");
   sketch.place([20, 5, 0]);
-  assert.deepEqual(sketch.points.map((point) => point.kind), ["free", "spline", "spline"]);
+  assert.deepEqual(
+    sketch.points.map((point) => point.kind),
+    ["free", "spline", "spline"],
+  );
   assert.equal(sketch.points[0]!.path!.length, 8);
   near(sketch.points[1]!.at, [9, 8.1, 0]);
 });
@@ -29,7 +32,10 @@ test("a hand-drawn stretch keeps its kind when the tool changes", () => {
   const sketch = new Sketch(plane, 1, "line");
   sketch.drawFree(line(10));
   sketch.setKind("wire");
-  assert.deepEqual(sketch.points.map((point) => point.kind), ["free", "wire"]);
+  assert.deepEqual(
+    sketch.points.map((point) => point.kind),
+    ["free", "wire"],
+  );
 });
 
 test("removing the last point takes the stretch to it away", () => {
@@ -94,7 +100,10 @@ test("the freehand tool makes a contour when the button is released", async () =
   const { drag, edits, settled } = editing("freehand", []);
   drag(...round(40, 90));
   await settled();
-  assert.deepEqual(edits().map((call) => call.name), ["contour.add"]);
+  assert.deepEqual(
+    edits().map((call) => call.name),
+    ["contour.add"],
+  );
   const [point] = edits()[0]!.args["control"] as SketchPoint[];
   near(point!.at, [45, 0, 0], 1e-9);
   assert.ok(point!.path!.length > 30);
@@ -108,7 +117,10 @@ test("with any drawing tool a stroke that comes back to where it began is a cont
   editor.choose("spline");
   drag(...around(60));
   await settled();
-  assert.deepEqual(edits().map(({ args }) => (args["control"] as SketchPoint[]).map(({ kind }) => kind)), [["free"], ["free"]]);
+  assert.deepEqual(
+    edits().map(({ args }) => (args["control"] as SketchPoint[]).map(({ kind }) => kind)),
+    [["free"], ["free"]],
+  );
   drag(...round(40, 90).slice(0, -10)); // open
   await settled();
   drawing.leave();
@@ -156,13 +168,21 @@ test("nothing is drawn into a hidden structure, proposed or redrawn where it is 
   assert.deepEqual(edits(), []);
   assert.equal(complaints.filter((text) => text.startsWith("Liver is hidden")).length, 3);
   remedies[0]!.act();
-  assert.deepEqual(edits().map(({ name, args }) => [name, args]), [["structure.set", { id: 1, visible: true }]]);
+  assert.deepEqual(
+    edits().map(({ name, args }) => [name, args]),
+    [["structure.set", { id: 1, visible: true }]],
+  );
   assert.equal(drawing.sketch, null);
 });
 
 test("a hidden structure takes no contour that was begun before, and keeps what is drawn of it", async () => {
   const { drawing, project, drag, edits, settled } = editing("spline", []);
-  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  for (const p of [
+    [100, 100],
+    [300, 100],
+    [300, 300],
+  ] as Point2[])
+    drag(p);
   const [liver] = project.structures.values();
   project.apply({ event: "changed", structures: { set: [{ ...liver!, visible: false }] }, history: { undo: null, redo: null } });
   drawing.close();
@@ -173,23 +193,43 @@ test("a hidden structure takes no contour that was begun before, and keeps what 
 
 test("clicks place points of the tool's kind, and a click on the first point closes", async () => {
   const { drawing, drag, edits, settled } = editing("wire", []);
-  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  for (const p of [
+    [100, 100],
+    [300, 100],
+    [300, 300],
+  ] as Point2[])
+    drag(p);
   await settled();
   assert.equal(drawing.sketch!.points.length, 3);
   drag([103, 98]);
   await settled();
   assert.equal(drawing.sketch, null);
   const control = edits()[0]!.args["control"] as SketchPoint[];
-  assert.deepEqual(control.map((point) => point.kind), ["wire", "wire", "wire"]);
+  assert.deepEqual(
+    control.map((point) => point.kind),
+    ["wire", "wire", "wire"],
+  );
 });
 
 test("points on an edge lie there, however fast the contour is closed", async () => {
   const { drawing, drag, edits, settled } = editing("wire", [], ([x, y, z]) => [5 * Math.round(x / 5), 5 * Math.round(y / 5), z]);
-  for (const p of [[103, 98], [304, 102], [297, 303]] as Point2[]) drag(p);
+  for (const p of [
+    [103, 98],
+    [304, 102],
+    [297, 303],
+  ] as Point2[])
+    drag(p);
   drawing.close();
   await settled();
   const control = edits()[0]!.args["control"] as SketchPoint[];
-  assert.deepEqual(control.map((point) => point.at), [[-50, -50, 0], [50, -50, 0], [50, 50, 0]]);
+  assert.deepEqual(
+    control.map((point) => point.at),
+    [
+      [-50, -50, 0],
+      [50, -50, 0],
+      [50, 50, 0],
+    ],
+  );
 });
 
 test("a hand-drawn stretch in between keeps the contour open, and a second tool continues it", async () => {
@@ -201,7 +241,10 @@ test("a hand-drawn stretch in between keeps the contour open, and a second tool 
   drawing.close();
   await settled();
   const control = edits()[0]!.args["control"] as SketchPoint[];
-  assert.deepEqual(control.map((point) => point.kind), ["free", "spline", "spline"]);
+  assert.deepEqual(
+    control.map((point) => point.kind),
+    ["free", "spline", "spline"],
+  );
 });
 
 test("two points do not make a contour", async () => {
@@ -229,7 +272,13 @@ test("dragging the line bends it there, with Shift it moves the contour", async 
   gesture.move([220, 180]);
   gesture.end([220, 180]);
   await settled();
-  assert.deepEqual(edits().map(({ name, args }) => [name, args["from"] ?? args["by"]]), [["contour.pull", [0, -10, 0]], ["contour.translate", [10, 0, 0]]]);
+  assert.deepEqual(
+    edits().map(({ name, args }) => [name, args["from"] ?? args["by"]]),
+    [
+      ["contour.pull", [0, -10, 0]],
+      ["contour.translate", [10, 0, 0]],
+    ],
+  );
 });
 
 test("a click on a contour selects it and changes nothing; Ctrl + click inserts a point", async () => {
@@ -239,7 +288,10 @@ test("a click on a contour selects it and changes nothing; Ctrl + click inserts 
   assert.deepEqual(edits(), []);
   press([210, 180], { ctrl: true });
   await settled();
-  assert.deepEqual(edits().map((call) => call.name), ["contour.insert_point"]);
+  assert.deepEqual(
+    edits().map((call) => call.name),
+    ["contour.insert_point"],
+  );
 });
 
 test("Del deletes the selected point, then the contour", () => {
@@ -247,7 +299,13 @@ test("Del deletes the selected point, then the contour", () => {
   drag([180, 180]);
   editor.edits.deleteSelected();
   editor.edits.deleteSelected();
-  assert.deepEqual(edits().map(({ name, args }) => [name, args["index"] ?? args["ids"]]), [["contour.delete_point", 0], ["contour.remove", [5]]]);
+  assert.deepEqual(
+    edits().map(({ name, args }) => [name, args["index"] ?? args["ids"]]),
+    [
+      ["contour.delete_point", 0],
+      ["contour.remove", [5]],
+    ],
+  );
 });
 
 test("redrawing sends the path that the hand drew to the contour where it began", async () => {
@@ -272,12 +330,18 @@ test("dragging the line of a tilted plane follows the pointer, and leaves the sl
 });
 
 test("the next slice lies onward, whichever way the contour looks", () => {
-  for (const normal of [[0, 0, 1], [0, 0, -1]] as const) {
+  for (const normal of [
+    [0, 0, 1],
+    [0, 0, -1],
+  ] as const) {
     const drawn = square(5);
     const { editor, project, edits } = editing("edit", [{ ...drawn, plane: { ...drawn.plane, normal } }]);
     project.select({ contour: 5, point: null });
     void editor.proposals.next("axial", 1);
-    assert.deepEqual(edits().map(({ name, args }) => [name, args["structure"], (args["plane"] as Plane).origin]), [["outline", 1, [0, 0, -2]]]);
+    assert.deepEqual(
+      edits().map(({ name, args }) => [name, args["structure"], (args["plane"] as Plane).origin]),
+      [["outline", 1, [0, 0, -2]]],
+    );
   }
 });
 
@@ -288,11 +352,17 @@ test("a click on a plane's line moves the crosshair there", () => {
 });
 
 test("a drawing tool mends the selected contour, and draws over others", async () => {
-  const { drawing, project, drag, edits, settled } = editing("wire", [square(5), square(6, { points: square(6).points.map(([x, y, z]) => [2 * x, 2 * y, z]) })]);
+  const { drawing, project, drag, edits, settled } = editing("wire", [
+    square(5),
+    square(6, { points: square(6).points.map(([x, y, z]) => [2 * x, 2 * y, z]) }),
+  ]);
   project.select({ contour: 5, point: null });
   drag([180, 180], [170, 170]);
   await settled();
-  assert.deepEqual(edits().map((call) => call.name), ["contour.move_point"]);
+  assert.deepEqual(
+    edits().map((call) => call.name),
+    ["contour.move_point"],
+  );
   drag([200, 160]);
   assert.equal(drawing.sketch!.points.length, 1);
 });
@@ -314,7 +384,11 @@ test("a sketch goes on in its own plane only", () => {
 
 test("points of a sketch undo and redo, down to none and back", () => {
   const { drawing, drag } = editing("wire", []);
-  const places: Point2[] = [[100, 100], [200, 100], [300, 100]];
+  const places: Point2[] = [
+    [100, 100],
+    [200, 100],
+    [300, 100],
+  ];
   for (const place of places) drag(place);
   const drawn = drawing.sketch!.points.map((point) => point.at);
   for (let i = 0; i < 3; ++i) assert.ok(drawing.undo());
@@ -322,7 +396,10 @@ test("points of a sketch undo and redo, down to none and back", () => {
   assert.equal(drawing.undo(), false, "the project's history comes next");
   assert.equal(drawing.redoLabel, "Place a point");
   for (let i = 0; i < 3; ++i) assert.ok(drawing.redo());
-  assert.deepEqual(drawing.sketch!.points.map((point) => point.at), drawn);
+  assert.deepEqual(
+    drawing.sketch!.points.map((point) => point.at),
+    drawn,
+  );
   assert.ok(drawing.redo(), "a sketch keeps redo to itself");
   drag([320, 120]);
   drawing.undo();
@@ -362,7 +439,12 @@ function madeOf(id: number, call: Call): Contour {
 
 test("a closed contour that the server does not take stays, whatever tool comes next, until it does", async () => {
   const { editor, drawing, outbox, drag, settled, server, complaints, savedByTryingAgain } = editing("spline", []);
-  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  for (const p of [
+    [100, 100],
+    [300, 100],
+    [300, 300],
+  ] as Point2[])
+    drag(p);
   const drawn = drawing.sketch!.points.map((point) => point.at);
   server.refusal = DISK_FULL;
   drawing.close();
@@ -370,14 +452,22 @@ test("a closed contour that the server does not take stays, whatever tool comes 
   assert.deepEqual(complaints, [DISK_FULL.message]);
   editor.choose("edit");
   assert.ok(outbox.hasUnsaved);
-  assert.deepEqual(drawing.sketch!.points.map((point) => point.at), drawn);
+  assert.deepEqual(
+    drawing.sketch!.points.map((point) => point.at),
+    drawn,
+  );
   await savedByTryingAgain();
 });
 
 test("a line by hand that the server does not take stays closed, as it was drawn", async () => {
   for (const begun of [false, true]) {
     const { drawing, drag, edits, settled, server } = editing(begun ? "wire" : "freehand", []);
-    if (begun) for (const p of [[100, 100], [300, 100]] as Point2[]) drag(p);
+    if (begun)
+      for (const p of [
+        [100, 100],
+        [300, 100],
+      ] as Point2[])
+        drag(p);
     server.refusal = DISK_FULL;
     if (begun) drag([300, 100], [300, 200], [300, 300], [250, 250], [200, 200], [100, 100]);
     else drag(...round(40, 90));
@@ -391,7 +481,12 @@ test("a line by hand that the server does not take stays closed, as it was drawn
     server.refusal = null;
     drawing.close();
     await settled();
-    assert.deepEqual(edits().slice(tries).map(({ name, args }) => [name, args["control"]]), [["contour.add", drawn]]);
+    assert.deepEqual(
+      edits()
+        .slice(tries)
+        .map(({ name, args }) => [name, args["control"]]),
+      [["contour.add", drawn]],
+    );
   }
 });
 
@@ -400,7 +495,13 @@ test("a contour that was saved before its reply was lost is not offered once mor
     const { drawing, outbox, project, drag, edits, settled, server } = editing(tool, []);
     server.refusal = LOST;
     if (tool === "freehand") drag(...round(40, 90));
-    else for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+    else
+      for (const p of [
+        [100, 100],
+        [300, 100],
+        [300, 300],
+      ] as Point2[])
+        drag(p);
     drawing.close();
     await settled();
     assert.ok(outbox.hasUnsaved);
@@ -414,7 +515,12 @@ test("a contour that was saved before its reply was lost is not offered once mor
 
 test("while the next contour is drawn one that was not saved waits, and then comes back", async () => {
   const { drawing, outbox, drag, settled, server } = editing("spline", []);
-  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  for (const p of [
+    [100, 100],
+    [300, 100],
+    [300, 300],
+  ] as Point2[])
+    drag(p);
   const first = drawing.sketch!;
   const line0 = first.first;
   server.refusal = DISK_FULL;
@@ -424,8 +530,15 @@ test("while the next contour is drawn one that was not saved waits, and then com
   await settled();
   assert.equal(drawing.sketch, second);
   assert.ok(outbox.hasUnsaved);
-  assert.deepEqual(outbox.saved().map((saved) => saved.points), [first.saved().points]);
-  assert.deepEqual(outbox.lines().map(({ line }) => [line.length, line[0]]), [[4, line0]], "and is seen");
+  assert.deepEqual(
+    outbox.saved().map((saved) => saved.points),
+    [first.saved().points],
+  );
+  assert.deepEqual(
+    outbox.lines().map(({ line }) => [line.length, line[0]]),
+    [[4, line0]],
+    "and is seen",
+  );
   drag([320, 120]);
   drag([320, 320]);
   server.refusal = null;
@@ -440,10 +553,21 @@ test("while the next contour is drawn one that was not saved waits, and then com
 function redrawnBy(path: Vec3[], backwards = false): Contour {
   const { points, control } = square(5);
   const stroke = [path[0]!, ...path.slice(1, -1).filter((_, i) => i % 2 === 0), path.at(-1)!];
-  return square(5, { points: [...points, ...(backwards ? stroke.reverse() : stroke)], control: control.map((point, i) => (i < 3 ? point : { ...point, kind: "free" })) });
+  return square(5, {
+    points: [...points, ...(backwards ? stroke.reverse() : stroke)],
+    control: control.map((point, i) => (i < 3 ? point : { ...point, kind: "free" })),
+  });
 }
 
-const STROKE: Point2[] = [[180, 215], [172, 210], [168, 205], [166, 200], [168, 195], [172, 190], [180, 185]];
+const STROKE: Point2[] = [
+  [180, 215],
+  [172, 210],
+  [168, 205],
+  [166, 200],
+  [168, 195],
+  [172, 190],
+  [180, 185],
+];
 
 test("a redrawn piece that the server does not take stays, whatever tool comes next, until it does", async () => {
   const { editor, drawing, outbox, drag, edits, settled, server, complaints, savedByTryingAgain } = editing("redraw");
@@ -517,10 +641,15 @@ test("a next visit brings back a redrawn piece that was not saved, and not one t
 });
 
 test("a stroke beside the contour's plane is redrawn in that plane", async () => {
-  const { drag, edits, settled } = editing("redraw", [square(5, { plane: { ...plane, origin: [0, 0, 0.5] }, points: square(5).points.map(([x, y]) => [x, y, 0.5]) })]);
+  const { drag, edits, settled } = editing("redraw", [
+    square(5, { plane: { ...plane, origin: [0, 0, 0.5] }, points: square(5).points.map(([x, y]) => [x, y, 0.5]) }),
+  ]);
   drag(...STROKE);
   await settled();
-  assert.deepEqual((edits()[0]!.args["path"] as Vec3[]).map((p) => p[2]), STROKE.map(() => 0.5));
+  assert.deepEqual(
+    (edits()[0]!.args["path"] as Vec3[]).map((p) => p[2]),
+    STROKE.map(() => 0.5),
+  );
 });
 
 test("a stroke that redraws nothing is put aside with a word", async () => {
@@ -535,7 +664,12 @@ test("a stroke that redraws nothing is put aside with a word", async () => {
 
 test("a next visit brings back what was not saved, and not what was", async () => {
   const { drawing: before, drag, edits, settled, server } = editing("spline", []);
-  for (const p of [[100.123456789, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  for (const p of [
+    [100.123456789, 100],
+    [300, 100],
+    [300, 300],
+  ] as Point2[])
+    drag(p);
   server.refusal = LOST;
   before.close();
   const unsaved = before.outbox.saved();
@@ -563,13 +697,21 @@ test("a stroke that is no contour is put aside with a word", async () => {
 
 test("an edit waits for the contour that was closed before it", async () => {
   const { editor, drawing, outbox, drag, edits, settled } = editing("wire", []);
-  for (const p of [[100, 100], [300, 100], [300, 300]] as Point2[]) drag(p);
+  for (const p of [
+    [100, 100],
+    [300, 100],
+    [300, 300],
+  ] as Point2[])
+    drag(p);
   drawing.close();
   assert.equal(outbox.lines().length, 1, "it is seen meanwhile");
   editor.edits.make("undo", {});
   await settled();
   assert.equal(outbox.lines().length, 0);
-  assert.deepEqual(edits().map((call) => call.name), ["contour.add", "undo"]);
+  assert.deepEqual(
+    edits().map((call) => call.name),
+    ["contour.add", "undo"],
+  );
 });
 
 test("a sketch survives being saved", () => {

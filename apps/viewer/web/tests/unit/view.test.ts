@@ -4,17 +4,27 @@ import { test } from "node:test";
 import { isSamePlane, type PixelPlane } from "../../src/geometry/plane";
 import { newestOutlines, toldOutline } from "../../src/view/outlines";
 
-const LINES = [[0, 0, 4, 0, 4, 4], [1, 1, 2, 1, 2, 2]];
+const LINES = [
+  [0, 0, 4, 0, 4, 4],
+  [1, 1, 2, 1, 2, 2],
+];
 const asked = (structure: number, revision: number) => ({ structure, revision, lines: [{ first: 0, count: 3, closed: true }] });
 
 test("lines that were told are kept as runs of points", () => {
   const outline = toldOutline(7, 3, LINES);
-  assert.deepEqual(outline.lines, [{ first: 0, count: 3, closed: true }, { first: 3, count: 3, closed: true }]);
+  assert.deepEqual(outline.lines, [
+    { first: 0, count: 3, closed: true },
+    { first: 3, count: 3, closed: true },
+  ]);
   assert.deepEqual([...(outline.points as number[])], LINES.flat());
 });
 
 test("a slice that was asked for earlier does not bring older outlines back", () => {
-  const told = new Map([[1, toldOutline(1, 5, LINES)], [2, toldOutline(2, 5, LINES)], [3, toldOutline(3, 5, LINES)]]);
+  const told = new Map([
+    [1, toldOutline(1, 5, LINES)],
+    [2, toldOutline(2, 5, LINES)],
+    [3, toldOutline(3, 5, LINES)],
+  ]);
   const points = new Float32Array(6);
   const shown = newestOutlines([asked(1, 4), asked(2, 6)], points, told);
   assert.equal(shown.get(1), told.get(1), "newer than the slice");

@@ -2,7 +2,8 @@
 import { ServerError, type Http } from "../net/http";
 import type { FurtherImage, OpenRequest, Place } from "../net/protocol";
 import { openDialog } from "../ui/dialogs";
-import { button, el } from "../ui/dom";
+import { buttonPiece, el } from "../ui/dom";
+import { piece, render } from "../ui/pieces";
 import { FolderView } from "./folder_view";
 import { frameChoice } from "./frame_choice";
 
@@ -49,8 +50,8 @@ export class AddImageDialog {
     this.reading?.abort();
     const own = (this.reading = new AbortController());
     this.setProblem("");
-    const cancel = button({ label: "Cancel", title: "Do not add it", class: "choice", test: "add-image-cancel", click: () => own.abort() });
-    this.status.replaceChildren(el("span", {}, "Reading…"), cancel);
+    const cancel = buttonPiece({ label: "Cancel", title: "Do not add it", class: "choice", test: "add-image-cancel", click: () => own.abort() });
+    render(this.status, [piece("span", {}, "Reading…"), cancel]);
     try {
       await this.services.http.putImage(request, own.signal);
       this.dialog.close();
@@ -59,7 +60,7 @@ export class AddImageDialog {
     } finally {
       if (this.reading === own) {
         this.reading = null;
-        this.status.replaceChildren();
+        render(this.status, []);
       }
     }
   }

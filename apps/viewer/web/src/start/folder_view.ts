@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ServerError, type Http } from "../net/http";
 import type { Folder, ListedFile, OpenRequest, Place } from "../net/protocol";
-import { button, el } from "../ui/dom";
+import { button, buttonPiece, el } from "../ui/dom";
+import { piece, render, type Piece } from "../ui/pieces";
 import { ICONS } from "../ui/icons";
 import { VolumeCards } from "./volume_cards";
 
@@ -66,8 +67,9 @@ export class FolderView {
   }
 
   start(places: Place[], folder: string): void {
-    this.places.replaceChildren(
-      ...places.map(({ name, path }) => button({ label: name, title: path, class: "choice", test: "place", click: () => void this.go(path) })),
+    render(
+      this.places,
+      places.map(({ name, path }) => buttonPiece({ label: name, title: path, class: "choice", test: "place", click: () => void this.go(path) })),
     );
     const first = this.shown?.path ?? (folder || places[0]?.path);
     if (first) void this.go(first);
@@ -127,31 +129,32 @@ export class FolderView {
       ...files.filter((file) => fits(file) && (file.kind === "image" || !this.words.onlyImages)).map((one) => this.fileRow(one)),
     ];
     const nothing = dicom === "none" ? "There is no image, project or folder here." : "";
-    if (rows.length === 0) rows.push(el("li", { class: "empty" }, wanted ? "No name contains this." : nothing));
-    if (left_out > 0) rows.push(el("li", { class: "empty" }, `${left_out} more ${left_out === 1 ? "is" : "are"} not shown.`));
-    this.list.replaceChildren(...rows);
+    if (rows.length === 0) rows.push(piece("li", { class: "empty" }, wanted ? "No name contains this." : nothing));
+    if (left_out > 0) rows.push(piece("li", { class: "empty" }, `${left_out} more ${left_out === 1 ? "is" : "are"} not shown.`));
+    render(this.list, rows);
     this.list.dataset["folder"] = this.shown.path;
   }
 
-  private folderRow({ name, path }: Place): HTMLElement {
-    return el("li", {}, button({ icon: ICONS.folder, label: name, title: path, class: "start-row folder", test: "folder", click: () => void this.go(path) }));
+  private folderRow({ name, path }: Place): Piece {
+    const row = buttonPiece({ icon: ICONS.folder, label: name, title: path, class: "start-row folder", test: "folder", click: () => void this.go(path) });
+    return piece("li", { key: path }, row);
   }
 
-  private fileRow(file: ListedFile): HTMLElement {
+  private fileRow(file: ListedFile): Piece {
     const { name, path, kind } = file;
-    const row = button({
-      icon: kind === "project" ? ICONS.surface : ICONS.file,
-      label: name,
-      title: path,
-      class: "start-row file",
-      test: "file",
-      click: () => this.services.open({ path }),
-    });
-    row.append(
-      el("span", { class: "start-size" }, sizeText(file.bytes)),
-      el("span", { class: "start-date" }, new Date(1000 * file.modified).toLocaleDateString()),
+    const row = buttonPiece(
+      {
+        icon: kind === "project" ? ICONS.surface : ICONS.file,
+        label: name,
+        title: path,
+        class: "start-row file",
+        test: "file",
+        click: () => this.services.open({ path }),
+      },
+      piece("span", { class: "start-size" }, sizeText(file.bytes)),
+      piece("span", { class: "start-date" }, new Date(1000 * file.modified).toLocaleDateString()),
     );
-    return el("li", {}, row);
+    return piece("li", { key: path }, row);
   }
 
   private async showVolumes(folder: Folder, signal: AbortSignal): Promise<void> {

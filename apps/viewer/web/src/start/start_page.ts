@@ -2,7 +2,8 @@
 import type { Http } from "../net/http";
 import type { Failed, OpeningState, OpenRequest, RecentProject, Start } from "../net/protocol";
 import type { ConnectionState } from "../net/socket";
-import { button, el } from "../ui/dom";
+import { button, buttonPiece, el } from "../ui/dom";
+import { piece, render, type Piece } from "../ui/pieces";
 import { FolderView } from "./folder_view";
 import { frameChoice } from "./frame_choice";
 
@@ -57,7 +58,7 @@ export class StartPage {
   show(start: Start): void {
     this.version.textContent = start.version;
     this.example = start.example;
-    this.recent.replaceChildren(...this.recentRows(start.recent));
+    render(this.recent, this.recentRows(start.recent));
     this.setProblem(start.sentence);
     this.setOpening(start.opening);
     if (!this.element.open) this.element.showModal();
@@ -98,23 +99,23 @@ export class StartPage {
     else if (!this.problem.textContent!.includes(ENDED)) this.setProblem(`${this.problem.textContent} ${ENDED}`);
   }
 
-  private recentRows(projects: RecentProject[]): HTMLElement[] {
-    if (projects.length === 0) return [el("li", { class: "empty" }, "What you open is listed here, with all that was drawn in it.")];
+  private recentRows(projects: RecentProject[]): Piece[] {
+    if (projects.length === 0) return [piece("li", { class: "empty" }, "What you open is listed here, with all that was drawn in it.")];
     return projects.map(({ path, title, image, second, time }) => {
-      const row = button({
-        title: `${path}, drawn on ${image}${second && `, with ${second}`}`,
-        class: "start-row",
-        test: "recent",
-        click: () => void this.open({ path }),
-      });
-      row.setAttribute("aria-label", `${title}${second && `, with ${second}`}, ${path}`);
-      row.append(
-        el("strong", {}, title),
-        el("span", {}, whenText(time)),
-        ...(second ? [el("span", { class: "start-second" }, `with ${second}`)] : []),
-        el("span", { class: "start-path" }, image),
+      const row = buttonPiece(
+        {
+          title: `${path}, drawn on ${image}${second && `, with ${second}`}`,
+          class: "start-row",
+          test: "recent",
+          click: () => void this.open({ path }),
+          more: { "aria-label": `${title}${second && `, with ${second}`}, ${path}` },
+        },
+        piece("strong", {}, title),
+        piece("span", {}, whenText(time)),
+        second ? piece("span", { class: "start-second" }, `with ${second}`) : null,
+        piece("span", { class: "start-path" }, image),
       );
-      return el("li", {}, row);
+      return piece("li", { key: path }, row);
     });
   }
 

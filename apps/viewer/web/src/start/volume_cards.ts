@@ -2,6 +2,7 @@
 import type { Http } from "../net/http";
 import type { OpenRequest, Volume } from "../net/protocol";
 import { button, el } from "../ui/dom";
+import { render } from "../ui/pieces";
 
 /** The volumes of a DICOM folder by patient and study, each with a picture of its middle slice. */
 export class VolumeCards {
@@ -14,7 +15,7 @@ export class VolumeCards {
   ) {}
 
   clear(): void {
-    this.element.replaceChildren();
+    render(this.element, []);
   }
 
   /** Settles when all pictures are there. */
@@ -29,7 +30,7 @@ export class VolumeCards {
       ),
     );
     if (groups.length === 0) groups.push(el("section", {}, el("p", { class: "empty" }, "The DICOM files here hold no images.")));
-    this.element.replaceChildren(...groups);
+    render(this.element, groups);
     for (const [canvas, volume] of pictures) {
       if (signal.aborted) return;
       await this.paint(canvas, volume, signal);

@@ -10,8 +10,9 @@ import { distancesOf, normalsOf, positionsOf, trianglesOf, widthsOf } from "../n
 import { VIEW_NAMES, type ImageInfo } from "../net/protocol";
 import { scaleBar } from "../geometry/scale_bar";
 import type { Vec3 } from "../geometry/vec";
-import { button, el } from "../ui/dom";
+import { button, buttonPiece, el } from "../ui/dom";
 import { ICONS } from "../ui/icons";
+import { piece, render } from "../ui/pieces";
 import { PLANE_COLORS } from "../view/palette";
 import type { Editor } from "../tools/editor";
 import { CLICK_PIXELS } from "../tools/gesture";
@@ -235,8 +236,8 @@ export class SurfaceView {
 
   private showScale(from: string, stops: readonly string[], to: string): void {
     this.ramp.style.background = `linear-gradient(to right, ${stops.join()})`;
-    const end = button({ icon: ICONS.close, title: "One colour again", class: "icon-button small", test: "scale-end", click: () => this.paintBy(false) });
-    this.scale.replaceChildren(el("span", {}, from), this.ramp, el("span", {}, to), end);
+    const end = buttonPiece({ icon: ICONS.close, title: "One colour again", class: "icon-button small", test: "scale-end", click: () => this.paintBy(false) });
+    render(this.scale, [piece("span", {}, from), this.ramp, piece("span", {}, to), end]);
     this.scale.hidden = false;
   }
 
@@ -325,7 +326,7 @@ export class SurfaceView {
   }
 
   private showMessage(title: string, text: string): void {
-    this.message.replaceChildren(...(title ? [el("strong", {}, title)] : []), el("p", {}, text));
+    render(this.message, [title ? piece("strong", {}, title) : null, piece("p", {}, text)]);
     this.message.hidden = false;
   }
 

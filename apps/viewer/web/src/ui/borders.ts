@@ -5,6 +5,7 @@ import type { Maker } from "../net/calls";
 import type { BorderRule, Relation } from "../net/protocol";
 import { openDialog } from "./dialogs";
 import { button, el } from "./dom";
+import { piece, render, type Piece } from "./pieces";
 
 export interface BorderServices {
   project: Project;
@@ -59,11 +60,11 @@ type Choice = [string, Relation | "auto", number, number];
 /** A rule for each pair; what is chosen counts at once, and can be taken back. */
 function openBorderRules({ project, call }: BorderServices): void {
   const rows = el("div", { class: "border-rules" });
-  const update = () => {
-    const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset["test"] : undefined;
-    rows.replaceChildren(...pairsToShow(project.borders, project.borderPairs, project.structures).map(([a, b]) => row(project, call, a, b)));
-    if (focused) rows.querySelector<HTMLElement>(`[data-test="${focused}"]`)?.focus();
-  };
+  const update = () =>
+    render(
+      rows,
+      pairsToShow(project.borders, project.borderPairs, project.structures).map(([a, b]) => row(project, call, a, b)),
+    );
   const off = project.on(["structures", "borders"], update);
   update();
   const dialog = openDialog(
@@ -79,7 +80,7 @@ function openBorderRules({ project, call }: BorderServices): void {
   dialog.addEventListener("close", off);
 }
 
-function row(project: Project, call: BorderServices["call"], a: number, b: number): HTMLElement {
+function row(project: Project, call: BorderServices["call"], a: number, b: number): Piece {
   const { borders, borderPairs, structures } = project;
   const found = foundAbout(borderPairs, a, b);
   const given = ruleAbout(borders, a, b);
@@ -94,16 +95,19 @@ function row(project: Project, call: BorderServices["call"], a: number, b: numbe
   const isChosen = ([, relation, first]: Choice) =>
     given ? relation === given.relation && (relation !== "inside" || first === given.first) : relation === "auto";
   const names = `${structures.get(a)!.name} and ${structures.get(b)!.name}`;
-  const select = el("select", {
-    "aria-label": names,
-    "data-test": `rule-${a}-${b}`,
-    on: {
-      change: () => {
-        const [, relation, first, second] = choices[Number(select.value)]!;
-        call("borders.rule", { first, second, relation });
-      },
+  const change = (chosen: string) => {
+    const [, relation, first, second] = choices[Number(chosen)]!;
+    call("borders.rule", { first, second, relation });
+  };
+  const select = piece(
+    "select",
+    {
+      "aria-label": names,
+      "data-test": `rule-${a}-${b}`,
+      value: choices.findIndex(isChosen),
+      on: { change: ({ currentTarget }) => change(currentTarget.value) },
     },
-  });
-  select.append(...choices.map((choice, i) => el("option", { value: String(i), selected: isChosen(choice) }, choice[0])));
-  return el("label", { class: "field" }, names, select);
+    ...choices.map((choice, i) => piece("option", { value: String(i) }, choice[0])),
+  );
+  return piece("label", { key: `${a}-${b}`, class: "field" }, names, select);
 }

@@ -2,6 +2,7 @@
 import type { Http } from "../net/http";
 import type { Comparison } from "../net/protocol";
 import { button, el } from "./dom";
+import { piece, render } from "./pieces";
 
 interface Named {
   structure: number;
@@ -39,12 +40,15 @@ export function comparison(http: Http, structures: readonly Named[], signal: Abo
   const compare = async () => {
     const number = ++asked;
     status.textContent = "Comparing …";
-    table.replaceChildren();
+    render(table, []);
     try {
       const found = await http.compare(Number(first.value), Number(second.value), signal);
       if (number !== asked) return; // others have been chosen meanwhile
       const names = [first, second].map((select) => select.selectedOptions[0]!.text) as [string, string];
-      table.replaceChildren(...rowsOf(found, names).map(([head, text]) => el("tr", {}, el("th", { scope: "row" }, head), el("td", {}, text))));
+      render(
+        table,
+        rowsOf(found, names).map(([head, text]) => piece("tr", {}, piece("th", { scope: "row" }, head), piece("td", {}, text))),
+      );
       status.textContent =
         "Of the masks on the image's grid, each fitted by itself; distances between the centres of their outermost voxels, in both directions.";
     } catch (error) {

@@ -3,8 +3,9 @@ import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { Contour } from "../net/protocol";
 import type { Editor } from "../tools/editor";
-import { button, el } from "./dom";
+import { buttonPiece, el } from "./dom";
 import { ICONS } from "./icons";
+import { piece, render, type Piece } from "./pieces";
 
 export interface ActionServices {
   project: Project;
@@ -25,15 +26,19 @@ export class ContourActions {
     const marked = [...project.marked].map((id) => project.contour(id)).filter((contour) => contour !== undefined);
     this.element.hidden = marked.length === 0;
     if (marked.length === 0) return;
-    this.element.replaceChildren(...(marked.length === 1 ? this.ofOne(marked[0]!) : this.ofMany(marked)));
+    render(this.element, marked.length === 1 ? this.ofOne(marked[0]!) : this.ofMany(marked));
   }
 
-  private ofOne(contour: Contour): HTMLElement[] {
+  private ofOne(contour: Contour): Piece[] {
     const { call, editor, propose } = this.services;
-    const hole = el("input", { type: "checkbox", checked: contour.hole, on: { change: () => call("contour.set", { id: contour.id, hole: hole.checked }) } });
+    const hole = piece("input", {
+      type: "checkbox",
+      checked: contour.hole,
+      on: { change: ({ currentTarget }) => call("contour.set", { id: contour.id, hole: currentTarget.checked }) },
+    });
     return [
-      el("span", {}, "Propose on"),
-      button({
+      piece("span", {}, "Propose on"),
+      buttonPiece({
         icon: ICONS.copyDown,
         label: "next",
         title: "Propose the outline on the next slice (C)",
@@ -41,7 +46,7 @@ export class ContourActions {
         test: "propose-next",
         click: () => propose(1),
       }),
-      button({
+      buttonPiece({
         icon: ICONS.copyUp,
         label: "previous",
         title: "Propose the outline on the previous slice (Shift+C)",
@@ -49,25 +54,26 @@ export class ContourActions {
         test: "propose-previous",
         click: () => propose(-1),
       }),
-      button({
+      buttonPiece({
         icon: ICONS.remove,
         label: "Delete",
         title: "Delete the contour, or its selected point (Del)",
         class: "tool",
+        part: "delete",
         click: () => editor.edits.deleteSelected(),
       }),
-      el("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
+      piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       this.owner([contour], "The structure that this contour belongs to"),
     ];
   }
 
-  private ofMany(marked: readonly Contour[]): HTMLElement[] {
+  private ofMany(marked: readonly Contour[]): Piece[] {
     const { call } = this.services;
     const ids = marked.map(({ id }) => id);
     const isAnyShown = marked.some(({ visible }) => visible);
     return [
-      el("span", { "data-test": "marked" }, `${marked.length} contours`),
-      button({
+      piece("span", { "data-test": "marked" }, `${marked.length} contours`),
+      buttonPiece({
         icon: isAnyShown ? ICONS.eyeOff : ICONS.eye,
         label: isAnyShown ? "Hide" : "Show",
         title: isAnyShown ? "Hide these contours" : "Show these contours",
@@ -75,7 +81,7 @@ export class ContourActions {
         test: "marked-visible",
         click: () => call("contour.set", { ids, visible: !isAnyShown }),
       }),
-      button({
+      buttonPiece({
         icon: ICONS.remove,
         label: "Delete",
         title: "Delete these contours (Del)",
@@ -88,18 +94,28 @@ export class ContourActions {
   }
 
   /** A choice of the structure that contours belong to; of several structures none is chosen yet. */
-  private owner(contours: readonly Contour[], title: string): HTMLElement {
+  private owner(contours: readonly Contour[], title: string): Piece {
     const { project, call } = this.services;
     const [first] = contours;
     const common = contours.every(({ structure }) => structure === first!.structure) ? first!.structure : null;
-    const move = () => {
-      const structure = Number(choice.value);
+    const move = (chosen: string) => {
+      const structure = Number(chosen);
       if (contours.length === 1) call("contour.set", { id: first!.id, structure });
       else call("contour.set", { ids: contours.map(({ id }) => id), structure });
     };
-    const choice = el("select", { title, "aria-label": title, "data-test": "owner", on: { change: move } });
-    if (common === null) choice.append(el("option", { value: "", selected: true, disabled: true }, "Move to…"));
-    choice.append(...[...project.structures.values()].map(({ id, name }) => el("option", { value: String(id), selected: id === common }, name)));
-    return choice;
+    const options = [...project.structures.values()].map(({ id, name }) => piece("option", { key: id, value: String(id) }, name));
+    if (common === null) options.unshift(piece("option", { value: "", disabled: true }, "Move to…"));
+    return piece(
+      "select",
+      {
+        key: "owner",
+        title,
+        "aria-label": title,
+        "data-test": "owner",
+        value: common ?? "",
+        on: { change: ({ currentTarget }) => move(currentTarget.value) },
+      },
+      ...options,
+    );
   }
 }

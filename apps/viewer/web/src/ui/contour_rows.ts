@@ -8,8 +8,9 @@ import type { Contour, Structure, ViewName } from "../net/protocol";
 import type { SurfacePoints } from "../tools/surface_points";
 import { PLANE_COLORS } from "../view/palette";
 import { placeOf, type InPlane } from "./contour_names";
-import { button, el, eye } from "./dom";
+import { buttonPiece, eye } from "./dom";
 import { ICONS } from "./icons";
+import { piece, type Piece } from "./pieces";
 
 export interface RowServices {
   navigation: Navigation;
@@ -37,7 +38,7 @@ export class ContourRows {
     list.addEventListener("keydown", (event) => this.key(event));
   }
 
-  rowsOf(structure: Structure, contours: readonly Contour[]): HTMLElement[] {
+  rowsOf(structure: Structure, contours: readonly Contour[]): Piece[] {
     const row = (contour: Contour) => this.row(contour, structure);
     if (!isGrouped(contours.length)) return contours.map(row);
     return groupsOf(contours, this.services.navigation).flatMap(({ view, contours: members }) => {
@@ -47,36 +48,34 @@ export class ContourRows {
     });
   }
 
-  private heading(key: string, view: ViewName | null, members: readonly Contour[]): HTMLElement {
+  private heading(key: string, view: ViewName | null, members: readonly Contour[]): Piece {
     const isFolded = this.folded.has(key);
     const fold = () => {
       if (!this.folded.delete(key)) this.folded.add(key);
       this.refresh();
     };
     const title = view ? this.services.navigation.title(view) : "Other planes";
-    const heading = button({
+    const heading = buttonPiece({
       label: title,
       title: isFolded ? "List these contours" : "Hide these contours",
       class: "group-title",
       part: `group-${key}`,
       click: fold,
+      more: { "aria-expanded": !isFolded },
     });
-    heading.setAttribute("aria-expanded", String(!isFolded));
-    const all = button({
+    const all = buttonPiece({
       label: String(members.length),
       title: `Mark the ${members.length} contours of ${title}`,
       class: "count",
       part: `mark-${key}`,
       click: () => this.services.project.mark(members.map(({ id }) => id)),
     });
-    return el("div", { class: "contour-group" }, heading, all);
+    return piece("div", { key, class: "contour-group" }, heading, all);
   }
 
-  private row(contour: Contour, structure: Structure): HTMLElement {
+  private row(contour: Contour, structure: Structure): Piece {
     const { project, call, show } = this.services;
     const { view: name, slice, position } = placeOf(contour, this.services.navigation);
-    const dot = el("span", { class: "plane-dot" });
-    dot.style.background = name ? PLANE_COLORS[name] : PLANE_COLORS.oblique;
     const isSelected = project.marked.has(contour.id);
     const points = contour.control.length > 1 ? `${contour.control.length} pts` : `${contour.points.length} pts`;
     const kind = KIND_LABELS[contour.kind];
@@ -88,32 +87,33 @@ export class ContourRows {
       project.select({ contour: contour.id, point: null });
       show(contour);
     };
-    return el(
+    return piece(
       "div",
       {
         class: "contour-row" + (isSelected ? " selected" : "") + (contour.visible && structure.visible ? "" : " off"),
+        key: contour.id,
         "data-contour": contour.id,
         "data-kind": contour.kind,
         title: `${kind}; click to show it, Ctrl + click or Shift + click to mark several`,
         on: { click: choose },
       },
-      dot,
-      el(
+      piece("span", { class: "plane-dot", style: { background: PLANE_COLORS[name ?? "oblique"] } }),
+      piece(
         "button",
-        { type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" },
-        el("span", { class: "contour-view" }, name ? this.services.navigation.title(name) : "Oblique"),
+        { key: "show", type: "button", class: "contour-plane", "data-part": "show", "aria-pressed": isSelected, title: "Show this contour" },
+        piece("span", { class: "contour-view" }, name ? this.services.navigation.title(name) : "Oblique"),
         " ",
-        el("span", { class: "contour-slice", title: "Slice" }, slice),
+        piece("span", { class: "contour-slice", title: "Slice" }, slice),
         " ",
-        el("span", { class: "contour-position" }, position),
+        piece("span", { class: "contour-position" }, position),
       ),
-      contour.hole ? el("span", { class: "flag", title: "A hole" }, "hole") : null,
+      contour.hole ? piece("span", { class: "flag", title: "A hole" }, "hole") : null,
       contour.self_crossings.length > 0
-        ? el("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself")
+        ? piece("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself")
         : null,
-      el("span", { class: "contour-points" }, points),
+      piece("span", { class: "contour-points" }, points),
       eye(contour.visible, () => call("contour.set", { id: contour.id, visible: !contour.visible })),
-      button({
+      buttonPiece({
         icon: ICONS.remove,
         title: "Delete this contour",
         class: "icon-button small",

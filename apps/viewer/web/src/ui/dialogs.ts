@@ -2,9 +2,10 @@
 import type { Http } from "../net/http";
 import type { Project } from "../model/project";
 import type { Editor } from "../tools/editor";
-import { button, el } from "./dom";
+import { button, buttonPiece, el } from "./dom";
 import { download } from "./download";
 import { ICONS } from "./icons";
+import { render } from "./pieces";
 
 /** A modal window; Esc and a click beside it close it. */
 export function openDialog(title: string, name: string, ...content: HTMLElement[]): HTMLDialogElement {
@@ -93,8 +94,8 @@ export function openExport({ http, project, editor, hasDicom }: ExportServices):
   const save = async (name: string, of: number | null): Promise<void> => {
     running?.abort();
     const own = (running = new AbortController());
-    const cancel = button({ label: "Cancel", title: "Cancel the export", class: "choice", test: "export-cancel", click: () => own.abort() });
-    status.replaceChildren(`Preparing ${name} …`, cancel);
+    const cancel = buttonPiece({ label: "Cancel", title: "Cancel the export", class: "choice", test: "export-cancel", click: () => own.abort() });
+    render(status, [`Preparing ${name} …`, cancel]);
     let outcome: string;
     try {
       const file = await http.export(name, of, own.signal);
@@ -103,7 +104,7 @@ export function openExport({ http, project, editor, hasDicom }: ExportServices):
     } catch (error) {
       outcome = error instanceof Error ? error.message : String(error); // a notice would lie behind the dialog
     }
-    if (running === own) status.replaceChildren(outcome);
+    if (running === own) render(status, [outcome]);
   };
   const entry = (name: string, label: string, extension: string, of: () => number | null): HTMLElement => {
     const element = button({ label, title: `Save as ${extension}`, class: "choice", test: `export-${name}`, click: () => void save(name, of()) });

@@ -1,49 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { ICONS } from "./icons";
+import { iconPiece, make, piece, type Child, type Listeners, type Piece, type Properties } from "./pieces";
 
-type Child = Node | string | null | undefined;
+type Tag = keyof HTMLElementTagNameMap;
 
-/** What is done at an event. Unlike a property `onclick`, a listener cannot cancel the event by what it returns. */
-type Listeners = { [Type in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[Type]) => void };
-
-interface Properties {
-  on?: Listeners;
-  [name: string]: unknown;
-}
-
-export function listen(element: HTMLElement, listeners: Listeners): void {
+export function listen<T extends Tag>(element: HTMLElementTagNameMap[T], listeners: Listeners<T>): void {
   for (const [type, listener] of Object.entries(listeners)) element.addEventListener(type, listener as EventListener);
 }
 
-/** An element with properties ("class" and "data-..." as attributes), listeners and children. */
-export function el<Tag extends keyof HTMLElementTagNameMap>(
-  tag: Tag,
-  { on = {}, ...properties }: Properties = {},
-  ...children: Child[]
-): HTMLElementTagNameMap[Tag] {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(properties)) {
-    if (value === undefined || value === null) continue;
-    if (name === "class" || name.includes("-")) element.setAttribute(name, String(value));
-    else (element as unknown as Record<string, unknown>)[name] = value;
-  }
-  listen(element, on);
-  element.append(...children.filter((child): child is Node | string => child != null));
-  return element;
-}
-
-const SVG = "http://www.w3.org/2000/svg";
-
-/** A line icon of 20 x 20. */
-export function icon(path: string): SVGSVGElement {
-  const svg = document.createElementNS(SVG, "svg");
-  svg.setAttribute("viewBox", "0 0 20 20");
-  svg.setAttribute("aria-hidden", "true");
-  const line = document.createElementNS(SVG, "path");
-  line.setAttribute("d", path);
-  svg.append(line);
-  return svg;
+/** An element that is never described anew. */
+export function el<T extends Tag>(tag: T, properties: Properties<T> = {}, ...children: Child[]): HTMLElementTagNameMap[T] {
+  return make(piece(tag, properties, ...children));
 }
 
 export interface ButtonOptions {
@@ -53,29 +21,36 @@ export interface ButtonOptions {
   class?: string;
   test?: string;
   part?: string; // names it among the buttons of its row
+  more?: Properties<"button">;
   click: (event: MouseEvent) => void;
 }
 
-export function button(options: ButtonOptions): HTMLButtonElement {
-  return el(
+export function buttonPiece(options: ButtonOptions, ...more: Child[]): Piece<"button"> {
+  const { on = {}, ...properties } = options.more ?? {};
+  return piece(
     "button",
     {
+      key: options.part ?? options.test,
       type: "button",
       class: options.class ?? "button",
       title: options.title,
       "aria-label": options.label ? undefined : options.title, // what is seen is its name, and the title describes it
       "data-test": options.test,
       "data-part": options.part,
-      on: { click: options.click },
+      ...properties,
+      on: { click: options.click, ...on },
     },
-    options.icon ? icon(options.icon) : null,
-    options.label ? el("span", {}, options.label) : null,
+    options.icon ? iconPiece(options.icon) : null,
+    options.label ? piece("span", {}, options.label) : null,
+    ...more,
   );
 }
 
+export const button = (options: ButtonOptions): HTMLButtonElement => make(buttonPiece(options));
+
 /** Shows or hides something. */
-export function eye(visible: boolean, click: () => void): HTMLButtonElement {
-  return button({
+export function eye(visible: boolean, click: () => void): Piece<"button"> {
+  return buttonPiece({
     icon: visible ? ICONS.eye : ICONS.eyeOff,
     title: visible ? "Hide" : "Show",
     class: "icon-button small" + (visible ? "" : " dimmed"),

@@ -3,15 +3,15 @@ import type { Structure } from "../net/protocol";
 import { PLANE_COLORS } from "../view/palette";
 import { contourName, placeOf } from "./contour_names";
 import type { RowServices } from "./contour_rows";
-import { button, el } from "./dom";
+import { buttonPiece } from "./dom";
 import { ICONS } from "./icons";
+import { piece, type Piece } from "./pieces";
 
 /** The planes in which nothing of the structure is: a row for each, to go there, and to take that back. */
-export function emptyPlaneRows({ id, empty_planes = [] }: Structure, { navigation, call, show }: RowServices): HTMLElement[] {
+export function emptyPlaneRows({ id, empty_planes = [] }: Structure, { navigation, call, show }: RowServices): Piece[] {
   return empty_planes.map((plane, i) => {
-    const dot = el("span", { class: "plane-dot" });
-    dot.style.background = PLANE_COLORS[placeOf({ plane }, navigation).view ?? "oblique"];
-    const go = button({
+    const dot = piece("span", { class: "plane-dot", style: { background: PLANE_COLORS[placeOf({ plane }, navigation).view ?? "oblique"] } });
+    const go = buttonPiece({
       label: contourName({ plane }, navigation),
       title: "Go to this plane, which shows nothing of the structure",
       class: "contour-plane",
@@ -19,7 +19,14 @@ export function emptyPlaneRows({ id, empty_planes = [] }: Structure, { navigatio
       click: () => show({ plane }),
     });
     const forget = () => call("structure.set", { id, empty_planes: empty_planes.filter((other) => other !== plane) });
-    const remove = button({ icon: ICONS.remove, title: "Forget that nothing is here", class: "icon-button small", part: `forget-${i}`, click: forget });
-    return el("div", { class: "contour-row", "data-test": "empty-plane" }, dot, go, el("span", { class: "contour-points" }, "nothing here"), remove);
+    const remove = buttonPiece({ icon: ICONS.remove, title: "Forget that nothing is here", class: "icon-button small", part: `forget-${i}`, click: forget });
+    return piece(
+      "div",
+      { key: `empty-${i}`, class: "contour-row", "data-test": "empty-plane" },
+      dot,
+      go,
+      piece("span", { class: "contour-points" }, "nothing here"),
+      remove,
+    );
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Identity, ImageInfo, Session } from "../net/protocol";
 import { el } from "./dom";
+import { piece, render } from "./pieces";
 
 /** Whose image it is and what it shows, line by line: what no reader may have to guess. */
 export function identityLines({ identity, title, image }: Pick<Session, "identity" | "title" | "image">): string[] {
@@ -30,6 +31,6 @@ export class IdentityCard {
 
   start(session: Session): void {
     const [first = "", ...others] = identityLines(session);
-    this.element.replaceChildren(el("strong", { title: first }, first), ...others.map((line) => el("span", { title: line }, line)));
+    render(this.element, [piece("strong", { title: first }, first), ...others.map((line) => piece("span", { title: line }, line))]);
   }
 }

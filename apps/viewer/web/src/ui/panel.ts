@@ -11,6 +11,7 @@ import type { InPlane } from "./contour_names";
 import type { RowServices } from "./contour_rows";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
+import { render } from "./pieces";
 import { qualityOf } from "./quality";
 import { SmoothingSlider } from "./smoothing";
 import { StructureList } from "./structure_list";
@@ -34,7 +35,6 @@ export class Panel {
   private readonly actions: ContourActions;
   private readonly quality = el("div", { class: "quality" });
   private queued = false;
-  private listsChanged = false;
 
   constructor(private readonly services: PanelServices) {
     const { project } = services;
@@ -62,10 +62,9 @@ export class Panel {
       new SmoothingSlider(services).element,
       this.quality,
     );
-    project.on(["structures", "contours", "selection"], () => this.update());
+    project.on(["structures", "contours", "selection", "surfaces", "stages"], () => this.update());
     services.points.on(["points"], () => this.update());
-    services.editor.proposals.on(["proposal"], () => this.update(false));
-    project.on(["surfaces", "stages"], () => this.update(false)); // a list made anew for each would take a click away
+    services.editor.proposals.on(["proposal"], () => this.update());
   }
 
   /** Lets the user type another name. */
@@ -73,17 +72,14 @@ export class Panel {
     this.list.rename(structure);
   }
 
-  private update(lists = true): void {
-    this.listsChanged ||= lists;
+  /** Once in a frame, however much has changed. */
+  private update(): void {
     if (this.queued) return;
     this.queued = true;
     requestAnimationFrame(() => {
       this.queued = false;
-      if (this.listsChanged) {
-        this.listsChanged = false;
-        this.list.update();
-        this.actions.update();
-      }
+      this.list.update();
+      this.actions.update();
       this.updateQuality();
     });
   }
@@ -94,7 +90,7 @@ export class Panel {
     const surface = structure && project.surfaces.get(structure.id);
     const { proposals } = this.services.editor;
     const nothingHere = structure && proposals.shown?.structure === structure.id ? () => void proposals.nothingHere() : null;
-    this.quality.replaceChildren(...qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere }));
+    render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere }));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["image"] = surface?.image?.verdict ?? "none";

@@ -6,8 +6,9 @@ import type { Maker } from "../net/calls";
 import type { Conflict, Contour, Surface } from "../net/protocol";
 import { distinct, settled } from "../tools/settling";
 import { contourName } from "./contour_names";
-import { button, el } from "./dom";
+import { buttonPiece } from "./dom";
 import { ICONS } from "./icons";
+import { piece, type Piece } from "./pieces";
 
 const SAME_PLANE_MM = 0.01;
 
@@ -23,23 +24,23 @@ export interface QualityServices {
 }
 
 /** How well the surface fits its contours: figures, and places to go to where it does not. */
-export function qualityOf(surface: Surface | undefined, contours: Contour[], services: QualityServices): HTMLElement[] {
+export function qualityOf(surface: Surface | undefined, contours: Contour[], services: QualityServices): Piece[] {
   return [...figures(surface, contours, services), ...selfCrossings(contours, services)];
 }
 
-function figures(surface: Surface | undefined, contours: Contour[], services: QualityServices): HTMLElement[] {
+function figures(surface: Surface | undefined, contours: Contour[], services: QualityServices): Piece[] {
   if (!surface || surface.stage === "none") {
     const found = surface ? troubles(surface, contours, services) : [];
-    return found.length > 0 ? found : [el("p", { class: "empty" }, "No surface yet.")];
+    return found.length > 0 ? found : [piece("p", { class: "empty" }, "No surface yet.")];
   }
-  const entries: HTMLElement[] = [];
+  const entries: Piece[] = [];
   const guess = depthGuess(contours);
   if (surface.volume_ml !== undefined) entries.push(figure(guess ? "Volume (a guess)" : "Volume", `${volume(surface.volume_ml)} ml`, guess !== null));
-  if (guess) entries.push(el("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
+  if (guess) entries.push(piece("p", { class: "warning-text", "data-test": "depth-guess" }, guess));
   if (surface.uncertainty) {
-    entries.push(el("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
+    entries.push(piece("p", { class: "certainty", "data-test": "certainty" }, surface.uncertainty.text));
     entries.push(
-      button({
+      buttonPiece({
         label: "Where to draw next",
         title: "Go to where a contour tells most, with the expected outline as a proposal (G)",
         class: "choice",
@@ -49,7 +50,7 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
     );
     if (services.nothingHere)
       entries.push(
-        button({
+        buttonPiece({
           label: "Nothing here",
           title: "The plane of the proposal shows nothing of the structure (E)",
           class: "choice",
@@ -58,8 +59,8 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
         }),
       );
   }
-  if (surface.stage === "asking") entries.push(el("p", { class: "image-sentence", "data-test": "image-sentence" }, "The image is being asked …"));
-  else if (surface.image) entries.push(el("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(surface.image.text)));
+  if (surface.stage === "asking") entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, "The image is being asked …"));
+  else if (surface.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(surface.image.text)));
   const { residual } = surface;
   if (residual) {
     entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
@@ -72,15 +73,15 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   return [...entries, ...troubles(surface, contours, services)];
 }
 
-function troubles({ conflicts = [], warnings = [] }: Surface, contours: Contour[], services: QualityServices): HTMLElement[] {
+function troubles({ conflicts = [], warnings = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
   return [
-    ...warnings.map((text) => el("p", { class: "warning-text" }, text)),
+    ...warnings.map((text) => piece("p", { class: "warning-text" }, text)),
     ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services)),
   ];
 }
 
 /** Which two contradict each other, by how much, and a button for each to bend the other one to it. */
-function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, goTo, call }: QualityServices): HTMLElement {
+function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, goTo, call }: QualityServices): Piece {
   const { at, distance_mm } = conflict;
   const [a, b] = conflict.contours.map((id) => contours.find((contour) => contour.id === id));
   const by = `${distance_mm.toFixed(1)} mm`;
@@ -91,7 +92,7 @@ function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, go
     const name = contourName(kept, navigation);
     return (
       pull &&
-      button({
+      buttonPiece({
         label: `Keep ${name}`,
         title: `Keep ${name}: bend ${contourName(yielding, navigation)} to where it crosses`,
         class: "choice",
@@ -100,16 +101,16 @@ function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, go
     );
   };
   const go = place(`${contourName(a, navigation)} and ${contourName(b, navigation)} disagree by ${by}`, title, "conflict", () => goTo(at));
-  return el("div", { class: "conflict" }, go, keep(a, b), keep(b, a));
+  return piece("div", { class: "conflict" }, go, keep(a, b), keep(b, a));
 }
 
-function selfCrossings(contours: Contour[], services: QualityServices): HTMLElement[] {
+function selfCrossings(contours: Contour[], services: QualityServices): Piece[] {
   const places = contours.flatMap((contour) => contour.self_crossings.slice(0, 1));
   return places.map((at) => place("a contour crosses itself", "Go to where it crosses itself", "self-crossing", () => services.goTo(at)));
 }
 
-function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing", click: () => void): HTMLElement {
-  return button({
+function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing", click: () => void): Piece {
+  return buttonPiece({
     label,
     icon: kind === "residual" ? ICONS.lines : ICONS.warning,
     title,
@@ -130,5 +131,5 @@ function depthGuess(contours: readonly Contour[]): string | null {
   return `${contours.length === 1 ? "One contour" : "All contours lie in one plane"}: the depth is a guess. Draw another one across, or on another slice.`;
 }
 
-const figure = (label: string, value: string, isGuess = false): HTMLElement =>
-  el("div", { class: isGuess ? "figure guess" : "figure" }, el("span", {}, label), el("strong", {}, value));
+const figure = (label: string, value: string, isGuess = false): Piece =>
+  piece("div", { class: isGuess ? "figure guess" : "figure" }, piece("span", {}, label), piece("strong", {}, value));

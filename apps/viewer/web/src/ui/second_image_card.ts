@@ -5,7 +5,8 @@ import { COLOR_MAPS, gradientOf, type ColorMapName } from "../view/color_maps";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 import { sizeLine } from "./identity";
-import { windowField } from "./window_field";
+import { piece, render, setValue } from "./pieces";
+import { presetOptions, windowField } from "./window_field";
 
 /** What an image is called where there are two: its modality, or else its place. */
 export const shortName = ({ modality }: Pick<Identity, "modality">, else_: string): string => modality || else_;
@@ -104,14 +105,14 @@ export class SecondImageCard {
       .join(" · ");
     this.title.textContent = what;
     this.title.title = title;
-    this.lines.replaceChildren(...[sizeLine(info), ...notes].map((line) => el("span", { title: line }, line)));
+    render(
+      this.lines,
+      [sizeLine(info), ...notes].map((line) => piece("span", { title: line }, line)),
+    );
     const name = shortName(identity, "Second");
     const labels: Record<Shown, string> = { first: this.first, both: "Both", second: name === this.first ? "Second" : name };
     for (const [shown, choice] of this.choices) choice.querySelector("span")!.textContent = labels[shown];
-    this.presets.replaceChildren(
-      ...info.presets.map((preset, i) => el("option", { value: String(i) }, preset.name)),
-      el("option", { value: "", hidden: true }, "Custom"),
-    );
+    render(this.presets, presetOptions(info.presets));
     this.unit.textContent = info.unit;
     this.update();
   }
@@ -130,8 +131,8 @@ export class SecondImageCard {
     this.colors.value = second.colors;
     this.bar.style.background = gradientOf(second.colors);
     const { center, width } = second.window;
-    if (document.activeElement !== this.low) this.low.value = short(center - width / 2);
-    if (document.activeElement !== this.high) this.high.value = short(center + width / 2);
+    setValue(this.low, short(center - width / 2));
+    setValue(this.high, short(center + width / 2));
     const preset = second.info.presets.findIndex((one) => short(one.center) === short(center) && short(one.width) === short(width));
     this.presets.value = preset < 0 ? "" : String(preset);
   }

@@ -72,7 +72,7 @@ export function openStatistics(http: Http, goTo: (p: Vec3) => void, showDistance
     (found) => {
       status.textContent =
         "Volume, area and lengths are the surface's; values those of the voxels whose centres lie inside. A click on a diameter shows where it ends.";
-      content.replaceChildren(
+      content.append(
         table(found, (p) => (dialog.close(), goTo(p))),
         ...beyond(found.structures).map((text) => el("p", { class: "warning-text", "data-test": "beyond-second" }, text)),
       );

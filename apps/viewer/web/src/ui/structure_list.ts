@@ -3,13 +3,13 @@ import { isOpenByItself } from "../model/contour_list";
 import type { Contour, Structure } from "../net/protocol";
 import { contourName } from "./contour_names";
 import { ContourRows, type RowServices } from "./contour_rows";
-import { button, el, eye, listen } from "./dom";
+import { buttonPiece, el, eye } from "./dom";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "./icons";
+import { piece, render, type Piece } from "./pieces";
 import { surfacePointRows } from "./surface_points";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye
-const DOUBLE_CLICK_MS = 500; // what desktops begin with
 
 /** Structures with their contours. */
 export class StructureList {
@@ -28,48 +28,43 @@ export class StructureList {
   /** What the user wants otherwise than `isOpenByItself` has it. */
   private readonly opened = new Map<number, boolean>();
   private readonly rows: ContourRows;
-  private clicked = { structure: 0, at: -Infinity };
+  private renamed: number | null = null;
+  private selected: number | undefined;
 
   constructor(
     private readonly services: RowServices,
-    /** Has `update` called soon: at once it would take away what the keyboard is just going to. */
+    /** Has `update` called soon. */
     private readonly refresh: () => void,
   ) {
     this.rows = new ContourRows(services, this.element, refresh);
   }
 
-  /** The field in which a name is typed or a colour chosen stays where it is: taken away, it would lose the keyboard. */
   update(): void {
     const { project } = this.services;
     this.filter.hidden = project.structures.size + project.contours.size <= MOST_UNFILTERED && this.filter.value === "";
-    const field = document.activeElement instanceof HTMLInputElement ? document.activeElement.closest<HTMLElement>(".structures .structure") : null;
-    const kept = field && project.structures.has(Number(field.dataset["structure"])) ? field : null;
-    const keyboard = this.keyboardPlace();
-    const scrolled = this.element.scrollTop;
-    for (const child of [...this.element.children]) if (child !== kept) child.remove();
-    let isBehind = false;
-    for (const structure of project.structures.values()) {
-      const isKept = kept?.dataset["structure"] === String(structure.id);
-      isBehind ||= isKept;
-      if (isKept) this.renew(kept!, structure);
-      else if (!this.isWanted(structure)) continue;
-      else if (kept && !isBehind) kept.before(this.entry(structure));
-      else this.element.append(this.entry(structure));
-    }
-    if (project.contours.size === 0)
-      this.element.append(el("p", { class: "empty" }, "No contours yet. Choose Live-wire or Freehand and draw around the structure in any slice."));
-    else if (this.element.children.length === 0) this.element.append(el("p", { class: "empty" }, "No structure and no contour is called so."));
-    this.element.scrollTop = scrolled;
-    if (keyboard) this.element.querySelector<HTMLElement>(keyboard)?.focus({ preventScroll: true });
-    this.element.querySelector(`.contour-row[data-contour="${project.selection?.contour}"]`)?.scrollIntoView({ block: "nearest" });
+    const entries = [...project.structures.values()].filter((structure) => this.isWanted(structure)).map((structure) => this.entry(structure));
+    render(this.element, [...entries, ...this.nothing(entries.length)]);
+    if (this.selected !== project.selection?.contour) this.showSelected();
+  }
+
+  private nothing(entries: number): Piece[] {
+    if (this.services.project.contours.size === 0)
+      return [piece("p", { class: "empty" }, "No contours yet. Choose Live-wire or Freehand and draw around the structure in any slice.")];
+    return entries === 0 ? [piece("p", { class: "empty" }, "No structure and no contour is called so.")] : [];
+  }
+
+  private showSelected(): void {
+    this.selected = this.services.project.selection?.contour;
+    this.element.querySelector(`.contour-row[data-contour="${this.selected}"]`)?.scrollIntoView({ block: "nearest" });
   }
 
   private get wanted(): string {
     return this.filter.value.trim().toLowerCase();
   }
 
+  /** One that is being renamed stays, whatever the filter says. */
   private isWanted(structure: Structure): boolean {
-    return this.contoursOf(structure).length > 0 || structure.name.toLowerCase().includes(this.wanted);
+    return structure.id === this.renamed || this.contoursOf(structure).length > 0 || structure.name.toLowerCase().includes(this.wanted);
   }
 
   /** Of a structure whose name is wanted all of them. */
@@ -85,134 +80,129 @@ export class StructureList {
     return this.opened.get(structure.id) ?? isOpenByItself(structure.id, this.services.project);
   }
 
-  /** Selects the button that the keyboard is on, to find it in the list that is made anew. */
-  private keyboardPlace(): string | null {
-    const active = document.activeElement;
-    if (!(active instanceof HTMLButtonElement) || !this.element.contains(active)) return null;
-    const contour = active.closest<HTMLElement>("[data-contour]")?.dataset["contour"];
-    const structure = active.closest<HTMLElement>("[data-structure]")?.dataset["structure"];
-    const row = contour ? `[data-contour="${contour}"]` : `[data-structure="${structure}"]`;
-    return `${row} [data-part="${active.dataset["part"]}"]`;
+  private entry(structure: Structure): Piece {
+    const { project } = this.services;
+    const isActive = project.activeStructure?.id === structure.id;
+    const row = piece(
+      "div",
+      {
+        class: `structure-row${isActive ? " active" : ""}`,
+        title: isActive ? "New contours go into this structure" : "Click: new contours go into this structure",
+        on: {
+          click: ({ target, currentTarget }) => {
+            if (target === currentTarget || (target as HTMLElement).closest(".name")) project.activate(structure.id);
+          },
+        },
+      },
+      this.colorField(structure),
+      structure.id === this.renamed ? this.nameField(structure) : this.nameLabel(structure, isActive),
+      ...this.buttons(structure),
+    );
+    return piece("div", { key: structure.id, class: "structure", "data-structure": structure.id }, row, ...this.listOf(structure));
   }
 
-  private entry(structure: Structure): HTMLElement {
-    const row = el("div", { class: "structure-row" }, this.colorField(structure), this.nameLabel(structure), ...this.buttons(structure));
-    const choose = (event: MouseEvent) => {
-      if (event.target === row || (event.target as HTMLElement).closest(".name")) this.services.project.activate(structure.id);
-    };
-    listen(row, { click: choose });
-    const entry = el("div", { class: "structure", "data-structure": structure.id }, row);
-    this.renew(entry, structure);
-    return entry;
+  private listOf(structure: Structure): Piece[] {
+    if (!this.isOpen(structure)) return [];
+    return [
+      ...this.rows.rowsOf(structure, this.contoursOf(structure)),
+      ...emptyPlaneRows(structure, this.services),
+      ...surfacePointRows(structure, this.services),
+    ];
   }
 
-  /** All of an entry but its row's fields and buttons. */
-  private renew(entry: HTMLElement, structure: Structure): void {
-    const [row, ...contours] = entry.children;
-    const isActive = this.services.project.activeStructure?.id === structure.id;
-    row!.classList.toggle("active", isActive);
-    row!.setAttribute("title", isActive ? "New contours go into this structure" : "Click: new contours go into this structure");
-    row!.querySelector(".name")!.setAttribute("aria-current", String(isActive));
-    for (const old of contours) old.remove();
-    if (this.isOpen(structure))
-      entry.append(
-        ...this.rows.rowsOf(structure, this.contoursOf(structure)),
-        ...emptyPlaneRows(structure, this.services),
-        ...surfacePointRows(structure, this.services),
-      );
-  }
-
-  private colorField(structure: Structure): HTMLInputElement {
-    const change = () => {
-      field.blur(); // the list is not made anew around a field that has the keyboard
-      this.services.call("structure.set", { id: structure.id, color: field.value });
-    };
-    const field = el("input", {
+  private colorField({ id, name, color }: Structure): Piece {
+    return piece("input", {
+      key: "color",
       type: "color",
-      value: structure.color,
-      title: `Colour of ${structure.name}`,
+      value: color,
+      title: `Colour of ${name}`,
       class: "color",
-      on: { change, blur: () => this.refresh() },
+      on: { change: ({ currentTarget }) => this.services.call("structure.set", { id, color: currentTarget.value }), blur: () => this.refresh() },
     });
-    return field;
   }
 
-  private nameLabel(structure: Structure): HTMLButtonElement {
-    const label = button({
-      label: structure.name,
+  private nameLabel({ id, name }: Structure, isActive: boolean): Piece {
+    return buttonPiece({
+      label: name,
       title: "Double click or F2: rename",
       class: "name",
       part: "name",
-      click: (event) => {
-        if (this.isDouble(event, structure.id)) this.rename(structure.id);
+      click: () => undefined, // its row's
+      more: {
+        "aria-label": name,
+        "aria-current": isActive,
+        on: {
+          dblclick: () => this.rename(id),
+          keydown: (event) => {
+            if (event.key !== "F2") return;
+            event.stopPropagation(); // which renames the active one
+            this.rename(id);
+          },
+        },
       },
     });
-    label.setAttribute("aria-label", structure.name);
-    listen(label, {
-      keydown: (event) => {
-        if (event.key !== "F2") return;
-        event.stopPropagation(); // which renames the active one
-        this.rename(structure.id);
-      },
-    });
-    return label;
   }
 
-  /** The list is made anew between the clicks of a double click: no element gets a "dblclick", and Firefox counts only those on one element. */
-  private isDouble({ detail, timeStamp }: MouseEvent, structure: number): boolean {
-    const isSoon = this.clicked.structure === structure && timeStamp - this.clicked.at < DOUBLE_CLICK_MS;
-    this.clicked = { structure, at: timeStamp };
-    return isSoon || detail >= 2;
+  private nameField({ name }: Structure): Piece {
+    return piece("input", {
+      key: "name",
+      type: "text",
+      value: name,
+      class: "name",
+      title: "Name",
+      spellcheck: false,
+      maxLength: 64,
+      on: {
+        blur: ({ currentTarget }) => this.renameTo(currentTarget.value.trim()),
+        keydown: ({ key, currentTarget }) => {
+          if (key === "Escape") this.renamed = null;
+          if (key === "Enter" || key === "Escape") currentTarget.blur();
+        },
+      },
+    });
   }
 
   /** Lets the user type another name. */
   rename(structure: number | undefined): void {
-    const known = structure === undefined ? undefined : this.services.project.structures.get(structure);
-    const label = this.element.querySelector(`[data-structure="${structure}"] > .structure-row > button.name`);
-    if (!known || !label) return;
-    const field = el("input", { type: "text", value: known.name, class: "name", title: "Name", spellcheck: false, maxLength: 64 });
-    const end = () => {
-      const name = field.value.trim();
-      if (name && name !== known.name) this.services.call("structure.set", { id: known.id, name });
-      this.refresh();
-    };
-    const keys: Record<string, () => void> = {
-      Enter: () => field.blur(),
-      Escape: () => {
-        field.value = known.name;
-        field.blur();
-      },
-    };
-    listen(field, { blur: end, keydown: (event) => keys[event.key]?.() });
-    label.replaceWith(field);
-    field.select();
-    field.focus();
+    if (structure === undefined) return;
+    this.renamed = structure;
+    this.update();
+    const field = this.element.querySelector<HTMLInputElement>("input.name");
+    field?.select();
+    field?.focus();
   }
 
-  private buttons(structure: Structure): HTMLElement[] {
+  private renameTo(name: string): void {
+    const known = this.renamed === null ? undefined : this.services.project.structures.get(this.renamed);
+    this.renamed = null;
+    if (known && name && name !== known.name) this.services.call("structure.set", { id: known.id, name });
+    this.refresh();
+  }
+
+  private buttons(structure: Structure): Piece[] {
     const { project, call } = this.services;
+    const { id, visible } = structure;
     const isOpen = this.isOpen(structure);
     const toggle = () => {
-      this.opened.set(structure.id, !isOpen);
+      this.opened.set(id, !isOpen);
       this.refresh();
     };
-    const count = button({
-      label: String(project.contoursOf(structure.id).length),
-      title: isOpen ? "Hide the list of contours" : "List the contours",
-      class: "count",
-      part: "count",
-      click: toggle,
-    });
-    count.setAttribute("aria-expanded", String(isOpen));
     return [
-      count,
-      eye(structure.visible, () => call("structure.set", { id: structure.id, visible: !structure.visible })),
-      button({
+      buttonPiece({
+        label: String(project.contoursOf(id).length),
+        title: isOpen ? "Hide the list of contours" : "List the contours",
+        class: "count",
+        part: "count",
+        click: toggle,
+        more: { "aria-expanded": isOpen },
+      }),
+      eye(visible, () => call("structure.set", { id, visible: !visible })),
+      buttonPiece({
         icon: ICONS.remove,
         title: "Delete the structure with its contours",
         class: "icon-button small",
         part: "remove",
-        click: () => call("structure.remove", { id: structure.id }),
+        click: () => call("structure.remove", { id }),
       }),
     ];
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Navigation } from "../model/navigation";
 import type { Cine } from "../page/cine";
-import { button, el, icon } from "./dom";
+import { button, el } from "./dom";
 import { ICONS } from "./icons";
+import { iconPiece, render } from "./pieces";
 import { keepSliderKeys } from "./second_image_card";
 
 /** Which of the image's volumes in time is seen, below the identity: for images that have several. */
@@ -45,7 +46,7 @@ export class TimeCard {
     this.back.disabled = !navigation.isAway;
     name(this.back, `Back to frame ${navigation.ownTime + 1}, which contours belong to`);
     name(this.play, cine.isPlaying ? "Pause (T)" : "Play the frames (T)");
-    this.play.replaceChildren(icon(cine.isPlaying ? ICONS.pause : ICONS.play));
+    render(this.play, [iconPiece(cine.isPlaying ? ICONS.pause : ICONS.play)]);
   }
 }
 

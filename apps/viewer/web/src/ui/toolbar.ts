@@ -10,7 +10,8 @@ import { appearanceButton } from "./appearance";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
 import { Overflow } from "./overflow";
-import { windowField } from "./window_field";
+import { render, setValue } from "./pieces";
+import { presetOptions, windowField } from "./window_field";
 
 export interface ToolbarServices {
   navigation: Navigation;
@@ -143,10 +144,7 @@ export class Toolbar {
     this.title.textContent = title;
     this.title.title = title;
     this.presetList = presets;
-    this.presets.replaceChildren(
-      ...presets.map(({ name }, i) => el("option", { value: String(i) }, name)),
-      el("option", { value: "", hidden: true }, "Custom"),
-    );
+    render(this.presets, presetOptions(presets));
     this.update();
     this.overflow.fit(true);
   }
@@ -161,8 +159,8 @@ export class Toolbar {
     describe(this.redo, drawing.redoLabel ?? (drawing.sketch ? null : redo), "Redo", "Ctrl+Shift+Z");
     press(this.link, navigation.linked);
     const { center, width } = navigation.window;
-    if (document.activeElement !== this.center) this.center.value = short(center);
-    if (document.activeElement !== this.width) this.width.value = short(width);
+    setValue(this.center, short(center));
+    setValue(this.width, short(width));
     const preset = this.presetList.findIndex((entry) => short(entry.center) === short(center) && short(entry.width) === short(width));
     this.presets.value = preset < 0 ? "" : String(preset);
   }

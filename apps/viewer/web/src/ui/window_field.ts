@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Preset } from "../net/protocol";
 import { el } from "./dom";
+import { piece, type Piece } from "./pieces";
 
 /** A number of a window that can be typed. `update` shows again what counts: what is no window is not kept. */
 export function windowField(title: string, typed: () => void, update: () => void): HTMLInputElement {
@@ -18,3 +20,9 @@ export function windowField(title: string, typed: () => void, update: () => void
   });
   return field;
 }
+
+/** Windows to choose, by their number; "" is one that is none of them. */
+export const presetOptions = (presets: readonly Preset[]): Piece[] => [
+  ...presets.map(({ name }, i) => piece("option", { value: String(i) }, name)),
+  piece("option", { value: "", hidden: true }, "Custom"),
+];

@@ -4,12 +4,7 @@ import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { ViewName } from "../net/protocol";
 import { el } from "../ui/dom";
-
-interface Tick {
-  /** From 0, the first slice, to 1, the last. */
-  at: number;
-  color: string;
-}
+import { piece, render, type Piece } from "../ui/pieces";
 
 /** Which slice a view shows, beside it: to drag, with a tick at each slice on which something is drawn. */
 export class SliceSlider {
@@ -21,7 +16,6 @@ export class SliceSlider {
     on: { input: () => this.slid() },
   });
   private readonly ticks = el("div", { class: "slice-ticks", "aria-hidden": "true" });
-  private shown = "";
 
   constructor(
     private readonly view: ViewName,
@@ -35,31 +29,17 @@ export class SliceSlider {
     const { from, to, at } = this.navigation.depth(this.view);
     Object.assign(this.input, { min: String(from), max: String(to), step: String(this.navigation.step(this.view)) });
     this.input.value = String(at);
-    this.showTicks(this.ticksBetween(from, to));
+    render(this.ticks, this.ticksBetween(from, to));
   }
 
   /** A slice with contours of several structures has the active one's colour, or else the first one's. */
-  private ticksBetween(from: number, to: number): Tick[] {
+  private ticksBetween(from: number, to: number): Piece[] {
     const { structures, activeStructure } = this.project;
     return drawnSlices(this.view, this.navigation, this.project).flatMap(({ depth_mm, structures: drawn }) => {
       const at = (depth_mm - from) / (to - from);
       const shown = drawn.find((id) => id === activeStructure?.id) ?? drawn[0]!;
-      return at >= -1e-6 && at <= 1 + 1e-6 ? [{ at, color: structures.get(shown)!.color }] : [];
+      return at >= -1e-6 && at <= 1 + 1e-6 ? [piece("span", { style: { "--at": String(at), background: structures.get(shown)!.color } })] : [];
     });
-  }
-
-  private showTicks(ticks: Tick[]): void {
-    const key = JSON.stringify(ticks);
-    if (key === this.shown) return;
-    this.shown = key;
-    this.ticks.replaceChildren(
-      ...ticks.map(({ at, color }) => {
-        const tick = el("span");
-        tick.style.setProperty("--at", String(at));
-        tick.style.background = color;
-        return tick;
-      }),
-    );
   }
 
   private slid(): void {

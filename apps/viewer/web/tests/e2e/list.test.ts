@@ -111,6 +111,22 @@ describe("a list of thirty structures", () => {
     await viewer.waitForContours(before);
   });
 
+  test("stays where it was scrolled to, away from the selected contour", async () => {
+    const { page } = viewer;
+    await page.locator(".contour-row").first().click();
+    await page.waitForSelector(".contour-row.selected");
+    const list = page.locator(".structures");
+    const last = page.locator(".structure-row").last();
+    await list.evaluate((element) => (element.scrollTop = element.scrollHeight));
+    const scrolled = await list.evaluate((element) => element.scrollTop);
+    assert.ok(scrolled > 0);
+    for (const title of ["Show", "Hide"]) {
+      await last.locator("[data-part=eye]").click();
+      await last.locator(`[data-part=eye][title=${title}]`).waitFor();
+      assert.equal(await list.evaluate((element) => element.scrollTop), scrolled);
+    }
+  });
+
   test("marks by the keyboard, and moves what is marked to another structure", async () => {
     const rows = viewer.page.locator(".contour-row");
     const before = await listed();

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a hand has just now in the panel stays in it, whatever changes meanwhile: another window of the project changes something, and
+// the hand goes on.
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { NO_WEBGL } from "./browsers";
+import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
+
+const visits = new BallVisits(NO_WEBGL);
+let viewer: Viewer;
+
+beforeEach(async () => {
+  viewer = await visits.next();
+  await viewer.page.keyboard.press("f");
+  await viewer.drag("axial", circle(await viewer.pixels("axial", BALL_RADIUS_MM), 36));
+  await viewer.waitForContours(1);
+  await viewer.saved();
+});
+
+/** In another window of the same project. */
+async function meanwhile(act: (other: Viewer) => Promise<void>): Promise<void> {
+  const other = await Viewer.open(visits.browser, visits.server.address);
+  await act(other);
+  await other.saved();
+  await other.page.close();
+}
+
+const addStructure = () => meanwhile((other) => other.page.click("[data-test=add-structure]"));
+const row = (structure: number) => viewer.page.locator(".structure").nth(structure);
+
+test("a name half typed stays, and so does the place in it, while the rest of its row follows", async () => {
+  const { page } = viewer;
+  await row(0).locator("button.name").dblclick();
+  await page.keyboard.type("Kiy");
+  await page.keyboard.press("ArrowLeft");
+  await meanwhile((other) => other.page.locator(".structure-row [data-part=eye]").click());
+  await row(0).locator(".structure-row [data-part=eye][title=Show]").waitFor();
+  await page.keyboard.type("dne");
+  await page.keyboard.press("Enter");
+  await viewer.waitForStep("undo", "Rename");
+  assert.equal(await row(0).locator("button.name").textContent(), "Kidney");
+});
+
+test("a button that is held down acts when it is let go", async () => {
+  const { page } = viewer;
+  await page.locator(".contour-row").hover();
+  const box = (await page.locator(".contour-row [data-part=eye]").boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await addStructure();
+  await row(1).waitFor();
+  await page.mouse.up();
+  await page.waitForSelector(".contour-row.off");
+});
+
+test("the keyboard stays in a choice that was made by it, also when the choice grows", async () => {
+  const { page } = viewer;
+  await addStructure();
+  await row(1).waitFor();
+  await page.locator(".contour-row").click();
+  const owner = page.locator("[data-test=owner]");
+  await owner.focus();
+  await owner.press("ArrowDown");
+  await row(1).locator(".contour-row").waitFor();
+  await addStructure();
+  await row(2).waitFor();
+  await page.keyboard.press("ArrowDown");
+  await row(2).locator(".contour-row").waitFor();
+  assert.equal(await owner.evaluate((select) => select === document.activeElement), true);
+});
+
+test("a double click begins a name though its first click changes the list", async () => {
+  const { page } = viewer;
+  await addStructure();
+  await row(1).waitFor();
+  const name = row(1).locator("button.name");
+  await name.click();
+  await row(1).locator(".structure-row.active").waitFor(); // the list has followed
+  await name.click({ clickCount: 2 });
+  await page.keyboard.type("Spleen");
+  await page.keyboard.press("Enter");
+  await viewer.waitForStep("undo", "Rename");
+  assert.equal(await name.textContent(), "Spleen");
+});

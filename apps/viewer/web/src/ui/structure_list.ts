@@ -153,7 +153,10 @@ export class StructureList {
       spellcheck: false,
       maxLength: 64,
       on: {
-        blur: ({ currentTarget }) => this.renameTo(currentTarget.value.trim()),
+        blur: ({ currentTarget }) => {
+          // It stays the active one while another window has the keyboard, and goes on when that comes back.
+          if (document.activeElement !== currentTarget) this.renameTo(currentTarget.value.trim());
+        },
         keydown: ({ key, currentTarget }) => {
           if (key === "Escape") this.renamed = null;
           if (key === "Enter" || key === "Escape") currentTarget.blur();

@@ -147,7 +147,7 @@ describe("the list of structures", () => {
 
   test("follows what happens while a name is typed, and does not take the name away", async () => {
     const { page } = viewer;
-    await page.locator(".structure-row button.name").dblclick();
+    await viewer.doubleClick(page.locator(".structure-row button.name"));
     await page.keyboard.type("Ki");
     const other = await Viewer.open(visits.browser, visits.server.address);
     await other.page.click("[data-test=add-structure]");

@@ -23,8 +23,8 @@ demo: setup ## build, generate a phantom into demo/, segment it, compare with th
 	@cmake --build --preset release -j $(JOBS) --target kontur_app
 	@tools/demo build/release/bin/kontur demo
 
-test: build ## build and run every test
-	@ctest --preset release -j $(JOBS)
+test: build ## build and run every test; what failed beside others runs once more by itself, and has to pass there
+	@ctest --preset release -j $(JOBS) || { echo "What failed, once more by itself:"; ctest --preset release --rerun-failed; }
 
 asan: setup ## run every test under AddressSanitizer and UBSan
 	@cmake --preset asan >/dev/null

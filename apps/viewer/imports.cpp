@@ -65,9 +65,11 @@ void limit(int what, rlim_t most) {
     setrlimit(what, &lower);
 }
 
-/// Nothing of the server's may be in reach of what reads a foreign file, nor may it outlive the server.
-void limit_this_process() {
+/// Nothing of the server's may be in reach of what reads a foreign file, nor may it outlive the server, not even one that
+/// ended while this process began.
+void limit_this_process(pid_t server) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != server) _exit(exit_code(ErrorKind::io));
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     close_range(STDERR_FILENO + 1, ~0U, 0);
     if (kLimitsMemory) limit(RLIMIT_AS, kMostMemory);
@@ -185,7 +187,8 @@ std::vector<std::string> words_of(const Upload& upload) {
             upload.content == Upload::Content::mask ? "mask" : "contours",
             upload.extension,
             std::to_string(upload.trace.planes),
-            axes};
+            axes,
+            std::to_string(getpid())};
 }
 
 Upload upload_from(char** words) {
@@ -287,9 +290,9 @@ Imported import_apart(const std::string& bytes, const Upload& upload, const Work
 }
 
 int import_worker(int argc, char** argv) {
-    constexpr int kWords = 6;
+    constexpr int kWords = 7;
     if (argc != kWords) return exit_code(ErrorKind::invalid_input);
-    limit_this_process();
+    limit_this_process(std::atoi(argv[6]));
     const Upload upload = upload_from(argv);
     json result;
     try {

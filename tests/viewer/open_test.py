@@ -601,9 +601,17 @@ def big_mask(size=220):
 
 
 def readers(server):
-    """The processes in which the server reads imports."""
+    """The processes in which the server reads imports, from where they have what is the server's no longer."""
+
+    def reads(child):
+        try:
+            return b"--import-worker" in pathlib.Path(f"/proc/{child}/cmdline").read_bytes()
+        except OSError:
+            return False  # it has just ended
+
     tasks = pathlib.Path(f"/proc/{server.process.pid}/task")
-    return [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
+    children = [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
+    return [child for child in children if reads(child)]
 
 
 def damage(project, statement, *values):

@@ -302,6 +302,26 @@ void add_trace(CLI::App& app, Invocation& invocation) {
     bind.quiet();
 }
 
+/// How label maps are filled. `joint`: between the words of a flag.
+void add_fill_method(CLI::App& sub, FillCommand& c, char joint) {
+    const auto flag = [&](std::string_view first, std::string_view second) {
+        return fmt::format("--{}{}{}", first, joint, second);
+    };
+    add_choice<FillEnds>(sub, "--ends", c.options.ends,
+                         {{"closed", FillEnds::closed}, {"half", FillEnds::half}, {"open", FillEnds::open}},
+                         "How far beyond the first and last of parallel slices: not at all, half of a gap, or as far as the "
+                         "fit says");
+    sub.add_option(flag("shape", "weight"), c.options.shape_weight,
+                   "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone")
+        ->type_name("W")
+        ->capture_default_str();
+    sub.add_option(flag("smoothing", "voxels"), c.options.smoothing_voxels,
+                   "Smoothing of the painted outlines, standard deviation")
+        ->type_name("VOXELS")
+        ->capture_default_str();
+    add_threads(sub, c.threads);
+}
+
 void add_fill(CLI::App& app, Invocation& invocation) {
     Binder<FillCommand> bind(app, invocation, "fill", "Fill a label map between its painted slices",
                              "kontur fill sparse.nii.gz --output full.nii.gz");
@@ -319,21 +339,27 @@ void add_fill(CLI::App& app, Invocation& invocation) {
         "that this helps; or never");
     bind.sub->get_option("--use-image")->needs(image);
     bind.option("--label", c.options.labels, "N", "Fill only this label; again for more [all]")->allow_extra_args(false);
-    add_choice<FillEnds>(*bind.sub, "--ends", c.options.ends,
-                         {{"closed", FillEnds::closed}, {"half", FillEnds::half}, {"open", FillEnds::open}},
-                         "How far beyond the first and last of parallel slices: not at all, half of a gap, or as far as the "
-                         "fit says");
     bind.sub->add_flag_callback(
         "--alone", [&c] { c.options.jointly = false; }, "Each label for itself: no fit of touching labels together");
-    bind.defaulted("--shape-weight", c.options.shape_weight, "W",
-                   "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone");
-    bind.defaulted("--smoothing-voxels", c.options.smoothing_voxels, "VOXELS",
-                   "Smoothing of the painted outlines, standard deviation");
+    add_fill_method(*bind.sub, c, '-');
     bind.option("--report", c.report, "FILE", "Report to write: .json");
-    add_threads(*bind.sub, c.threads);
     add_read_options(*bind.sub, c.labels.options);
     add_series_options(*bind.sub, c.labels.options.dicom);
     bind.quiet();
+}
+
+/// As `add_slicer`; the flags are its own, since "--output" names no node of a panel.
+void add_slicer_fill(CLI::App& app, Invocation& invocation) {
+    Binder<SlicerFillCommand> bind(app, invocation, "slicer-fill",
+                                   "Work as a command-line module of 3D Slicer that fills label maps (docs/slicer.md)",
+                                   "kontur slicer-fill --xml");
+    SlicerFillCommand& c = *bind.command;
+    bind.sub->set_version_flag("--xml", slicer_description(c), "Print the module's description");
+    bind.option("--labels", c.fill.labels.path, "FILE", "Label map of which some slices are painted")->required();
+    bind.option("--image", c.fill.image, "FILE", "Image that was painted on");
+    bind.option("--filled", c.fill.output, "FILE", "Label map to write");
+    add_fill_method(*bind.sub, c.fill, '_');
+    bind.option("--returnparameterfile", c.return_parameters, "FILE", "Values to write for 3D Slicer");
 }
 
 void add_suggest(CLI::App& app, Invocation& invocation) {
@@ -485,6 +511,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_batch(app, invocation);
     add_trace(app, invocation);
     add_fill(app, invocation);
+    add_slicer_fill(app, invocation);
     add_suggest(app, invocation);
     add_compare(app, invocation);
     add_inspect(app, invocation);

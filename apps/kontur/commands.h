@@ -106,6 +106,13 @@ struct FillCommand {
 };
 void run(const FillCommand& command, Console& console);
 
+/// The same as a command-line module of 3D Slicer.
+struct SlicerFillCommand {
+    FillCommand fill;
+    std::filesystem::path return_parameters;  ///< as SlicerCommand's
+};
+void run(const SlicerFillCommand& command, Console& console);
+
 /// Where to draw next.
 struct SuggestCommand {
     std::vector<std::filesystem::path> contours;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/fill_labels.h"
+#include "fill.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <array>
 #include <optional>
 
-#include "commands.h"
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "facts.h"
@@ -83,16 +82,15 @@ std::string slices_of(const FilledLabel& one) {
 
 }  // namespace
 
-void run(const FillCommand& command, Console& console) {
+FillReport fill_files(const FillCommand& command, Console& console, const Work& work) {
     check(command);
-    const Work work = console.work(command.threads);
     const ImageInput input{command.labels.path, console.noting(command.labels.options)};
     const ImageInput images{command.image, console.noting(command.labels.options)};
     if (is_dicom_name(command.output))
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(input.path), images))
             console.warn(note);
     std::vector<std::string> warnings;
-    const Filling filling = [&] {
+    Filling filling = [&] {
         Image labels = read_labels(input, {}, work);
         std::optional<Image> image;
         if (!command.image.empty() && command.options.use_image != UseImage::off) {
@@ -118,10 +116,14 @@ void run(const FillCommand& command, Console& console) {
             write_file_atomically(path, to_json_text(report_of(filling.report, warnings, made)));
         });
     outputs.commit();
+    return std::move(filling.report);
+}
 
-    std::string text = fmt::format("{}: {} label{}\n", command.output.string(), filling.report.labels.size(),
-                                   filling.report.labels.size() == 1 ? "" : "s");
-    for (const FilledLabel& one : filling.report.labels) {
+void run(const FillCommand& command, Console& console) {
+    const FillReport report = fill_files(command, console, console.work(command.threads));
+    std::string text =
+        fmt::format("{}: {} label{}\n", command.output.string(), report.labels.size(), report.labels.size() == 1 ? "" : "s");
+    for (const FilledLabel& one : report.labels) {
         for (const std::string& warning : one.warnings) console.warn(fmt::format("label {}: {}", one.label, warning));
         text += fmt::format("label {}: {} slices painted; {} voxels painted, {} added\n", one.label, slices_of(one),
                             one.painted_voxels, one.added_voxels);

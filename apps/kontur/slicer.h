@@ -7,10 +7,11 @@
 namespace kontur::app {
 
 struct SlicerCommand;
+struct SlicerFillCommand;
 
-/// The description that 3D Slicer builds the module's panel from: parameters, defaults and the flags to pass. Source: the
-/// schema of its command-line modules, "Slicer Execution Model".
+/// The description that 3D Slicer builds the module's panel from: parameters, defaults and the flags to pass.
 std::string slicer_description(const SlicerCommand& defaults);
+std::string slicer_description(const SlicerFillCommand& defaults);
 
 /// The flags that the description gives to the curves, of which each takes one file.
 std::vector<std::string> slicer_curve_flags();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""kontur as a command-line module of 3D Slicer: the published rules of such modules, and a run as 3D Slicer runs one."""
+"""kontur's command-line modules of 3D Slicer: the published rules of such modules, and a run as 3D Slicer runs one."""
 import json
 import os
 import pathlib
@@ -11,7 +11,9 @@ import numpy
 import pytest
 from support import CENTER, KONTUR, RADIUS, ball_array, ball_planes, dice, kontur, write_nifti, write_planes
 
-MODULE = pathlib.Path(KONTUR).parent.parent / "lib" / "slicer" / "KonturSegment"
+FOLDER = pathlib.Path(KONTUR).parent.parent / "lib" / "slicer"
+MODULE, FILL = FOLDER / "KonturSegment", FOLDER / "KonturFill"
+BOTH = pytest.mark.parametrize("module", [MODULE, FILL], ids=lambda module: module.name)
 
 # What 3D Slicer's parser knows (ModuleDescriptionParser), as far as it concerns us; anything else is an error there.
 HEADER = {"category", "title", "description", "version", "documentation-url", "license", "contributor", "acknowledgements"}
@@ -24,16 +26,16 @@ FIELDS = {"name", "label", "description", "longflag", "flag", "index", "channel"
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
-def description():
+def description(module):
     """As 3D Slicer asks for it: what is not XML from the first byte, or says a word on stderr, is no module."""
-    result = subprocess.run([MODULE, "--xml"], capture_output=True, timeout=5, env={"ITK_AUTOLOAD_PATH": ""})
+    result = subprocess.run([module, "--xml"], capture_output=True, timeout=5, env={"ITK_AUTOLOAD_PATH": ""})
     assert (result.returncode, result.stderr) == (0, b"")
     assert result.stdout.startswith(b"<?xml")
     return ElementTree.fromstring(result.stdout)
 
 
-def parameters():
-    return [p for group in description().findall("parameters") for p in group if p.tag not in ("label", "description")]
+def parameters(module=MODULE):
+    return [p for group in description(module).findall("parameters") for p in group if p.tag not in ("label", "description")]
 
 
 def check_value(parameter):
@@ -49,13 +51,15 @@ def check_value(parameter):
         assert default in [e.text for e in parameter.findall("element")]
 
 
-def test_the_name_is_one_that_3d_slicer_runs():
-    assert "." not in MODULE.name
-    assert os.access(MODULE, os.X_OK)
+@BOTH
+def test_the_name_is_one_that_3d_slicer_runs(module):
+    assert "." not in module.name
+    assert os.access(module, os.X_OK)
 
 
-def test_the_description_follows_every_rule():
-    root = description()
+@BOTH
+def test_the_description_follows_every_rule(module):
+    root = description(module)
     assert root.tag == "executable"
     assert {e.tag for e in root} <= HEADER | {"parameters"}
     assert {"title", "description", "category", "version"} <= {e.tag for e in root}
@@ -63,7 +67,7 @@ def test_the_description_follows_every_rule():
     for group in root.findall("parameters"):
         assert set(group.attrib) <= {"advanced"}
         assert group[0].tag == "label" and group[1].tag == "description"
-    for parameter in parameters():
+    for parameter in parameters(module):
         assert parameter.tag in FILES or parameter.tag in SIMPLE, parameter.tag
         assert set(parameter.attrib) <= FILES.get(parameter.tag, set())
         assert {e.tag for e in parameter} <= FIELDS
@@ -89,10 +93,11 @@ def test_the_description_follows_every_rule():
     assert len(set(flags)) == len(flags)
 
 
-def test_the_defaults_are_those_of_segment():
-    help_text = kontur("segment", "--help").stdout
-    for parameter in parameters():
-        flag = parameter.findtext("longflag")
+@pytest.mark.parametrize("module, command", [(MODULE, "segment"), (FILL, "fill")])
+def test_the_defaults_are_those_of_the_command(module, command):
+    help_text = kontur(command, "--help").stdout
+    for parameter in parameters(module):
+        flag = (parameter.findtext("longflag") or "").replace("_", "-")
         if flag and parameter.tag in SIMPLE:
             assert re.search(rf"{flag} \S+ \[?{re.escape(parameter.findtext('default'))}\b|{flag} .*{parameter.findtext('default')}", help_text), flag
 
@@ -117,18 +122,22 @@ def scene(tmp_path):
 
 
 def run_module(scene, **outputs):
-    """With the flags that 3D Slicer makes of the description: one file for each parameter."""
     curves = {f"curve{n}": path for n, path in enumerate(sorted(scene.glob("*.mrk.json")), start=1)}
     files = {"referenceVolume": scene / "reference.nrrd", **curves, **outputs}
+    return run_as_slicer(MODULE, scene, files)
+
+
+def run_as_slicer(module, folder, files):
+    """With the flags that 3D Slicer makes of the module's description."""
     words = []
-    for parameter in parameters():
+    for parameter in parameters(module):
         if value := files.pop(parameter.findtext("name"), None):
             words += [parameter.findtext("longflag"), value]
         if parameter.tag in SIMPLE and parameter.findtext("channel") != "output":
             words += [parameter.findtext("longflag"), parameter.findtext("default")]
     assert not files, "there is a parameter for each file"
-    words += ["--returnparameterfile", scene / "returned.params"]
-    return subprocess.run([MODULE, *map(str, words)], capture_output=True, text=True, timeout=60)
+    words += ["--returnparameterfile", folder / "returned.params"]
+    return subprocess.run([module, *map(str, words)], capture_output=True, text=True, timeout=60)
 
 
 def read_ply_points(path):
@@ -141,6 +150,20 @@ def read_ply_points(path):
     return numpy.stack([points[a] for a in "012"], axis=1)
 
 
+def check_told(module, result, folder):
+    """The tags on stdout, and the values for the panel, which it returns."""
+    progress = [float(v) for v in re.findall("<filter-progress>(.*?)</filter-progress>", result.stdout)]
+    assert len(progress) > 3
+    assert progress == sorted(progress) and progress[0] >= 0 and progress[-1] == 1
+    assert all(0 <= float(v) <= 1 for v in re.findall("<filter-stage-progress>(.*?)</filter-stage-progress>", result.stdout))
+    for tag in ("filter-start", "filter-end", "filter-name", "filter-comment", "filter-time"):
+        assert result.stdout.count(f"<{tag}>") == result.stdout.count(f"</{tag}>") > 0
+    returned = dict(line.split(" = ") for line in (folder / "returned.params").read_text().splitlines())
+    wanted = {p.findtext("name") for p in parameters(module) if p.tag in SIMPLE and p.findtext("channel") == "output"}
+    assert set(returned) == wanted
+    return returned
+
+
 def test_a_run_makes_label_map_and_model_where_the_curves_are(scene):
     result = run_module(scene, outputMask=scene / "mask.nrrd", outputModel=scene / "model.ply")
     assert (result.returncode, result.stderr) == (0, ""), result
@@ -151,17 +174,47 @@ def test_a_run_makes_label_map_and_model_where_the_curves_are(scene):
     distance = numpy.linalg.norm(read_ply_points(scene / "model.ply") - CENTER, axis=1)
     assert numpy.abs(distance - RADIUS).max() < 0.5
 
-    progress = [float(v) for v in re.findall("<filter-progress>(.*?)</filter-progress>", result.stdout)]
-    assert len(progress) > 3
-    assert progress == sorted(progress) and progress[0] >= 0 and progress[-1] == 1
-    assert all(0 <= float(v) <= 1 for v in re.findall("<filter-stage-progress>(.*?)</filter-stage-progress>", result.stdout))
-    for tag in ("filter-start", "filter-end", "filter-name", "filter-comment", "filter-time"):
-        assert result.stdout.count(f"<{tag}>") == result.stdout.count(f"</{tag}>") > 0
-
-    returned = dict(line.split(" = ") for line in (scene / "returned.params").read_text().splitlines())
-    wanted = {p.findtext("name") for p in parameters() if p.tag in SIMPLE and p.findtext("channel") == "output"}
-    assert set(returned) == wanted
+    returned = check_told(MODULE, result, scene)
     assert float(returned["volumeMl"]) == pytest.approx(4 / 3 * numpy.pi * RADIUS**3 / 1000, rel=0.02)
+
+
+@pytest.fixture
+def painted(tmp_path):
+    """A ball of which every fifth slice is painted, as 3D Slicer leaves a label map for a module, and its image."""
+    folder = tmp_path / "Slicer temp"
+    folder.mkdir()
+    ball = ball_array()
+    sparse = numpy.zeros_like(ball)
+    sparse[..., 1::5] = ball[..., 1::5]
+    for name, array in (("painted", sparse), ("image", 100 * ball.astype(numpy.int16))):
+        write_nifti(folder / f"{name}.nii.gz", array)
+        assert kontur("convert", folder / f"{name}.nii.gz", folder / f"{name}.nrrd").returncode == 0
+    return folder
+
+
+@pytest.mark.parametrize("with_image", [False, True])
+def test_a_run_fills_what_was_painted_as_the_command_does(painted, with_image):
+    files = {"paintedLabels": painted / "painted.nrrd", "filledLabels": painted / "filled.nrrd"}
+    image = ["--image", painted / "image.nrrd"] if with_image else []
+    result = run_as_slicer(FILL, painted, files | ({"image": image[1]} if with_image else {}))
+    assert (result.returncode, result.stderr) == (0, ""), result
+    assert kontur("fill", painted / "painted.nrrd", *image, "--output", painted / "wanted.nrrd", "--report", painted / "report.json").returncode == 0
+    voxels = [(painted / name).read_bytes().split(b"\n\n", 1)[1] for name in ("filled.nrrd", "wanted.nrrd")]
+    assert voxels[0] == voxels[1]
+    returned = check_told(FILL, result, painted)
+    report = json.loads((painted / "report.json").read_text())
+    assert returned == {"filledLabelCount": "1", "addedVoxels": str(report["labels"][0]["added_voxels"])}
+    assert int(returned["addedVoxels"]) > 1000
+    assert ("image" in result.stdout.split("</filter-start>")[1]) == with_image, "what became of the image is said"
+
+
+def test_filling_needs_somewhere_to_write_and_spares_its_inputs(painted):
+    result = run_as_slicer(FILL, painted, {"paintedLabels": painted / "painted.nrrd"})
+    assert result.returncode == 65 and "no label map was chosen" in result.stderr
+    before = (painted / "painted.nrrd").read_bytes()
+    result = run_as_slicer(FILL, painted, {name: painted / "painted.nrrd" for name in ("paintedLabels", "filledLabels")})
+    assert result.returncode != 0 and "painted.nrrd" in result.stderr
+    assert (painted / "painted.nrrd").read_bytes() == before
 
 
 def test_one_output_is_enough_and_none_is_an_error(scene):
@@ -190,10 +243,10 @@ def test_a_failure_has_an_exit_code_a_reason_and_no_output(scene):
     assert not (scene / "mask.nrrd").exists()
 
 
-def test_the_module_runs_through_a_link(scene, tmp_path):
-    (tmp_path / "modules").mkdir()
-    (tmp_path / "modules" / "KonturSegment").symlink_to(MODULE)
-    result = subprocess.run([tmp_path / "modules" / "KonturSegment", "--xml"], capture_output=True)
+@BOTH
+def test_the_module_runs_through_a_link(module, tmp_path):
+    (tmp_path / module.name).symlink_to(module)
+    result = subprocess.run([tmp_path / module.name, "--xml"], capture_output=True)
     assert result.stdout.startswith(b"<?xml")
 
 

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "kontur/io/mesh.h"
 #include "kontur/segment.h"
 #include "outputs.h"
+#include "slicer_module.h"
 
 namespace kontur::app {
 namespace {
@@ -23,18 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "Kontur Segment";
+constexpr const char* kPurpose =
+    "Smooth surface and mask of an object from closed curves drawn in slices of any orientation.";
 
-/// The module's description for 3D Slicer, in its own XML.
-constexpr const char* kDescription = R"(<?xml version="1.0" encoding="utf-8"?>
-<executable>
-  <category>Segmentation</category>
-  <title>{title}</title>
-  <description><![CDATA[Smooth surface and mask of an object from closed curves drawn in slices of any orientation. Research software, not a medical device.]]></description>
-  <version>{version}</version>
-  <license>Apache-2.0</license>
-  <contributor>The kontur authors</contributor>
-  <acknowledgements><![CDATA[After Heckel, Konrad and Peitgen, Fast and Smooth Interactive Segmentation of Medical Images Using Variational Interpolation, VCBM 2010.]]></acknowledgements>
-  <parameters>
+constexpr const char* kParameters = R"(  <parameters>
     <label>Input and output</label>
     <description><![CDATA[What is drawn, on what, and what becomes of it]]></description>
     <image>
@@ -135,51 +126,7 @@ constexpr const char* kDescription = R"(<?xml version="1.0" encoding="utf-8"?>
       <description><![CDATA[Connected parts of the label map]]></description>
     </integer>
   </parameters>
-</executable>
 )";
-
-/// 3D Slicer reads the last of these tags on stdout, at any time.
-void tell(const std::string& tags) {
-    std::fwrite(tags.data(), 1, tags.size(), stdout);
-    std::fflush(stdout);
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '<') result += "&lt;";
-        else if (c == '>') result += "&gt;";
-        else if (c == '&') result += "&amp;";
-        else result += c;
-    }
-    return result;
-}
-
-/// Stages follow one another without anyone knowing how many are to come: each takes half of what is left of the bar.
-class TagProgress {
-public:
-    Work work(int threads, const std::stop_token& stop) {
-        return {threads, [this](std::string_view stage, double fraction) { report(stage, fraction); }, stop};
-    }
-
-private:
-    void report(std::string_view stage, double fraction) {
-        if (stage != stage_) {
-            stage_ = stage;
-            done_before_ = done_;
-            tell(fmt::format("<filter-comment>{}</filter-comment>\n", escaped(stage)));
-        }
-        const double done = done_before_ + 0.5 * (1 - done_before_) * fraction;
-        if (done < done_ + 0.005) return;
-        done_ = done;
-        tell(
-            fmt::format("<filter-progress>{:.4f}</filter-progress>\n<filter-stage-progress>{:.4f}</filter-stage-progress>\n",
-                        done, fraction));
-    }
-
-    std::string stage_;
-    double done_before_ = 0, done_ = 0;
-};
 
 /// Values that 3D Slicer shows in the panel: lines NAME = VALUE.
 std::string return_parameters(const SegmentReport& report) {
@@ -259,30 +206,21 @@ std::vector<std::string> slicer_curve_flags() {
 }
 
 void run(const SlicerCommand& command, Console& console) {
-    using Clock = std::chrono::steady_clock;
     check(command);
-    const auto start = Clock::now();
-    tell(fmt::format(
-        "<filter-start>\n<filter-name>{}</filter-name>\n<filter-comment>reading</filter-comment>\n</filter-start>\n",
-        kName));
-    TagProgress tags;
-    const Made made = fit(command, tags.work(command.threads, console.stop_token()));
+    SlicerRun run(kName);
+    const Made made = fit(command, run.work(command.threads, console.stop_token()));
     write_outputs(command, made, Work{.stop = console.stop_token()});
-    for (const std::string& warning : made.result.report.warnings)
-        tell(fmt::format("<filter-comment>{}</filter-comment>\nwarning: {}\n", escaped(warning), warning));
-    tell(
-        fmt::format("<filter-progress>1</filter-progress>\n<filter-end>\n<filter-name>{}</filter-name>\n"
-                    "<filter-time>{:.2f}</filter-time>\n</filter-end>\n",
-                    kName, std::chrono::duration<double>(Clock::now() - start).count()));
+    for (const std::string& warning : made.result.report.warnings) run.say("warning: " + warning);
+    run.end();
 }
 
 std::string slicer_description(const SlicerCommand& defaults) {
     const SegmentOptions& o = defaults.options;
-    return fmt::format(kDescription, fmt::arg("title", kName), fmt::arg("version", KONTUR_VERSION),
-                       fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
-                       fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
-                       fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)),
-                       fmt::arg("quality", o.quality), fmt::arg("threads", defaults.threads));
+    return slicer_module_description(kName, kPurpose,
+                                     fmt::format(kParameters, fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
+                                                 fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
+                                                 fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)),
+                                                 fmt::arg("quality", o.quality), fmt::arg("threads", defaults.threads)));
 }
 
 }  // namespace kontur::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicer_module.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace kontur::app {
+namespace {
+
+/// 3D Slicer reads the last of these tags on stdout, at any time.
+void tell(const std::string& tags) {
+    std::fwrite(tags.data(), 1, tags.size(), stdout);
+    std::fflush(stdout);
+}
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '<') result += "&lt;";
+        else if (c == '>') result += "&gt;";
+        else if (c == '&') result += "&amp;";
+        else result += c;
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string slicer_module_description(std::string_view title, std::string_view purpose, std::string_view parameters) {
+    return fmt::format(R"(<?xml version="1.0" encoding="utf-8"?>
+<executable>
+  <category>Segmentation</category>
+  <title>{}</title>
+  <description><![CDATA[{} Research software, not a medical device.]]></description>
+  <version>{}</version>
+  <license>Apache-2.0</license>
+  <contributor>The kontur authors</contributor>
+  <acknowledgements><![CDATA[After Heckel, Konrad and Peitgen, Fast and Smooth Interactive Segmentation of Medical Images Using Variational Interpolation, VCBM 2010.]]></acknowledgements>
+{}</executable>
+)",
+                       title, purpose, KONTUR_VERSION, parameters);
+}
+
+SlicerRun::SlicerRun(std::string_view module) : module_(module) {
+    tell(fmt::format(
+        "<filter-start>\n<filter-name>{}</filter-name>\n<filter-comment>reading</filter-comment>\n</filter-start>\n",
+        module_));
+}
+
+Work SlicerRun::work(int threads, const std::stop_token& stop) {
+    return {threads, [this](std::string_view stage, double fraction) { report(stage, fraction); }, stop};
+}
+
+void SlicerRun::say(std::string_view sentence) {
+    tell(fmt::format("<filter-comment>{}</filter-comment>\n{}\n", escaped(sentence), sentence));
+}
+
+void SlicerRun::end() {
+    tell(
+        fmt::format("<filter-progress>1</filter-progress>\n<filter-end>\n<filter-name>{}</filter-name>\n"
+                    "<filter-time>{:.2f}</filter-time>\n</filter-end>\n",
+                    module_, std::chrono::duration<double>(Clock::now() - start_).count()));
+}
+
+void SlicerRun::report(std::string_view stage, double fraction) {
+    if (stage != stage_) {
+        stage_ = stage;
+        done_before_ = done_;
+        tell(fmt::format("<filter-comment>{}</filter-comment>\n", escaped(stage)));
+    }
+    const double done = done_before_ + 0.5 * (1 - done_before_) * fraction;
+    if (done < done_ + 0.005) return;
+    done_ = done;
+    tell(fmt::format("<filter-progress>{:.4f}</filter-progress>\n<filter-stage-progress>{:.4f}</filter-stage-progress>\n",
+                     done, fraction));
+}
+
+}  // namespace kontur::app

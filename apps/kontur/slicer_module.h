@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "kontur/base/work.h"
+
+namespace kontur::app {
+
+/// The description that 3D Slicer builds a module's panel from. `parameters`: its groups of them, as XML. Source: the schema
+/// of its command-line modules, "Slicer Execution Model".
+std::string slicer_module_description(std::string_view title, std::string_view purpose, std::string_view parameters);
+
+/// One run of a command-line module, told on stdout by tags: the start, what is done, and the end.
+class SlicerRun {
+public:
+    explicit SlicerRun(std::string_view module);
+
+    /// Stages follow one another without anyone knowing how many are to come: each takes half of what is left of the bar.
+    Work work(int threads, const std::stop_token& stop);
+    /// Shown below the bar, and in the log.
+    void say(std::string_view sentence);
+    void end();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void report(std::string_view stage, double fraction);
+
+    const std::string module_;
+    const Clock::time_point start_ = Clock::now();
+    std::string stage_;
+    double done_before_ = 0, done_ = 0;
+};
+
+}  // namespace kontur::app

@@ -10,6 +10,7 @@
 #include "kontur/fit/missed_clicks.h"
 #include "kontur/fit/residual.h"
 #include "kontur/measure/components.h"
+#include "kontur/shape/predicates.h"
 
 namespace kontur {
 namespace {
@@ -103,6 +104,37 @@ void describe_mask(const SurfaceLattice& surface, const Mask& mask, SegmentRepor
     if (reaches_border(mask)) report.warnings.push_back("the object reaches the border of the image and is cut off there");
 }
 
+/// Half of the contours and more enclose less than a voxel, so that most of the object lies between the mask's places.
+void describe_thinness(const ContourSet& contours, const Grid& grid, std::vector<std::string>& warnings) {
+    const double face_mm2 = std::pow(grid.voxel_volume_mm3(), 2.0 / 3);
+    std::size_t closed = 0, thin = 0;
+    for (const Contour& contour : contours.contours) {
+        if (!contour.closed) continue;
+        ++closed;
+        Vec3 doubled{};
+        for_each_edge(contour.points, [&](const Vec3& from, const Vec3& to) {
+            doubled += cross(from - contour.points.front(), to - contour.points.front());
+        });
+        if (norm(doubled) / 2 < face_mm2) ++thin;
+    }
+    if (thin > 0 && 2 * thin >= closed)
+        warnings.push_back(
+            fmt::format("{} of {} contours enclose{} less than a voxel: smaller voxels would show the object whole", thin,
+                        closed, thin == 1 ? "s" : ""));
+}
+
+/// Where a contour has few points, the surface may leave the line between them.
+void describe_long_edges(const StageResults& results, const Work& work, std::vector<std::string>& warnings) {
+    constexpr double kLong = 0.02, kFar = 0.01;  // of the drawing's diameter
+    const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
+    const double diameter = drawing.diameter_mm();
+    const Residual between = residual_between_points(fitted.function, drawing.contours, kLong * diameter, work);
+    if (between.max_mm > kFar * diameter)
+        warnings.push_back(fmt::format(
+            "the surface leaves contour {} by {:.2g} mm between its points; with more points it follows the line",
+            between.worst_contour + 1, between.max_mm));
+}
+
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
@@ -127,7 +159,9 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     append(report.warnings, missed_clicks(contours, fitted.function, 2 * stages.prepare.click_margin_mm));
     describe_fit(prepared, fitted, stages.fit, report);
     report.residual = residual(fitted.function, contours, work);
+    describe_long_edges(results, work, report.warnings);
     describe_crossings(drawing, mask.grid, report);
+    describe_thinness(contours, mask.grid, report.warnings);
     describe_mask(surface, mask, report);
     describe_lost_clicks(contours, fitted.function, mask, report.warnings);
     return report;

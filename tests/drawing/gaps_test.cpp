@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kontur/drawing/prepare.h"
+#include "kontur/drawing/reduce.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/shape/predicates.h"
 #include "support/contour_sets.h"
@@ -47,6 +48,87 @@ TEST(FindGaps, AcrossACleftAndBetweenNeighbours) {
     }
     EXPECT_GT(between, 30);
     EXPECT_GE(notch, 4);
+}
+
+ContourSet in_plane(std::vector<std::vector<test::Point2>> polygons) {
+    ContourSet set;
+    for (const std::vector<test::Point2>& polygon : polygons) set.contours.push_back(test::contour_in(kPlane, polygon));
+    return set;
+}
+
+ContourSet refined_narrow(const ContourSet& set, double shortest_mm, double long_mm = 0.1) {
+    const std::size_t count = set.contours.size();
+    ContourSet refined = set;
+    refine_narrow(set, refined, {std::vector<double>(count, shortest_mm), std::vector<double>(count, long_mm), 1000}, 1e-3);
+    return refined;
+}
+
+/// The longest edge whose middle lies in the box.
+double longest_edge(const Contour& contour, const test::Point2& low, const test::Point2& high) {
+    double longest = 0;
+    for_each_edge(contour.points, [&](const Vec3& from, const Vec3& to) {
+        const auto [u, v] = kPlane.to_uv(0.5 * (from + to));
+        if (u > low[0] && u < high[0] && v > low[1] && v < high[1]) longest = std::max(longest, distance(from, to));
+    });
+    return longest;
+}
+
+TEST(RefineNarrow, ThinPartsGetPointsAsCloseAsTheyAreThin) {
+    // A spade: a blade of 40 x 40 mm with a handle of 2 mm.
+    const ContourSet spade = in_plane({{{-20, 0}, {-1, 0}, {-1, -60}, {1, -60}, {1, 0}, {20, 0}, {20, 40}, {-20, 40}}});
+    const ContourSet fine = refined_narrow(spade, 0.1);
+    EXPECT_LE(longest_edge(fine.contours[0], {-2, -59.9}, {2, -0.1}), 2);
+    EXPECT_NEAR(longest_edge(fine.contours[0], {-30, 39}, {30, 41}), 40, 1e-9) << "the blade is as wide as its edge is long";
+    const auto& points = fine.contours[0].points;
+    auto next = points.begin();
+    for (const Vec3& drawn : spade.contours[0].points) {
+        next = std::find(next, points.end(), drawn);
+        ASSERT_NE(next, points.end()) << "drawn points stay, in their order";
+    }
+}
+
+TEST(RefineNarrow, CleftsBetweenContoursAreNarrowOnBothSides) {
+    const ContourSet bars = in_plane({{{0, 0}, {40, 0}, {40, 60}, {0, 60}}, {{0, 61}, {40, 61}, {40, 120}, {0, 120}}});
+    const ContourSet fine = refined_narrow(bars, 0.1);
+    for (const Contour& contour : fine.contours) {
+        EXPECT_LE(longest_edge(contour, {0, 59.5}, {40, 61.5}), 1);
+        EXPECT_NEAR(longest_edge(contour, {0, -1}, {40, 121}), 40, 1e-9) << "the side that faces away";
+    }
+}
+
+TEST(RefineNarrow, WhatWasDrawnInSmallStepsStaysAsItIs) {
+    // A plate of 1 mm, its upper side drawn in steps of 4 mm; pieces of its lower side are as long.
+    std::vector<test::Point2> plate{{0, 0}, {40, 0}};
+    for (double u = 40; u >= 0; u -= 4) plate.push_back({u, 1});
+    const ContourSet drawn = in_plane({plate});
+    ContourSet fine = drawn;
+    fine.contours[0] = refine(drawn.contours[0], 0);
+    EXPECT_LT(longest_edge(fine.contours[0], {0, -0.5}, {40, 0.5}), 8);
+    refine_narrow(drawn, fine, {{0.1}, {5.0}, 1000}, 1e-3);
+    EXPECT_LE(longest_edge(fine.contours[0], {0, -0.5}, {40, 0.5}), 1);
+    EXPECT_NEAR(longest_edge(fine.contours[0], {0, 0.5}, {40, 1.5}), 4, 1e-9);
+}
+
+TEST(RefineNarrow, EndsOfThinPartsGetPointsWhereTheLineTurnsTwice) {
+    // A bar of 60 x 4 mm with a step; the step's corners turn to either side.
+    const ContourSet drawn = in_plane({{{0, 0}, {30, 0}, {30, 1}, {60, 1}, {60, 5}, {0, 5}}});
+    ContourSet bar = drawn;
+    refine_narrow(drawn, bar, {{1.0}, {1000}, 0.6}, 1e-3);
+    EXPECT_NEAR(longest_edge(bar.contours[0], {59, 1}, {61, 5}), 2, 1e-9)
+        << "4 / 2 tan(90 degrees / 4) is 0.83, 2 / 2 tan(45 degrees / 4) is 0.2";
+    EXPECT_NEAR(longest_edge(bar.contours[0], {29, 0}, {31, 1}), 1, 1e-9);
+}
+
+TEST(RefineNarrow, PointsHaveALimitAndScaleWithTheDrawing) {
+    // Walls that meet at a tip: pieces become shorter towards it, down to the limit.
+    ContourSet wedge = in_plane({{{0, 0}, {100, 0}, {100, 10}}});
+    const ContourSet fine = refined_narrow(wedge, 0.5);
+    const std::size_t count = fine.contours[0].points.size();
+    EXPECT_GT(count, 40);
+    EXPECT_LT(count, 211 / 0.5);
+    for_each_edge(fine.contours[0].points, [](const Vec3& from, const Vec3& to) { EXPECT_GE(distance(from, to), 0.5); });
+    for (Vec3& p : wedge.contours[0].points) p = kPlane.origin + 7 * (p - kPlane.origin);
+    EXPECT_EQ(refined_narrow(wedge, 3.5).contours[0].points.size(), count);
 }
 
 /// As far as the reach, along the normal, by looking at every edge of every contour.

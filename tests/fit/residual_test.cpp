@@ -31,6 +31,24 @@ TEST(Residual, IsTheDistanceInMillimetresWhateverTheSlope) {
     }
 }
 
+TEST(Residual, BetweenPointsOnlyWhereTheyAreFarApart) {
+    // A square and a triangle whose edges have their middles at known x; the surface is x = 0.
+    const Plane plane = make_plane({}, {0, 0, 1});
+    ContourSet set;
+    set.contours = {{plane, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, true, false},
+                    {plane, {{0, 0, 0}, {6, 0, 0}, {6, 10, 0}}, true, false}};
+    const Residual all = residual_between_points(plane_function(1), set, 0.1);
+    EXPECT_NEAR(all.max_mm, 6, 1e-12);
+    EXPECT_EQ(all.worst_contour, 1u);
+    EXPECT_NEAR(all.rms_mm, std::sqrt((1 + 1 + 3 * 3 + 6 * 6 + 3 * 3) / 7.0), 1e-12)
+        << "two edges of the square lie at 1, two at 0";
+    EXPECT_NEAR(residual_between_points(plane_function(1), set, 11).max_mm, 3, 1e-12);
+    EXPECT_EQ(residual_between_points(plane_function(1), set, 12).max_mm, 0);
+    set.contours[1].closed = false;
+    EXPECT_NEAR(residual_between_points(plane_function(1), set, 9).max_mm, 6, 1e-12) << "an open one has no edge back";
+    EXPECT_EQ(residual_between_points(plane_function(1), set, 11).max_mm, 0);
+}
+
 TEST(Residual, FlatFunctionIsNotInfinitelyFar) {
     const ContourSet set = test::three_circles();
     EXPECT_NEAR(residual(plane_function(0.01), set).max_mm, 0.1 * residual(plane_function(1), set).max_mm, 1e-12);

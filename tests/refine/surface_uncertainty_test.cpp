@@ -34,6 +34,18 @@ TEST(SurfaceUncertainty, IsNotKnownBelowThreePlanes) {
     EXPECT_TRUE(fitted(egg(), three_planes(kCenter)).report.uncertainty.is_known);
 }
 
+TEST(SurfaceUncertainty, PlanesStillToDrawAreCountedAsFarAsThatMeansAnything) {
+    SurfaceUncertainty known;
+    known.is_known = true;
+    known.planes_to_95 = 1;
+    EXPECT_NE(sentence(known).find("; about 1 more plane to 0.95;"), std::string::npos) << sentence(known);
+    known.planes_to_95 = 577;
+    EXPECT_NE(sentence(known).find("; more than 30 more planes to 0.95;"), std::string::npos) << sentence(known);
+    known.planes_to_95 = 0;
+    known.planes_to_98 = 4;
+    EXPECT_NE(sentence(known).find("; about 4 more planes to 0.98;"), std::string::npos) << sentence(known);
+}
+
 TEST(SurfaceUncertainty, CountsAPlaneDrawnAgainOnce) {
     std::vector<Plane> planes = three_planes(kCenter);
     planes.back() = make_plane(kCenter + Vec3{0, 0, 0.1}, {0.01, 0, 1});  // of the first one, a little off

@@ -53,6 +53,48 @@ TEST(DrawnOddly, TwiceIsOnce) {
     EXPECT_NEAR(volume_ml(redrawn), once, 0.09 * once) << "again by hand, in the same plane: what either line encloses";
 }
 
+/// A star of `arms` arms, drawn by its corners alone.
+Contour star_at(double z, double inner, double outer, int arms) {
+    Contour contour{make_plane({0, 0, z}, {0, 0, 1}), {}, true, false};
+    for (int i = 0; i < 2 * arms; ++i) {
+        const double angle = std::numbers::pi * i / arms, radius = i % 2 == 0 ? outer : inner;
+        contour.points.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+    return contour;
+}
+
+// Straight edges are part of the drawing: the surface has to follow them, not only their ends.
+TEST(DrawnOddly, ThinArmsDrawnByTheirCornersStayWhole) {
+    ContourSet set;
+    set.contours = {star_at(0, 8, 30, 9), star_at(12, 8, 30, 9)};
+    const Segmentation result = segmented(set, 1, 10);
+    EXPECT_EQ(result.report.mask_components, 1);
+    for (int arm = 0; arm < 9; ++arm)
+        for (double r = 0; r < 24; r += 0.5) {
+            const double angle = 2 * std::numbers::pi * arm / 9;
+            EXPECT_GT(result.function.value({r * std::cos(angle), r * std::sin(angle), 0}), 0) << arm << ", " << r;
+        }
+    EXPECT_FALSE(warns(result.report, "between its points"));
+}
+
+TEST(DrawnOddly, WhereTheSurfaceLeavesALineOfFewPointsItIsSaid) {
+    ContourSet bars;
+    for (const double z : {0.0, 8.0, 16.0})
+        bars.contours.push_back(
+            {make_plane({0, 0, z}, {0, 0, 1}), {{-30, -2, z}, {30, -2, z}, {30, 2, z}, {-30, 2, z}}, true, false});
+    EXPECT_FALSE(warns(segmented(bars, 1, 10).report, "between its points"));
+    SegmentOptions paper;
+    paper.normals = Normals::in_plane;  // which leaves the edges' ends to themselves
+    EXPECT_TRUE(warns(segmented(bars, 1, 10, paper).report, "between its points"));
+}
+
+TEST(DrawnOddly, WhatIsThinnerThanAVoxelIsSaid) {
+    ContourSet needle;
+    for (double z = 0; z < 50; z += 5) needle.contours.push_back(circle_at({0, 0, z}, 0.4));
+    EXPECT_TRUE(warns(segmented(needle, 1, 10).report, "10 of 10 contours enclose less than a voxel"));
+    EXPECT_FALSE(warns(segmented(needle, 0.3, 5).report, "less than a voxel"));
+}
+
 TEST(DrawnOddly, WhatMissesAllContoursIsFoundOnEveryGrid) {
     // Two circles round one centre, of which the axial one is far too large for the coronal one: the surface passes between.
     for (const double radius : {4.0, 6.0, 8.0}) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/checks.h"
 #include "kontur/base/parallel.h"
 #include "kontur/shape/box_tree.h"
 #include "kontur/shape/contour_nesting.h"
@@ -100,20 +101,106 @@ double gap(const PlaneLines& lines_here, const Vec3& from, const Vec3& direction
     return nearest <= reach ? nearest : std::numeric_limits<double>::infinity();
 }
 
+// Points of refined contours lie on their edge only up to rounding.
+double own_edge(double tolerance_mm) { return 1e-5 * tolerance_mm; }
+
+/// Subdivides edges of one contour.
+class NarrowEdges {
+public:
+    struct Limits {
+        double shortest_mm, long_mm, bulge_mm, own_edge_mm;
+    };
+
+    NarrowEdges(const PlaneLines& lines_here, const Limits& limits) : lines_(lines_here), limits_(limits) {}
+
+    std::vector<Vec3> subdivided(const std::vector<Vec3>& drawn, const Contour& refined) const {
+        const std::vector<Vec3>& all = refined.points;
+        const std::size_t n = all.size();
+        const auto turn_at = [&](std::size_t i) {
+            if (!refined.closed && (i == 0 || i == n - 1)) return 0.0;
+            return turn(all[(i + n - 1) % n], all[i], all[(i + 1) % n]);
+        };
+        std::vector<Vec3> points;
+        std::size_t next = 0;  // of the drawn points
+        bool is_long = false;
+        for (std::size_t i = 0; i < (refined.closed ? n : n - 1); ++i) {
+            if (next < drawn.size() && all[i] == drawn[next]) {
+                ++next;
+                is_long = distance(all[i], drawn[next % drawn.size()]) > limits_.long_mm;
+            }
+            append({all[i], all[(i + 1) % n], turn_at(i), turn_at((i + 1) % n)}, is_long, points);
+        }
+        if (!refined.closed) points.push_back(all.back());
+        return points;
+    }
+
+private:
+    struct Edge {
+        Vec3 from, to;
+        double turn_before, turn_after;  ///< rad, of the line at its ends; > 0 to the left
+    };
+
+    /// All points of the edge but its last.
+    void append(const Edge& edge, bool is_long, std::vector<Vec3>& points) const {
+        const bool is_fine = distance(edge.from, edge.to) < 2 * limits_.shortest_mm;
+        if (is_fine || !((is_long && is_narrow(edge)) || bulges(edge))) return points.push_back(edge.from);
+        const Vec3 middle = 0.5 * (edge.from + edge.to);
+        append({edge.from, middle, edge.turn_before, 0}, is_long, points);
+        append({middle, edge.to, 0, edge.turn_after}, is_long, points);
+    }
+
+    bool is_narrow(const Edge& edge) const {
+        const double length = distance(edge.from, edge.to);
+        const Vec3 across = cross(lines_.plane.normal, edge.to - edge.from) / length, middle = 0.5 * (edge.from + edge.to);
+        return std::isfinite(gap(lines_, middle, across, length, limits_.own_edge_mm)) ||
+               std::isfinite(gap(lines_, middle, -across, length, limits_.own_edge_mm));
+    }
+
+    bool bulges(const Edge& edge) const {
+        if (edge.turn_before * edge.turn_after < 0) return false;
+        const double arc = std::abs(edge.turn_before + edge.turn_after) / 2;
+        return distance(edge.from, edge.to) / 2 * std::tan(arc / 4) > limits_.bulge_mm;
+    }
+
+    double turn(const Vec3& before, const Vec3& at, const Vec3& after) const {
+        const Point2 in = minus(lines_.plane.to_uv(at), lines_.plane.to_uv(before)),
+                     out = minus(lines_.plane.to_uv(after), lines_.plane.to_uv(at));
+        return std::atan2(cross2(in, out), in[0] * out[0] + in[1] * out[1]);
+    }
+
+    const PlaneLines& lines_;
+    const Limits limits_;
+};
+
 }  // namespace
 
 void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std::vector<BoundaryPoint>& points,
                const Work& work) {
     const AllLines lines = lines_of(set, tolerance_mm);
-    // Points of refined contours lie on their edge only up to rounding.
-    const double own_edge = 1e-5 * tolerance_mm;
+    const double own = own_edge(tolerance_mm);
     parallel_for(static_cast<std::int64_t>(points.size()), 128, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
             if (point.contour == kNoContour || point.inplane_normal == Vec3{}) continue;
             const PlaneLines& here = lines.with(point.contour);
-            point.gap_mm = gap(here, point.position, point.inplane_normal, reach_mm, own_edge);
-            point.depth_mm = gap(here, point.position, -point.inplane_normal, reach_mm, own_edge);
+            point.gap_mm = gap(here, point.position, point.inplane_normal, reach_mm, own);
+            point.depth_mm = gap(here, point.position, -point.inplane_normal, reach_mm, own);
+        }
+    });
+}
+
+void refine_narrow(const ContourSet& drawn, ContourSet& refined, const FinePieces& pieces, double tolerance_mm,
+                   const Work& work) {
+    const std::size_t count = refined.contours.size();
+    check_same_count("shortest lengths", pieces.shortest_mm.size(), "contours", count);
+    check_same_count("long lengths", pieces.long_mm.size(), "contours", count);
+    const AllLines lines = lines_of(drawn, tolerance_mm);
+    parallel_for(static_cast<std::int64_t>(count), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin) {
+            const auto c = static_cast<std::size_t>(begin);
+            const NarrowEdges edges(lines.with(static_cast<std::int32_t>(c)),
+                                    {pieces.shortest_mm[c], pieces.long_mm[c], pieces.bulge_mm, own_edge(tolerance_mm)});
+            refined.contours[c].points = edges.subdivided(drawn.contours[c].points, refined.contours[c]);
         }
     });
 }

@@ -134,12 +134,28 @@ int least_segments(const PrepareOptions& options, std::size_t contours) {
     return static_cast<int>(std::ceil(options.quality * std::min(options.least_segments, share)));
 }
 
+double length_of(const Contour& contour) {
+    double length = 0;
+    for (std::size_t i = 1; i < contour.points.size(); ++i) length += distance(contour.points[i - 1], contour.points[i]);
+    return length + (contour.closed ? distance(contour.points.back(), contour.points.front()) : 0);
+}
+
+/// How finely lines are followed where they are narrow, and around the ends of thin parts.
+FinePieces fine_pieces(const ContourSet& set, int least_segments, double diameter_mm) {
+    constexpr int kFiner = 8;        // than elsewhere, at most
+    constexpr double kBulge = 0.01;  // of the diameter; normal constraints lie 1.35 % of it beside the line
+    FinePieces pieces{{}, {}, kBulge * diameter_mm};
+    for (const Contour& contour : set.contours) {
+        pieces.long_mm.push_back(length_of(contour) / least_segments);
+        pieces.shortest_mm.push_back(pieces.long_mm.back() / kFiner);
+    }
+    return pieces;
+}
+
 Contour refined(const Contour& contour, int least_segments, const DrawnCorners& corners, const PrepareOptions& options) {
     if (options.corners == Corners::rounded || !contour.closed) return refine(contour, least_segments);
-    double perimeter = 0;
-    for_each_edge(contour.points, [&](const Vec3& a, const Vec3& b) { perimeter += distance(a, b); });
     return refine_to_corners(contour, corners.among(contour), options.corner_spacing_mm,
-                             perimeter / std::max(least_segments, 1));
+                             length_of(contour) / std::max(least_segments, 1));
 }
 
 void check_prepare_options(const PrepareOptions& options) {
@@ -161,11 +177,13 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
     prepared.ball = drawing.ball;
     prepared.coplanar = is_coplanar(planes);
 
-    ContourSet fitted = set;
+    ContourSet reduced = set;
     const DrawnCorners corners(set, options.corners);
-    for (Contour& contour : fitted.contours) contour = reduce(contour, {options.quality});
+    for (Contour& contour : reduced.contours) contour = reduce(contour, {options.quality});
+    ContourSet fitted = reduced;
     const int least = least_segments(options, set.contours.size());
     for (Contour& contour : fitted.contours) contour = refined(contour, least, corners, options);
+    if (least > 0) refine_narrow(reduced, fitted, fine_pieces(reduced, least, diameter), kSamePlane * diameter, work);
     if (prepared.coplanar && options.copy_shift_mm > 0) {
         const Contour& first = fitted.contours.front();
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));

@@ -18,4 +18,8 @@ struct Residual {
 /// about 1 near the surface, is taken as at least 0.1, so that a flat spot of f does not count as infinitely far.
 Residual residual(const ImplicitFunction& function, const ContourSet& set, const Work& work = {});
 
+/// The same in the middle of every edge longer than `long_mm`, where nothing was drawn but the line: `rms_mm` is of these.
+Residual residual_between_points(const ImplicitFunction& function, const ContourSet& set, double long_mm,
+                                 const Work& work = {});
+
 }  // namespace kontur

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "kontur/base/parallel.h"
 #include "kontur/refine/quantile.h"
@@ -100,6 +101,18 @@ SurfaceUncertainty surface_uncertainty(const SurfaceEvidence& evidence) {
     return result;
 }
 
+namespace {
+
+/// So far ahead the count would be a number without a meaning.
+constexpr std::size_t kMostCounted = 30;
+
+std::string planes_still(std::size_t planes, std::string_view dice) {
+    if (planes > kMostCounted) return fmt::format("; more than {} more planes to {}", kMostCounted, dice);
+    return fmt::format("; about {} more plane{} to {}", planes, planes == 1 ? "" : "s", dice);
+}
+
+}  // namespace
+
 std::string sentence(const SurfaceUncertainty& u) {
     if (!u.is_known)
         return fmt::format("how sure the surface is, {} plane{} do{} not tell; {} are needed", u.planes,
@@ -107,10 +120,8 @@ std::string sentence(const SurfaceUncertainty& u) {
     std::string text =
         fmt::format("expected Dice {} ({} to {}), volume {} ml ({} to {})", two_digits(u.dice.value), two_digits(u.dice.low),
                     two_digits(u.dice.high), rounded(u.volume_ml), rounded(u.volume_low_ml), rounded(u.volume_high_ml));
-    if (u.planes_to_95 > 0)
-        text += fmt::format("; about {} more plane{} to 0.95", u.planes_to_95, u.planes_to_95 == 1 ? "" : "s");
-    else if (u.planes_to_98 > 0)
-        text += fmt::format("; about {} more plane{} to 0.98", u.planes_to_98, u.planes_to_98 == 1 ? "" : "s");
+    if (u.planes_to_95 > 0) text += planes_still(u.planes_to_95, "0.95");
+    else if (u.planes_to_98 > 0) text += planes_still(u.planes_to_98, "0.98");
     return text + "; what no contour touches is not counted";
 }
 

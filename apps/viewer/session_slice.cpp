@@ -10,6 +10,7 @@
 #include "kontur/view/outline.h"
 #include "kontur/view/reslice.h"
 #include "viewer/binary_reply.h"
+#include "viewer/image_samples.h"
 #include "viewer/message_checks.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
@@ -31,13 +32,14 @@ struct SliceRequest {  // NOLINT(bugprone-exception-escape)
     int image = 0;  ///< its number
     std::optional<int> time{};
     Window window;
-    enum class Pixels { none, shades, values } pixels;
+    enum class Pixels { none, least, shades, values } pixels;  ///< least: whichever of the two takes fewer bytes
     bool outlines;
 };
 
 SliceRequest::Pixels pixels_from(const Members& m) {
     if (m.has("pixels") && m.at("pixels") == "values") return SliceRequest::Pixels::values;
-    return m.flag_or("pixels", true) ? SliceRequest::Pixels::shades : SliceRequest::Pixels::none;
+    if (m.has("pixels") && m.at("pixels") == "shades") return SliceRequest::Pixels::shades;
+    return m.flag_or("pixels", true) ? SliceRequest::Pixels::least : SliceRequest::Pixels::none;
 }
 
 SliceRequest parse(std::string_view text) {
@@ -53,7 +55,7 @@ SliceRequest parse(std::string_view text) {
     request.time = m.time();
     request.pixels = pixels_from(m);
     request.outlines = m.flag_or("outlines", true);
-    if (request.pixels == SliceRequest::Pixels::shades) {
+    if (request.pixels == SliceRequest::Pixels::shades || request.pixels == SliceRequest::Pixels::least) {
         const Members window(m.at("window"));
         request.window = {window.number("center"), window.number("width")};
     }
@@ -80,6 +82,29 @@ struct CodedValues {
     double first = 0, step = 0;
     std::vector<std::uint16_t> codes;
 };
+
+/// What of the image is sent: none, values of samples, or shades of the screen's pixels.
+struct SentPixels {
+    std::optional<ImageSamples> samples;
+    bool shades = false;
+};
+
+SentPixels sent_pixels(const Grid& grid, const SliceRequest& request) {
+    using Pixels = SliceRequest::Pixels;
+    if (request.pixels == Pixels::none) return {};
+    if (request.pixels == Pixels::shades) return {{}, true};
+    const ImageSamples samples = samples_for(grid, request.raster);
+    const bool takes_less = samples.pixels_per_sample() >= sizeof(std::uint16_t) / sizeof(std::uint8_t);
+    if (request.pixels == Pixels::least && !takes_less) return {{}, true};
+    return {samples};
+}
+
+json to_json(const ImageSamples& samples) {
+    return {{"columns", samples.raster.width},
+            {"rows", samples.raster.height},
+            {"first", samples.first},
+            {"step", samples.step}};
+}
 
 CodedValues coded_values(const Image& image, const Reslice& raster) {
     constexpr double kLargestCode = 65'535;
@@ -199,16 +224,18 @@ std::string Session::slice(std::string_view text) {
     if (request.outlines)
         add_outlines(state(), surfaces_.all(), request.raster, slice_step_mm(image_->grid, request.raster.plane.normal),
                      head, lines, dots);
+    const SentPixels sent = sent_pixels(image->grid, request);
     CodedValues coded;
-    if (request.pixels == SliceRequest::Pixels::values) {
-        coded = coded_values(*image, request.raster);
+    if (sent.samples) {
+        coded = coded_values(*image, sent.samples->raster);
         head["values"] = {{"first", coded.first}, {"step", coded.step}};
+        head["samples"] = to_json(*sent.samples);
     }
     BinaryReply reply(std::move(head));
     reply.add("outline_points", lines.numbers());
     reply.add("crossing_points", dots.numbers());
-    if (request.pixels == SliceRequest::Pixels::values) reply.add<std::uint16_t>("values", coded.codes);
-    if (request.pixels == SliceRequest::Pixels::shades) reply.add<std::uint8_t>("pixels", shades(*image, request));
+    if (sent.samples) reply.add<std::uint16_t>("values", coded.codes);
+    if (sent.shades) reply.add<std::uint8_t>("pixels", shades(*image, request));
     return reply.bytes();
 }
 

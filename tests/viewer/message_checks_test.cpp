@@ -93,7 +93,8 @@ TEST(MessageChecks, EachWrongMemberOfARequestHasItsSentence) {
     expect_refused(with(slice(), "/width", 4097), type, "'width' is 4097; a whole number from 1 to 4096 is needed");
     expect_refused(with(slice(), "/time", -1), type, "'time' is -1; a whole number from 0 to 99999 is needed");
     expect_refused(with(slice(), "/window/width", 0), type, "'window.width' is 0; a number greater than 0 is needed");
-    expect_refused(with(slice(), "/pixels", "some"), type, "'pixels' is \"some\"; true or false or values is needed");
+    expect_refused(with(slice(), "/pixels", "some"), type,
+                   "'pixels' is \"some\"; true or false or values or shades is needed");
     EXPECT_NO_THROW(check_message(with(slice(), "/pixels", "values"), type));
 }
 

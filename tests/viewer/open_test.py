@@ -74,12 +74,28 @@ def test_a_slice_shows_the_ball_where_it_is(server):
     page = server.page()
     for view in page.session["views"].values():
         plane = shifted(view["plane"], 65, 65, 0.5)
-        head, arrays = server.slice(plane, 65, 65)
+        head, arrays = server.slice(plane, 65, 65, pixels="shades")
         bright = arrays["pixels"].reshape(65, 65) > 127
         rows, columns = numpy.nonzero(bright)
         assert bright.sum() * 0.25 == pytest.approx(numpy.pi * RADIUS**2, rel=0.06)
         assert numpy.allclose([rows.mean(), columns.mean()], 32, atol=0.5)
         assert all(head["letters"][side] for side in ("left", "right", "top", "bottom"))
+
+
+def test_a_slice_comes_no_finer_than_the_image_is(server):
+    axial = server.page().session["views"]["axial"]["plane"]
+    plane = shifted(axial, 500, 400, 0.1)  # of 50 x 40 mm, in voxels of 1.0 x 1.2 mm
+    head, arrays = server.slice(plane, 500, 400)
+    samples = head["samples"]
+    assert "pixels" not in arrays and samples["step"] == pytest.approx([10, 12])
+    assert 48 <= samples["columns"] <= 53 and 34 <= samples["rows"] <= 37
+    codes = arrays["values"].reshape(samples["rows"], samples["columns"])
+    values = head["values"]["first"] + head["values"]["step"] * (codes - 1.0)
+    assert set(numpy.round(values[codes > 0], 2).tolist()) == {-1000, 100}, "voxels as they are, none between them"
+    finer, shades = server.slice(plane, 500, 400, pixels="shades")
+    assert "samples" not in finer and shades["pixels"].size == 500 * 400
+    coarser, shades = server.slice(shifted(axial, 50, 40, 1.0), 50, 40)
+    assert "samples" not in coarser and shades["pixels"].size == 50 * 40
 
 
 def test_a_slice_comes_compressed_where_that_is_asked_for(server):

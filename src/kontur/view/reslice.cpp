@@ -54,6 +54,8 @@ void sample_row(const std::vector<Sample>& samples, const Index3& size, Vec3 ind
     }
 }
 
+double rows_mm(const Reslice& raster) { return raster.row_mm == 0 ? raster.pixel_mm : raster.row_mm; }
+
 void check_raster(const Reslice& raster) {
     if (raster.width < 1 || raster.height < 1)
         throw Error(ErrorKind::invalid_input,
@@ -62,9 +64,10 @@ void check_raster(const Reslice& raster) {
     if (std::int64_t{raster.width} * raster.height > kMostPixels)
         throw Error(ErrorKind::too_large, fmt::format("a slice of {} x {} pixels; at most {} in all are possible",
                                                       raster.width, raster.height, kMostPixels));
-    if (!(raster.pixel_mm > 0 && std::isfinite(raster.pixel_mm)))
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("a slice with a pixel size of {:g} mm; more than 0 is needed", raster.pixel_mm));
+    for (const double mm : {raster.pixel_mm, rows_mm(raster)})
+        if (!(mm > 0 && std::isfinite(mm)))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("a slice with a pixel size of {:g} mm; more than 0 is needed", mm));
 }
 
 }  // namespace
@@ -85,7 +88,7 @@ std::vector<float> reslice(const Image& image, const Reslice& raster, float outs
     std::vector<float> pixels(width * static_cast<std::size_t>(raster.height));
     parallel_for(raster.height, 32, 0, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            const Vec3 start = mm_to_index.apply(raster.plane.from_uv(0, static_cast<double>(row) * raster.pixel_mm));
+            const Vec3 start = mm_to_index.apply(raster.plane.from_uv(0, static_cast<double>(row) * rows_mm(raster)));
             const std::span target(pixels.data() + static_cast<std::size_t>(row) * width, width);
             std::visit([&](const auto& s) { sample_row(s, image.grid.size, start, step, outside, target); }, image.samples);
         }

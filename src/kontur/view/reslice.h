@@ -7,13 +7,14 @@
 
 namespace kontur {
 
-/// A raster of square pixels laid on a plane: the centre of pixel (column, row) lies at
-/// `plane.from_uv(column * pixel_mm, row * pixel_mm)`, so `u` runs to the right of the screen and `v` down.
+/// A raster laid on a plane: the centre of pixel (column, row) lies at `plane.from_uv(column * pixel_mm, row * pixel_mm)`,
+/// so `u` runs to the right of the screen and `v` down. Pixels are square unless `row_mm` says otherwise.
 struct Reslice {
     Plane plane;
     int width = 0;
     int height = 0;
     double pixel_mm = 1;
+    double row_mm = 0;  ///< from row to row; 0: as from column to column
 };
 
 /// The raster with its middle at `plane.origin`.

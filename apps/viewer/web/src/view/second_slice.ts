@@ -4,10 +4,11 @@ import type { Screen } from "../geometry/screen";
 import type { Navigation } from "../model/navigation";
 import type { SecondImage } from "../model/second_image";
 import { ServerError, type Http } from "../net/http";
-import type { Coding, ViewName } from "../net/protocol";
+import type { ViewName } from "../net/protocol";
 import { colorTable } from "./color_maps";
 import { PlaneBitmap } from "./plane_bitmap";
-import { colorsOf } from "./windowing";
+import { spread, type SampledSlice } from "./samples";
+import { colorsOfCodes } from "./windowing";
 
 /** Which raster of a view is asked for. */
 export interface Raster {
@@ -17,11 +18,9 @@ export interface Raster {
   height: number;
 }
 
-interface Values {
+interface Values extends SampledSlice {
   key: string;
-  codes: Uint16Array;
-  coding: Coding;
-  raster: Raster;
+  plane: PixelPlane;
 }
 
 /** The second image on a view's slice, over the first one: its values, which the page puts into window and colours itself. */
@@ -65,7 +64,8 @@ export class SecondSlice {
     try {
       const reply = await this.http.slice({ ...raster, image: info.image, ...time, pixels: "values", outlines: false });
       return () => {
-        this.values = { key, codes: reply.u16("values"), coding: reply.header.values!, raster };
+        const { values, samples } = reply.header;
+        this.values = { key, codes: reply.u16("values"), coding: values!, samples: samples!, ...raster };
         this.recolor();
       };
     } catch (error) {
@@ -78,12 +78,12 @@ export class SecondSlice {
   /** Puts what is there into the window and the colours of now. */
   recolor(): void {
     if (!this.values) return;
-    const { key, codes, coding, raster } = this.values;
-    const coloring = JSON.stringify([key, this.second.colors, this.second.isAlone, this.second.window]);
+    const { values } = this;
+    const coloring = JSON.stringify([values.key, this.second.colors, this.second.isAlone, this.second.window]);
     if (coloring === this.colored) return;
     this.colored = coloring;
-    const table = colorTable(this.second.colors, !this.second.isAlone);
-    this.bitmap.put(raster.width, raster.height, raster.plane, (rgba) => colorsOf(codes, coding, this.second.window, table, rgba));
+    const colors = colorsOfCodes(values.coding, this.second.window, colorTable(this.second.colors, !this.second.isAlone), 0);
+    this.bitmap.put(values.width, values.height, values.plane, (rgba) => spread(values, colors, rgba));
   }
 
   resized(): void {

@@ -56,7 +56,7 @@ export class SliceView {
   private readonly requests: Latest<{ pixels: Pixels }>;
   private askedPlane = "";
   private valuesComing = ""; // of which plane
-  private coding: { plane: string; coding: Coding } | null = null; // how finely values came of the plane that was asked for last
+  private coding: Coding | null = null; // how finely values came last
   private asked = ""; // what the pixels depend on: other views' scrolling must not cost a slice here
   private paintQueued = false;
   private showsDraft = false;
@@ -128,17 +128,17 @@ export class SliceView {
     if (!this.screen()) return void (this.asked = this.askedPlane = ""); // when it is shown again all may be different
     this.updateSlider();
     this.paint();
-    const wanted = this.pixelKey();
-    const needsPixels = this.image.isEmpty || wanted !== this.asked;
+    const key = this.pixelKey();
+    const needsPixels = this.image.isEmpty || key !== this.asked;
     const needsSecond = this.second.needs(this.planeKey());
     if (pixels && !needsPixels && !needsSecond) return;
     const isOtherWindow = needsPixels && !this.image.isEmpty && this.imageKey() === this.askedPlane;
-    if (needsPixels) [this.asked, this.askedPlane] = [wanted, this.imageKey()];
+    if (needsPixels) [this.asked, this.askedPlane] = [key, this.imageKey()];
     if (isOtherWindow && !needsSecond && this.valuesComing === this.askedPlane) return; // shown in the window that there is then
     if (isOtherWindow && !needsSecond && !this.requests.busy && this.image.window(this.services.navigation.window)) return;
-    const wantsValues = isOtherWindow && !this.isTooCoarse();
-    if (needsPixels) this.valuesComing = wantsValues ? this.askedPlane : "";
-    this.requests.send({ pixels: wantsValues ? "values" : needsPixels });
+    const wanted = needsPixels && (this.isTooCoarse() ? "shades" : isOtherWindow ? "values" : true);
+    if (needsPixels) this.valuesComing = wanted === "values" ? this.askedPlane : "";
+    this.requests.send({ pixels: wanted });
     this.element.dataset["pending"] = "true";
     window.clearTimeout(this.crossingsTimer);
     this.crossingsTimer = 0;
@@ -259,9 +259,9 @@ export class SliceView {
     return [this.imageKey(), center.toFixed(6), width.toFixed(6)].join();
   }
 
-  /** The plane's values come in steps that the window would show: then only the server can show it. */
+  /** Values come in steps that the window would show: then only the server can show it. */
   private isTooCoarse(): boolean {
-    return this.coding?.plane === this.askedPlane && !canShow(this.coding.coding, this.services.navigation.window);
+    return this.coding !== null && !canShow(this.coding, this.services.navigation.window);
   }
 
   private ratio(): number {
@@ -276,7 +276,6 @@ export class SliceView {
     const width = Math.max(1, Math.round(screen.width * ratio));
     const height = Math.max(1, Math.round(screen.height * ratio));
     const { window, time, isAway } = this.services.navigation;
-    const key = this.imageKey();
     try {
       const raster = { view: this.name, plane, width, height };
       const [reply, laySecond] = await Promise.all([
@@ -293,7 +292,7 @@ export class SliceView {
         ),
         crossingPoints: reply.f32("crossing_points"),
       };
-      if (pixels) this.keepPixels(reply, width, height, key);
+      if (pixels) this.keepPixels(reply, width, height);
       laySecond?.();
       this.paintNow();
     } catch (error) {
@@ -306,14 +305,14 @@ export class SliceView {
   }
 
   /** The window may have changed since values were asked for. */
-  private keepPixels(reply: BinaryReply<SliceHeader>, width: number, height: number, key: string): void {
+  private keepPixels(reply: BinaryReply<SliceHeader>, width: number, height: number): void {
     const { plane } = this.slice!;
-    const { values } = reply.header;
-    if (!values) return this.image.keep(reply.u8("pixels"), width, height, plane);
-    this.coding = { plane: key, coding: values };
+    const { values, samples } = reply.header;
+    if (!values || !samples) return this.image.keep(reply.u8("pixels"), width, height, plane);
+    this.coding = values;
     this.valuesComing = "";
-    this.image.keepValues(reply.u16("values"), values, this.services.navigation.window, width, height, plane);
-    if (this.isTooCoarse()) this.requests.send({ pixels: true });
+    this.image.keepValues({ codes: reply.u16("values"), coding: values, samples, width, height }, this.services.navigation.window, plane);
+    if (this.isTooCoarse()) this.requests.send({ pixels: "shades" });
   }
 
   /** A request that another one overtook is not answered, and what it asked for is still wanted. */

@@ -251,6 +251,16 @@ export class Viewer {
     await mouse.up({ button });
   }
 
+  /** All slices, as far as it goes: the screen is coarser than the image then. */
+  async zoomOut(view: string): Promise<void> {
+    await this.page.keyboard.press("k"); // together
+    await this.page.mouse.move(...(await this.at(view, 0, 0)));
+    await this.page.keyboard.down("Control");
+    for (let i = 0; i < 12; ++i) await this.page.mouse.wheel(0, 300);
+    await this.page.keyboard.up("Control");
+    await this.slicesShown();
+  }
+
   /** The contour of this number of the list goes into its plane and is selected. */
   async show(row: number): Promise<void> {
     await this.page.locator(".contour-row").nth(row).click();

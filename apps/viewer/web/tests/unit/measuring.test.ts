@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { measured } from "../../src/model/measurements";
 import type { Coding } from "../../src/net/protocol";
-import { canShow, shadesOf } from "../../src/view/windowing";
+import { canShow, colorsOfCodes } from "../../src/view/windowing";
 import { editing, screen } from "./editing";
 
 const texts = ({ editor }: ReturnType<typeof editing>) => editor.measuring.measurements.all.map(measured);
@@ -52,8 +52,12 @@ test("Del takes the last one away, and contours only when the tool has none", ()
 test("shades of coded values are those of the server's formula, to the last step; outside is black", () => {
   const coding: Coding = { first: -1000, step: 0.05 };
   const window = { center: 40, width: 350 };
-  const codes = Uint16Array.from({ length: 65536 }, (_, code) => code);
-  const shades = shadesOf(codes, coding, window, new Uint8Array(65536));
+  const shades = colorsOfCodes(
+    coding,
+    window,
+    Uint32Array.from({ length: 256 }, (_, shade) => shade),
+    0,
+  );
   let steps = 0;
   for (let code = 1; code < 65536; code += 7) {
     const value = coding.first + coding.step * (code - 1);

@@ -6,7 +6,7 @@ import type { FurtherImage } from "../../src/net/protocol";
 import { Sketch } from "../../src/tools/sketch";
 import { valuesText } from "../../src/ui/values";
 import { COLOR_MAPS, colorTable } from "../../src/view/color_maps";
-import { colorsOf, shadesOf } from "../../src/view/windowing";
+import { colorsOfCodes } from "../../src/view/windowing";
 import { AXIAL, session } from "./support";
 
 function pet(changes: Partial<FurtherImage> = {}): FurtherImage {
@@ -126,13 +126,16 @@ describe("colours", () => {
   test("of values are those of their shades, and nothing outside of the image", () => {
     const coding = { first: -3, step: 0.25 };
     const window = { center: 4, width: 9 };
-    const codes = Uint16Array.from({ length: 300 }, (_, i) => i);
-    const shades = shadesOf(codes, coding, window, new Uint8Array(codes.length));
+    const shades = colorsOfCodes(
+      coding,
+      window,
+      Uint32Array.from({ length: 256 }, (_, shade) => shade),
+      0,
+    );
     const table = colorTable("hot", false);
-    const colors = new Uint32Array(codes.length);
-    colorsOf(codes, coding, window, table, colors);
+    const colors = colorsOfCodes(coding, window, table, 0);
     assert.equal(colors[0], 0);
-    for (let i = 1; i < codes.length; ++i) assert.equal(colors[i], table[shades[i]!], `code ${i}`);
+    for (let i = 1; i < 300; ++i) assert.equal(colors[i], table[shades[i]!], `code ${i}`);
   });
 });
 

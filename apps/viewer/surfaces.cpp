@@ -37,6 +37,9 @@ std::vector<Conflict> conflicts(const SurfaceTask& task, const std::vector<Cross
     return found;
 }
 
+/// Whether it is what the contours make without anything that an image said.
+bool is_alone(const EditorUpdate& update) { return update.asks_image && update.surface.shown_before == 0; }
+
 Surface no_surface(Id structure, std::vector<std::string> warnings = {}) {
     Surface surface;
     surface.structure = structure;
@@ -239,7 +242,7 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
         tasks.erase(tasks.begin(), tasks.lower_bound(edit));
         task = tasks.at(edit);
         known = std::exchange(follower.without_image, {});
-        is_held_back = update.asks_image && follower.shows_image;
+        is_held_back = is_alone(update) && follower.shows_image;
     }
     Alone alone = heard(task, update, std::move(known));
     Surface& surface = alone.surface;
@@ -251,7 +254,7 @@ void Surfaces::hear(Id structure, std::uint64_t edit, const EditorUpdate& update
     }
     const std::scoped_lock lock(mutex_);
     Follower& follower = followers_[structure];
-    if (update.asks_image) follower.without_image = alone;
+    if (is_alone(update)) follower.without_image = alone;
     if (is_held_back) return;
     if (update.kind == EditorUpdate::Kind::preview) {
         surface.revision = std::exchange(follower.ahead, 0);

@@ -9,21 +9,57 @@
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
 #include "kontur/extract/preview.h"
+#include "kontur/shape/section.h"
 #include "kontur/stages.h"
 
 namespace kontur {
 namespace {
 
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
-constexpr double kPreviewTolerance = 50;    // times that of the refined surface
-constexpr double kSpacingFraction = 0.015;  // of the contours' diameter
-constexpr double kShownNoise = 0.05;        // of the preview's spacing: what the image said before
+constexpr double kPreviewTolerance = 50;  // times that of the refined surface
+constexpr std::size_t kPreviewLines = 2;  // times as many points as the preview has tell where lines run
+// A screen shows an organ on some 500 pixels: a triangle then is five of them wide, and off by a twentieth of one.
+constexpr double kSpacingFraction = 0.01;   // of the contours' diameter
+constexpr double kLeastSpacing = 0.5;       // of that ...
+constexpr double kStepsAcross = 4;          // ... where something drawn is narrower than so many steps
+constexpr double kPreviewSteps = 2;         // so many times as far apart as the refined surface's
+constexpr double kShownNoise = 0.04;        // of the preview's spacing: what the image said before
+constexpr double kPlaneTolerance = 0.0015;  // of the diameter: what is drawn so near to each other is in one plane
 // A cut is cheap: it may be finer than the mesh.
-constexpr double kCutFraction = 2.0 / 3;  // of the preview's spacing
+constexpr double kCutFraction = 0.5;  // of the preview's spacing
 
 bool same_drawing(const Contour& a, const Contour& b) {
     return a.points == b.points && a.plane.origin == b.plane.origin && a.plane.normal == b.plane.normal &&
            a.closed == b.closed;
+}
+
+double border_mm(const Polygon2& outline) {
+    double border = 0;
+    for (std::size_t n = 0, last = outline.size() - 1; n < outline.size(); last = n++)
+        border += std::hypot(outline[n][0] - outline[last][0], outline[n][1] - outline[last][1]);
+    return border;
+}
+
+/// Of the narrowest section that was drawn: of a ring or a strip its width, of a disk its radius.
+double narrowest_mm(const Drawing& drawing) {
+    double narrowest = drawing.diameter_mm();
+    for (const Section& section : sections_of(drawing.tidied, kPlaneTolerance * drawing.diameter_mm())) {
+        double enclosed = 0, border = 0;
+        for (std::size_t n = 0; n < section.outlines.size(); ++n) {
+            enclosed += section.layer(n) * area(section.outlines[n]);
+            border += border_mm(section.outlines[n]);
+        }
+        if (border > 0) narrowest = std::min(narrowest, 2 * std::abs(enclosed) / border);
+    }
+    return narrowest;
+}
+
+/// Lets the fit pass the places at which the image showed the surface before; returns how many there are.
+std::size_t follow_image(PreparedContours& prepared, const AskedBefore& asked, const ContourSet& edited, double noise_mm) {
+    const std::vector<Vec3> shown = asked.still_shown(edited);
+    for (const Vec3& place : shown)
+        prepared.bounds.push_back({.position = place, .least_mm = 0, .most_mm = 0, .noise_mm = noise_mm});
+    return shown.size();
 }
 
 EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts, const PreviewOptions& lattice,
@@ -45,8 +81,14 @@ Editor::Editor(EditorOptions options) : options_(options) {
         throw Error(ErrorKind::invalid_input, "the preview is fitted to 0 points; at least 1 is needed");
 }
 
-double Editor::preview_spacing(double diameter_mm) const {
-    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kSpacingFraction * diameter_mm;
+double Editor::refined_spacing(const Drawing& drawing) const {
+    if (options_.refined_spacing_mm > 0) return options_.refined_spacing_mm;
+    const double usual = kSpacingFraction * drawing.diameter_mm();
+    return std::clamp(narrowest_mm(drawing) / kStepsAcross, kLeastSpacing * usual, usual);
+}
+
+double Editor::preview_spacing(const Drawing& drawing) const {
+    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kPreviewSteps * refined_spacing(drawing);
 }
 
 /// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.
@@ -86,21 +128,23 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     if (drawn.contours.empty()) return {};
     std::vector<std::pair<std::string, double>> seconds;
     Stopwatch watch(seconds);
-    const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
+    const Drawing drawing =
+        read_drawing(thinned(drawn, kPreviewLines * options_.preview_points), options_.segment.fill_rule);
     StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
     PreparedContours prepared = prepare(drawing, stages, work);
-    const double spacing_mm = preview_spacing(drawing.diameter_mm());
-    const std::vector<Vec3> shown = asked_.still_shown(drawing.contours);
-    for (const Vec3& place : shown)
-        prepared.bounds.push_back({.position = place, .least_mm = 0, .most_mm = 0, .noise_mm = kShownNoise * spacing_mm});
+    const double spacing_mm = preview_spacing(drawing);
+    std::size_t shown = 0;
+    if (asked_)
+        shown = follow_image(prepared, *asked_, read_drawing(drawn, options_.segment.fill_rule).contours,
+                             kShownNoise * spacing_mm);
     watch.lap("prepare");
     stages.fit.most_points = options_.preview_points;
     stages.fit.tilt_points = options_.preview_points;
     stages.fit.solve.tolerance_mm *= kPreviewTolerance;
     stages.fit.early_tolerance_factor = 2;
     stages.fit.start_slopes = known_slopes(drawing.contours, prepared);
-    if (!shown.empty()) stages.fit.most_solves = 1;  // f misses such a place by ever so little, which is no reason for more
-    if (!stages.fit.start_slopes.empty()) {          // the last round is enough
+    if (shown > 0) stages.fit.most_solves = 1;  // f misses such a place by ever so little, which is no reason for more
+    if (!stages.fit.start_slopes.empty()) {     // the last round is enough
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
         stages.fit.rounds = 1;
     }
@@ -113,7 +157,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     EditedSurface surface = surface_of(fitted, starts, lattice, work);
     watch.lap("mesh");
     surface.seconds = std::move(seconds);
-    surface.shown_before = shown.size();
+    surface.shown_before = shown;
     remember(drawing.contours, prepared, fitted.slopes);
     return surface;
 }
@@ -132,8 +176,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
     const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
     const StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages, work);
-    const double spacing_mm =
-        options_.refined_spacing_mm > 0 ? options_.refined_spacing_mm : preview_spacing(drawing.diameter_mm()) / 3;
+    const double spacing_mm = refined_spacing(drawing);
     const auto refined_surface = [&](const FittedFunction& fitted) {
         EditedSurface surface =
             surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
@@ -142,18 +185,29 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
         surface.residual = residual(surface.function, drawing.contours, work);
         return surface;
     };
+    const bool asks = image && options_.segment.use_image != UseImage::off;
+    if (!asks) forget_image();
+    if (alone && asked_) {
+        PreparedContours followed = prepared;
+        const std::size_t shown = follow_image(followed, *asked_, drawing.contours, kShownNoise * spacing_mm);
+        FitOptions once = stages.fit;
+        once.most_solves = 1;
+        if (shown > 0) {
+            EditedSurface surface = refined_surface(fit(followed, once, work));
+            surface.shown_before = shown;
+            alone(surface);
+        }
+    }
     const FittedFunction by_contours = fit(prepared, stages.fit, work);
     EditedSurface surface = refined_surface(by_contours);
-    if (!image || options_.segment.use_image == UseImage::off) {
-        forget_image();
-        return surface;
-    }
+    if (!asks) return surface;
     if (alone) alone(surface);
     fits_->begin_question();
     RefinedFunction with_image = kontur::refine(drawing, prepared, by_contours, *image, stages, work, fits_.get());
     if (with_image.report.verdict == ImageVerdict::used) surface = refined_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
-    asked_ = AskedBefore(drawing.contours, surface.image.asked);
+    asked_.reset();
+    if (!surface.image.asked.empty()) asked_.emplace(drawing.contours, surface.image.asked);
     return surface;
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,9 @@ namespace kontur {
 
 struct EditorOptions {
     SegmentOptions segment;             ///< how the contours are fitted; `voxelizer` and `mesh` do not matter
-    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: 1.5 % of the contours' diameter
-    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: a third of the preview's
+    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: twice what that of the refined surface would be
+    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: a hundredth of the contours' diameter, or
+                                        ///< down to half of that where a drawn section is narrower than four steps
     std::size_t preview_points = 1000;  ///< about how many of the drawn points a preview is fitted to; at least 1
 };
 
@@ -34,7 +36,8 @@ struct EditedSurface {
     Residual residual;             ///< at all drawn points; refined surfaces only
     int solves = 0;                ///< how often a linear system was solved for it
     RefineReport image{};          ///< what became of the image; refined surfaces only
-    std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit; previews only
+    std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit: of previews, and of
+                                   ///< what is told while the image is asked again
 
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by stage, in order; previews only
 };
@@ -43,7 +46,8 @@ struct EditedSurface {
 /// organs, then `refine` the one that `segment` would give, with an image or without: the same function, to the last bit,
 /// whatever came before.
 ///
-/// A preview is fitted to a part of the points, to a fraction of a voxel; what it keeps from the edit before is the
+/// A preview is fitted to a part of the points, to a fraction of a voxel, and of lines with many more than that a part is
+/// looked at at all; what it keeps from the edit before is the
 /// surface's tilt along every contour that has not changed, which saves the rounds that would find it, and where the image
 /// showed the border, so that the surface stays there until the image has been asked again. Nothing else is worth
 /// keeping: every weight and every value of the function change with each edit (weights of the edit before start the solver
@@ -61,11 +65,12 @@ public:
                           const std::function<void(const SurfaceBand&)>& ahead = {});
     EditedSurface refine(const ContourSet& contours, const Work& work = {}) const;
     /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` is told first what the
-    /// contours alone make, which stays the result where the image does not help. Throws as `kontur::refine`, too.
+    /// contours alone make, which stays the result where the image does not help; and before that, where the image has been
+    /// asked about an earlier drawing, what the contours make with what it said then. Throws as `kontur::refine`, too.
     EditedSurface refine(const ContourSet& contours, const Image* image, const Work& work = {},
                          const std::function<void(const EditedSurface&)>& alone = {});
     /// Previews no longer follow what an image said: it is another one now, or none.
-    void forget_image() { asked_ = {}; }
+    void forget_image() { asked_.reset(); }
 
     const EditorOptions& options() const { return options_; }
 
@@ -78,11 +83,12 @@ private:
 
     std::vector<double> known_slopes(const ContourSet& contours, const PreparedContours& prepared) const;
     void remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes);
-    double preview_spacing(double diameter_mm) const;
+    double preview_spacing(const Drawing& drawing) const;
+    double refined_spacing(const Drawing& drawing) const;
 
     EditorOptions options_;
     std::vector<Known> known_;
-    AskedBefore asked_;
+    std::optional<AskedBefore> asked_;
     std::shared_ptr<KeptFits> fits_ = std::make_shared<KeptFits>();
 };
 

@@ -76,6 +76,7 @@ struct LiveEditor::Worker {
             if (stop.stop_requested()) return;
             update.kind = EditorUpdate::Kind::refined;
             const auto tell_alone = [&](const EditedSurface& alone) {
+                update.kind = EditorUpdate::Kind::refined;
                 update.surface = alone;
                 update.asks_image = true;
                 listener(update);

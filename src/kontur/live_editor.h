@@ -23,7 +23,9 @@ struct EditorUpdate {
     Kind kind = Kind::progress;
     std::uint64_t edit = 0;  ///< which edit this answers
     EditedSurface surface;
-    bool asks_image = false;  ///< of a refined one: `with_image` follows, unless there is another edit
+    /// Of a refined one: `with_image` follows, unless there is another edit. Where the image has been asked before, the
+    /// first such one follows what it said then (`surface.shown_before`), and the second is what the contours make alone.
+    bool asks_image = false;
     std::string problem;
     std::string_view stage;
     double done = 0;

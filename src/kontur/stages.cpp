@@ -60,21 +60,6 @@ PrepareOptions prepare_options(const SegmentOptions& options, const FitOptions& 
     return prepare;
 }
 
-/// Every few of each contour's points, about `most` in all: preparing contours and reading the surface's tilt costs as much
-/// as there are points.
-void thin_lines(ContourSet& set, std::size_t most) {
-    std::size_t count = 0;
-    for (const Contour& contour : set.contours) count += contour.points.size();
-    for (Contour& contour : set.contours) {
-        const std::size_t step = std::min(count / most, contour.points.size() / kCoarseSegments);
-        if (step < 2) continue;
-        std::vector<Vec3> kept;
-        for (std::size_t i = 0; i < contour.points.size(); i += step) kept.push_back(contour.points[i]);
-        if (!contour.closed && kept.back() != contour.points.back()) kept.push_back(contour.points.back());
-        contour.points = std::move(kept);
-    }
-}
-
 /// Where the surface passes near a point at which |f| is about `margin_mm`; nothing where |f| is larger or it is farther
 /// away.
 std::optional<Vec3> surface_near(const Vec3& point, const ImplicitFunction& function, double margin_mm) {
@@ -119,10 +104,22 @@ PreparedContours prepare(const Drawing& drawing, const StageOptions& options, co
     return prepared;
 }
 
+ContourSet thinned(ContourSet set, std::size_t most) {
+    std::size_t count = 0;
+    for (const Contour& contour : set.contours) count += contour.points.size();
+    for (Contour& contour : set.contours) {
+        const std::size_t step = std::min(count / most, contour.points.size() / kCoarseSegments);
+        if (step < 2) continue;
+        std::vector<Vec3> kept;
+        for (std::size_t i = 0; i < contour.points.size(); i += step) kept.push_back(contour.points[i]);
+        if (!contour.closed && kept.back() != contour.points.back()) kept.push_back(contour.points.back());
+        contour.points = std::move(kept);
+    }
+    return set;
+}
+
 ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work) {
-    ContourSet lines = part;
-    thin_lines(lines, kCoarseLines * kCoarsePoints);
-    const Drawing drawing = read_drawing(lines, FillRule::declared);
+    const Drawing drawing = read_drawing(thinned(part, kCoarseLines * kCoarsePoints), FillRule::declared);
     StageOptions coarse = options;
     coarse.fit.most_points = coarse.fit.tilt_points = kCoarsePoints;
     coarse.fit.most_solves = 1;

@@ -31,6 +31,10 @@ Drawing read_drawing(const ContourSet& drawn, FillRule rule);
 /// The contours as the fit sees them, reconciled where they contradict each other.
 PreparedContours prepare(const Drawing& drawing, const StageOptions& options, const Work& work = {});
 
+/// Every few of each contour's points, about `most` in all, though no fewer than 48 of a contour that has as many: preparing
+/// contours and reading the surface's tilt costs as much as there are points.
+ContourSet thinned(ContourSet set, std::size_t most);
+
 /// f through a part of the contours, from about as many of its points as show the tilts: for how the surface runs between
 /// planes that will do.
 ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& options, const Work& work = {});

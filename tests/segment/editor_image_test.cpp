@@ -167,6 +167,28 @@ TEST(LiveEditor, AsksTheImageWhenTheSurfaceIsRefined) {
     EXPECT_EQ(sentence(updates[2].surface.image), sentence(made.report.image));
 }
 
+TEST(LiveEditor, FollowsWhatTheImageSaidWhileItIsAskedAgain) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Listened live;
+    for (const ContourSet& set : {contours, edited(contours)}) {
+        live.editor.edit(set, helpful_image());
+        live.editor.wait();
+    }
+    std::vector<EditorUpdate> updates = live.updates();
+    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::with_image, Kind::preview, Kind::refined,
+                                         Kind::refined, Kind::with_image}));
+    const EditorUpdate &followed = updates[4], &alone = updates[5], &made = updates[6];
+    EXPECT_TRUE(followed.asks_image);
+    EXPECT_GT(followed.surface.shown_before, 50u);
+    EXPECT_TRUE(alone.asks_image);
+    EXPECT_EQ(alone.surface.shown_before, 0u);
+    EXPECT_LT(surface_error(followed.surface.function, contours), 0.6 * surface_error(alone.surface.function, contours));
+    EXPECT_LT(followed.surface.residual.max_mm, 0.5);
+    const Image& image = *helpful_image();
+    expect_same_function(alone.surface.function, segment(edited(contours), image.grid).function);
+    expect_same_function(made.surface.function, segment(edited(contours), image.grid, &image).function);
+}
+
 TEST(LiveEditor, KeepsTheRefinedSurfaceWhereTheImageDoesNotHelp) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     Listened live;

@@ -121,6 +121,11 @@ std::vector<std::string> stages(const std::vector<json>& surfaces) {
     return names;
 }
 
+double volume_ml(const Segmentation& made) {
+    const auto voxels = std::count(made.mask.values.begin(), made.mask.values.end(), std::uint8_t{1});
+    return static_cast<double>(voxels) * made.mask.grid.voxel_volume_mm3() / 1000;
+}
+
 TEST(SessionImage, HelpsToMakeSurfaceAndExportsAsItDoesForSegment) {
     Visit here(image_of_body());
     const std::vector<json> told = here.told_surfaces();
@@ -170,22 +175,27 @@ TEST(SessionImage, WhereItDoesNotHelpTheSurfaceStaysAndKeepsItsRevision) {
     EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);
 }
 
-TEST(SessionImage, BetweenAPreviewThatFollowsItAndItsAnswerNothingElseIsShown) {
-    for (const auto& [image, shown] :
-         {std::pair{image_of_body(), std::vector<std::string>{"outdated", "preview", "refined"}},
-          {image_of_noise(), {"outdated", "preview", "asking", "refined"}}}) {
+TEST(SessionImage, UntilItHasAnsweredAgainWhatIsShownFollowsWhatItSaidBefore) {
+    for (const auto& image : {image_of_body(), image_of_noise()}) {
         Visit here(image);
         here.told_surfaces();
         const Id contour = here.greeting()["contours"][0]["id"];
         here.call({{"call", "contour.translate"}, {"id", contour}, {"by", {0.5, 0, 0}}});
         const std::vector<json> told = here.told_surfaces();
-        ASSERT_EQ(stages(told), shown);
+        ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "asking", "refined"}));
         const Segmentation made = here.segmented(true);
+        const bool is_used = made.report.image.verdict == ImageVerdict::used;
+        EXPECT_EQ(told[2]["revision"] == told[3]["revision"], !is_used);
+        const double followed_ml = told[2]["volume_ml"], made_ml = told[3]["volume_ml"],
+                     alone_ml = volume_ml(here.segmented(false));
+        if (is_used) {
+            EXPECT_LT(std::abs(followed_ml - made_ml), 0.5 * std::abs(alone_ml - made_ml));
+        }
         EXPECT_EQ(told.back()["image"]["text"], sentence(made.report.image));
         EXPECT_EQ(told.back()["revision"], here.surface()["revision"]);
         EXPECT_GT(told.back()["revision"], told[1]["revision"]);
         EXPECT_EQ(here.exported_mask(), made.mask.values);
-        EXPECT_EQ(here.slice()["outlines"][0].contains("without_image"), made.report.image.verdict == ImageVerdict::used);
+        EXPECT_EQ(here.slice()["outlines"][0].contains("without_image"), is_used);
     }
 }
 
@@ -196,7 +206,7 @@ TEST(SessionImage, WhatThePreviewFollowedIsTakenBackWhereTheImageIsNotUsedAnyMor
     const json contours = here.greeting()["contours"];
     here.call({{"call", "contour.remove"}, {"ids", {contours[0]["id"], contours[1]["id"]}}});
     const std::vector<json> told = here.told_surfaces();
-    ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "refined"}));
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "asking", "refined"}));
     EXPECT_EQ(told.back()["image"]["verdict"], "unknown");
     EXPECT_GT(told.back()["revision"], told[1]["revision"]);
     EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);

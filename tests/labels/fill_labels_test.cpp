@@ -52,6 +52,18 @@ Image ball(const Grid& grid = index_grid({44, 43, 42})) {
     return label_map(grid, [](const Index3& at) { return is_in_ball(at, kCenter, 15.4) ? 3 : 0; });
 }
 
+TEST(FillLabels, ASteepTubeIsWholeThoughItsSlicesDoNotOverlap) {
+    const Image full = label_map(index_grid({90, 30, 31}), [](const Index3& at) {
+        return std::hypot(double(at.i) - 12 - 2.2 * double(at.k), double(at.j) - 15) < 5 ? 1 : 0;
+    });
+    const Filling filled = fill_labels(sparse_of(full, [](const Index3& at) { return at.k % 5 == 0; }));
+    EXPECT_GT(dice(full, filled.labels, 1, 2), 0.93) << "11 mm from one section of 10 mm to the next";
+    const auto voxels = bytes_of_labels(filled.labels);
+    for (std::int64_t k = 0; k <= 30; ++k)
+        EXPECT_EQ(voxels[filled.labels.grid.offset(12 + std::lround(2.2 * double(k)), 15, k)], 1)
+            << "its middle, slice " << k;
+}
+
 TEST(FillLabels, ABallComesBackFromSlicesAcrossEachAxis) {
     const Image full = ball();
     for (int axis = 0; axis < 3; ++axis) {

@@ -57,6 +57,28 @@ TEST(ShapeInterpolation, AConeBetweenTwoCircles) {
     EXPECT_NEAR(shape.depth_mm({30 + 18, 30, 5}), -3 / slant, 0.6);
 }
 
+TEST(ShapeInterpolation, SectionsThatDoNotOverlapAreMovedOverEachOther) {
+    const Grid grid = index_grid({61, 41, 11}, {1, 1, 2});
+    const auto disc = [&](std::int64_t slice, double u, double v) {
+        return section_where(grid, slice,
+                             [=](const Index3& at) { return std::hypot(double(at.i) - u, double(at.j) - v) < 5; });
+    };
+    const ShapeInterpolation steep(grid, disc(0, 15, 15), disc(10, 27, 20));
+    EXPECT_EQ(steep.apartness(), 1);
+    for (std::int64_t k = 0; k <= 10; ++k) {
+        const std::int64_t u = 15 + std::lround(1.2 * double(k)), v = 15 + std::lround(0.5 * double(k));
+        EXPECT_NEAR(steep.depth_mm({u, v, k}), 4.5, 0.8) << "its middle in slice " << k;
+        EXPECT_LT(steep.depth_mm({u, v - 7, k}), 0);
+        EXPECT_LT(steep.depth_mm({u - 7, v, k}), 0);
+    }
+    EXPECT_EQ(ShapeInterpolation(grid, disc(0, 10, 15), disc(10, 45, 15)).apartness(), 0) << "two bodies";
+    const PaintedSlice wide = section_where(grid, 10, [](const Index3& at) { return at.i > 3 && at.i < 50; });
+    EXPECT_EQ(ShapeInterpolation(grid, disc(0, 10, 15), wide).apartness(), 0) << "one within the other";
+    const double half = ShapeInterpolation(grid, disc(0, 15, 15), disc(10, 20, 15)).apartness();
+    EXPECT_GT(half, 0.4);
+    EXPECT_LT(half, 0.8);
+}
+
 TEST(ShapeInterpolation, IsTrustedLessTheFartherApartTheSlicesAre) {
     const Grid grid = index_grid({41, 41, 100});
     const auto disc = [](const Index3& at) { return std::hypot(double(at.i) - 20, double(at.j) - 20) < 10; };

@@ -172,8 +172,8 @@ void measure(const Structure& structure, const std::string& kind, int count, boo
     const std::string without = scores(mask_of(fitted.function), structure.truth);
     const auto print = [&](const char* method, const RefineReport& r, double seconds, const std::string& with) {
         fmt::print("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.2f},{:.2f}\n", structure.name, kind, count,
-                   by_hand ? "hand" : "exact", method, without, with, name(r.verdict), r.error_without_mm, r.error_with_mm,
-                   r.largest_move_mm, r.on_contours_mm / voxel, fit_seconds, seconds);
+                   by_hand ? "hand" : "exact", method, without, with, r.walked ? "walked" : name(r.verdict),
+                   r.error_without_mm, r.error_with_mm, r.largest_move_mm, r.on_contours_mm / voxel, fit_seconds, seconds);
         std::fflush(stdout);
     };
     const char* methods = std::getenv("KONTUR_IMAGES_METHODS");

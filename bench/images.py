@@ -88,7 +88,7 @@ def line(name, rows):
         return statistics.fmean(float(row[field]) for row in rows if row[field])
     return (f"| {name} | {len(rows)} | {mean('dice_without'):.4f} | {mean('dice'):.4f} | {statistics.fmean(gains):+.4f} | "
             f"{statistics.median(gains):+.4f} | {min(gains):+.4f} | {sum(g < -0.005 for g in gains)} | {sum(g < -0.01 for g in gains)} | "
-            f"{mean('mean_without_mm'):.2f} -> {mean('mean_mm'):.2f} | {sum(row['use'] == 'used' for row in rows)} | "
+            f"{mean('mean_without_mm'):.2f} -> {mean('mean_mm'):.2f} | {sum(row['use'] in ('used', 'walked') for row in rows)} | {sum(row['use'] == 'walked' for row in rows)} | "
             f"{mean('refine_cpu_s'):.2f} |")
 
 
@@ -103,8 +103,8 @@ def tables(options):
             groups.setdefault((row["method"], which, group), []).append(row)
         if "sarcoma" in row["structure"]:
             groups.setdefault((row["method"], which, "sarcomas"), []).append(row)
-    print("| set, drawings | n | Dice without | with | mean gain | median | worst | worse by > .005 | by > .01 | mean distance mm | used | CPU s |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| set, drawings | n | Dice without | with | mean gain | median | worst | worse by > .005 | by > .01 | mean distance mm | used | walked | CPU s |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for key in sorted(groups):
         print(line(", ".join(key), groups[key]))
     worst = sorted((row for row in rows if row["method"] == "gated"), key=lambda row: float(row["dice"]) - float(row["dice_without"]))

@@ -67,9 +67,7 @@ bool is_anything_left_out(const PaintedObject& object, const IndexBox& range) {
 
 /// By which factor the image makes the variance of the fit smaller; 1 where it is not used.
 double variance_left(const RefineReport& image) {
-    if (image.verdict != ImageVerdict::used || !(image.error_without_mm > 0)) return 1;
-    const double ratio = std::min(1.0, image.error_with_mm / image.error_without_mm);
-    return ratio * ratio;
+    return image.share_left() * image.share_left();
 }
 
 /// What one fit leaves.

@@ -11,6 +11,7 @@
 #include "kontur/refine/quantile.h"
 #include "kontur/refine/spread_points.h"
 #include "kontur/refine/surface_evidence.h"
+#include "kontur/refine/voxel_walk.h"
 
 namespace kontur {
 namespace {
@@ -23,6 +24,7 @@ constexpr double kSurfaceSpacing = 0.04;  // of the drawing's diameter
 
 /// One plane left out: the surface through the others, and where it should have passed.
 struct Fold {
+    ContourSet plane, rest;
     ImplicitFunction function;
     DrawnOnImage others;
     std::vector<Vec3> samples;
@@ -35,13 +37,13 @@ std::optional<Fold> leave_out(const ContourSet& drawn, const PlaneGroup& group, 
                               double step_mm, const Work& alone) {
     try {
         const Drawing rest(without(drawn, group), FillRule::declared);
-        Fold fold{fit(rest.contours), DrawnOnImage(rest, image), {}, {}, {}, {}};
+        Fold fold{only(drawn, group), rest.contours, fit(rest.contours), DrawnOnImage(rest, image), {}, {}, {}, {}};
         const double spacing = kSurfaceSpacing * rest.diameter_mm();
         fold.samples =
             spread(points_of_surface(fold.function, rest.contours, spacing, alone), kSamples, frame_of(rest.contours));
         if (fold.samples.size() < kLeastPoints) return std::nullopt;
         slide_to_surface(fold.function, fold.samples, {.reach_mm = spacing}, alone);
-        fold.held_out = along_contours(only(drawn, group), step_mm);
+        fold.held_out = along_contours(fold.plane, step_mm);
         std::vector<Vec3> nearest = fold.held_out;
         slide_to_surface(fold.function, nearest, {.reach_mm = 0.25 * rest.diameter_mm(), .steps = 3}, alone);
         fold.on_surface = with_normals(fold.function, nearest, alone);
@@ -77,8 +79,8 @@ std::optional<PlainErrors> plain_errors(const std::vector<std::optional<Fold>>& 
     return PlainErrors{kDeviationOfMedian * median(std::move(ratios)), 1.5 * quantile(std::move(errors), 0.9) + voxel_mm};
 }
 
-PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beliefs, double voxel_mm, const Work& alone) {
-    const Movement movement = find_movement(fold.others, fold.function, fold.samples, beliefs, alone);
+PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beliefs, const Movement& movement,
+                              double voxel_mm) {
     PlaneErrors errors{{}, movement.intensities};
     fold.others.walls.limit(fold.on_surface);
     for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
@@ -92,10 +94,21 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
     return errors;
 }
 
+/// Which cells in the plane are on the wrong side: by the fold's surface, by that moved, and by a walk that begins with the
+/// one that would be used.
+WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& cells, const Beliefs& beliefs,
+                bool is_moved_used, const Work& alone) {
+    const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone);
+    const CellDepths moved = moved_depths(depths, cells, fold.function, movement, beliefs, alone);
+    const VoxelWalk walk = walk_voxels(cells, is_moved_used ? moved : depths,
+                                       {fold.others.walls, beliefs.prior_mm, smallest_ball(fold.rest).diameter()}, alone);
+    return count_wrong(fold.plane, cells, depths, moved, walk);
+}
+
 }  // namespace
 
-std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
-                                              const Work& work) {
+std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const ImageCells& cells,
+                                              const FitContours& fit, const Work& work) {
     const ContourSet& drawn = drawing.contours;
     const std::vector<PlaneGroup> groups = at_most(kMostPlanes, contours_by_plane(drawn));
     if (groups.size() < kFewestPlanes) return std::nullopt;
@@ -115,15 +128,27 @@ std::optional<HeldOutErrors> leave_planes_out(const Drawing& drawing, const Imag
         return std::min({plain.factor * std::pow(d, 1.5), kMostPriorSlope * d, plain.limit_mm});
     }};
     std::vector<PlaneErrors> errors(folds.size());
+    std::vector<Movement> movements(folds.size());
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
-            if (folds[i]) errors[i] = errors_with_image(*folds[i], i, beliefs, voxel, alone);
+            if (!folds[i]) continue;
+            movements[i] = find_movement(folds[i]->others, folds[i]->function, folds[i]->samples, beliefs, alone);
+            errors[i] = errors_with_image(*folds[i], i, beliefs, movements[i], voxel);
         }
     });
     if (!tell_enough(errors)) return std::nullopt;
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
-    return HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand);
+    LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
+                           std::vector<WrongCells>(folds.size())};
+    const bool is_moved_used = left_out.errors.image_helps();
+    parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            work.check();
+            if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], cells, beliefs, is_moved_used, alone);
+        }
+    });
+    return left_out;
 }
 
 }  // namespace kontur

@@ -46,13 +46,19 @@ std::string_view name(ImageVerdict verdict) noexcept;
 struct RefineReport {
     ImageVerdict verdict = ImageVerdict::none;
     std::size_t planes_left_out = 0;
-    double error_without_mm = 0;      ///< mean distance of contours left out from the surface through the others ...
-    double error_with_mm = 0;         ///< ... and the same with the image
-    bool displaced = false;           ///< ... or from a surface that was displaced there on purpose (displace.h)
+    double error_without_mm = 0;  ///< mean distance of contours left out from the surface through the others ...
+    double error_with_mm = 0;     ///< ... and the same with the image
+    bool displaced = false;       ///< ... or from a surface that was displaced there on purpose (displace.h)
+    bool walked = false;          ///< the surface is that of a random walk on the image's voxels (voxel_walk.h)
+    double wrong_without = 0;  ///< cells of planes left out on the wrong side, over those inside: by the contours alone ...
+    double wrong_with = 0;     ///< ... and by such a walk
     double largest_move_mm = 0;       ///< of the surface, at the points asked
     std::int64_t intensities = 0;     ///< read from the image
     double on_contours_mm = 0;        ///< the largest change of f at some 500 of the drawn points
     std::vector<AskedPoint> asked{};  ///< where it was asked, and how much surer it made the surface there
+
+    /// Of the error without the image, measured where planes were left out or displaced; 1 where it is not used.
+    double share_left() const;
 };
 
 /// One sentence for people.

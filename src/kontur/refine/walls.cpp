@@ -11,8 +11,9 @@
 namespace kontur {
 namespace {
 
-constexpr double kEndGaps = 0.6;   // beyond the last plane of a stack
-constexpr double kGrazing = 0.05;  // cosine: a path flatter than this against a plane does not meet it
+constexpr double kEndGaps = 0.6;        // beyond the last plane of a stack
+constexpr double kTouching = 1 + 1e-6;  // planes between two layers of cells are in both, however they are rounded
+constexpr double kGrazing = 0.05;       // cosine: a path flatter than this against a plane does not meet it
 
 /// Closed planes: all contours of a section's plane are closed.
 std::vector<Plane> complete_planes(const Drawing& drawing) {
@@ -60,6 +61,19 @@ void Walls::limit(std::span<MovingPoint> points) const {
             point.most_mm = std::min(point.most_mm, room / slant);
         }
     }
+}
+
+bool Walls::is_in_plane(const Vec3& point, std::span<const Vec3> half_edges) const {
+    return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+        double reach = 0;
+        for (const Vec3& half : half_edges) reach += std::abs(dot(plane.normal, half));
+        return std::abs(plane.distance_to(point)) <= kTouching * reach;
+    });
+}
+
+bool Walls::is_beyond_end(const Vec3& point) const {
+    return std::any_of(ends_.begin(), ends_.end(),
+                       [&](const EndWall& end) { return dot(end.direction, point) > end.height_mm; });
 }
 
 }  // namespace kontur

@@ -20,6 +20,12 @@ public:
     /// Sets how far the points may move along their normals, backwards and forwards.
     void limit(std::span<MovingPoint> points) const;
 
+    /// Whether a parallelepiped around a point, its half edges given, touches one of the planes; surely, where it nearly
+    /// does.
+    bool is_in_plane(const Vec3& point, std::span<const Vec3> half_edges) const;
+    /// Whether a point lies beyond an end of a stack.
+    bool is_beyond_end(const Vec3& point) const;
+
 private:
     /// Beyond an end of a stack. Points that lie behind it may not move on.
     struct EndWall {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kontur/base/work.h"
+#include "kontur/function/implicit_function.h"
+#include "kontur/refine/image_cells.h"
+#include "kontur/refine/movement.h"
+
+namespace kontur {
+
+/// How the cells of an image lie to a surface and to the contours that it runs through, to half a cell.
+struct CellDepths {
+    std::vector<float> depth_mm;         ///< of each cell below the surface; above it less than 0
+    std::vector<float> far_mm;           ///< of each cell from the contours
+    std::vector<std::uint32_t> nearest;  ///< to each cell, of those just below the surface
+
+    bool is_inside(std::size_t cell) const { return depth_mm[cell] > 0; }
+};
+
+/// How deep cells lie below the surface of those inside; `nearest` as in CellDepths.
+struct Depths {
+    std::vector<float> depth_mm;
+    std::vector<std::uint32_t> nearest;
+};
+Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cells);
+
+/// Of the surface of f that hangs together with the contours.
+CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
+                       const Work& work = {});
+
+/// The same of the surface moved along its normals, by what moves the nearest place of it.
+CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const ImplicitFunction& function,
+                        const Movement& movement, const Beliefs& beliefs, const Work& work = {});
+
+}  // namespace kontur

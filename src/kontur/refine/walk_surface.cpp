@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/refine/walk_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/refine/refit.h"
+#include "kontur/refine/spread_points.h"
+#include "kontur/refine/walked_data.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kMostOnContours = 0.05;  // voxels: f changes no more at drawn points
+constexpr double kMostStray = 2.5;        // cells: no farther from the walk's surface
+constexpr double kMostInPlanes = 1;       // cells: no farther from the contours in drawn planes
+
+/// From one attempt to the next less is told near the contours, and less exactly.
+constexpr WalkedDataOptions kAttempts[] = {{}, {.off_contours = 2, .noise = 4}};
+
+/// Whether a surface leaves the walk's, or comes through drawn planes where nothing was drawn.
+bool strays(const CellDepths& depths, const VoxelWalk& walk, const std::vector<float>& walked, const CellDepths& alone,
+            const WalkedImage& image) {
+    std::vector<Vec3> half_edges;
+    for (int axis = 0; axis < 3; ++axis) half_edges.push_back(0.5 * image.cells.grid.index_to_mm.column(axis));
+    const auto edge = static_cast<float>(image.cells.edge_mm());
+    for (std::size_t n = 0; n < walked.size(); ++n) {
+        if (depths.is_inside(n) != walk.is_inside(n) && std::abs(walked[n]) > static_cast<float>(kMostStray) * edge)
+            return true;
+        if (depths.is_inside(n) != alone.is_inside(n) &&
+            std::abs(alone.depth_mm[n]) > static_cast<float>(kMostInPlanes) * edge &&
+            image.walls.is_in_plane(image.cells.center(n), half_edges))
+            return true;
+    }
+    return false;
+}
+
+/// Places of the surface, evenly, and how far it moved.
+struct Moved {
+    std::vector<AskedPoint> asked;
+    double most_mm = 0;
+};
+
+Moved moved(const ImplicitFunction& function, const CellDepths& now, const VoxelWalk& walk, const CellDepths& alone,
+            const ImageCells& cells, const Affine3& frame, std::size_t count, const Work& work) {
+    std::vector<Vec3> places;
+    Moved moved;
+    for (const std::uint32_t cell : walk.asked) {
+        if (std::abs(static_cast<double>(now.depth_mm[cell])) > cells.edge_mm()) continue;
+        places.push_back(cells.center(cell));
+        moved.most_mm = std::max(moved.most_mm, std::abs(static_cast<double>(alone.depth_mm[cell])));
+    }
+    places = spread(places, count, frame);
+    slide_to_surface(function, places, {.reach_mm = cells.edge_mm(), .steps = 2}, work);
+    for (const Vec3& p : places) moved.asked.push_back({p, 1});
+    return moved;
+}
+
+}  // namespace
+
+RefinedFunction walk_surface(const WalkedImage& image, const Drawing& drawing, const PreparedContours& prepared,
+                             const FittedFunction& fitted, const RefinedFunction& begun, const RefineOptions& options,
+                             double voxel_mm, const Work& work) {
+    const ImageCells& cells = image.cells;
+    const Affine3 frame = frame_of(drawing.contours);
+    const CellDepths alone = cell_depths(cells, fitted.function, drawing.contours, work);
+    const bool is_moved = begun.report.verdict == ImageVerdict::used;
+    const CellDepths start = is_moved ? cell_depths(cells, begun.fitted.function, drawing.contours, work) : alone;
+    const VoxelWalk walk = walk_voxels(cells, start, {image.walls, image.prior_mm, drawing.diameter_mm()}, work);
+    const std::vector<float> walked = depths_below(walk, cells);
+    RefinedFunction result = begun;
+    Refit refit(prepared, fitted, options.fit);
+    for (const WalkedDataOptions& attempt : kAttempts) {
+        work.check();
+        FittedFunction through = refit.with(walked_data(walk, cells, alone, fitted.function, frame, attempt, work), work);
+        const double on_contours = largest_change(fitted.function, through.function, drawing.contours, work);
+        const CellDepths now = cell_depths(cells, through.function, drawing.contours, work);
+        if (on_contours > kMostOnContours * voxel_mm || strays(now, walk, walked, alone, image)) continue;
+        Moved places = moved(through.function, now, walk, alone, cells, frame, options.samples, work);
+        result.fitted = std::move(through);
+        result.report.verdict = ImageVerdict::used;
+        result.report.walked = true;
+        result.report.on_contours_mm = on_contours;
+        result.report.asked = std::move(places.asked);
+        result.report.largest_move_mm = places.most_mm;
+        return result;
+    }
+    if (!is_moved) result.report.verdict = ImageVerdict::astray;
+    return result;
+}
+
+}  // namespace kontur

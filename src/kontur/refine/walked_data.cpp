@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/refine/walked_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "kontur/refine/spread_points.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kLeastNoise = 0.03, kMostNoise = 3;  // cells
+constexpr double kNoiseOfFall = 0.02;                 // noise in cells, times how much the probability falls over one
+constexpr double kLeastCrossing = 0.1;                // steps: no surface is told to pass nearer by a cell's centre
+constexpr double kGone = 1.5;                         // cells: so far from the walk's surface there is none
+constexpr double kNoiseOfGone = 0.5;                  // of its distance
+constexpr std::size_t kMostGone = 450, kMostHeld = 900;
+constexpr double kHeldNoise = 0.2, kMostHeldValue = 1.5;  // cells
+
+class Data {
+public:
+    Data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone, const WalkedDataOptions& options)
+        : walk_(walk), cells_(cells), alone_(alone), options_(options), asked_(walk.inside.size()) {
+        for (const std::uint32_t cell : walk.asked) asked_[cell] = 1;
+    }
+
+    std::vector<PointConstraint> beside_surface(const Affine3& frame) const {
+        std::vector<PointConstraint> told;
+        for (const std::uint32_t cell : walk_.asked) {
+            if (!is_off_contours(cell)) continue;
+            if (const double steps = steps_to_surface(cell); steps > 0) {
+                const double noise = std::clamp(kNoiseOfFall / std::max(fall(cell), 1e-6), kLeastNoise, kMostNoise);
+                told.push_back(datum(cell, walk_.is_inside(cell) ? steps : -steps, options_.noise * noise));
+            }
+        }
+        return some(told, options_.most, frame);
+    }
+
+    std::vector<PointConstraint> gone(const Affine3& frame) const {
+        const std::vector<float> depth = depths_below(walk_, cells_);
+        std::vector<PointConstraint> told;
+        for (const std::uint32_t cell : walk_.asked) {
+            const double steps = static_cast<double>(depth[cell]) / cells_.edge_mm();
+            if (alone_.is_inside(cell) != walk_.is_inside(cell) && std::abs(steps) > kGone && is_off_contours(cell))
+                told.push_back(datum(cell, steps, kNoiseOfGone * std::abs(steps)));
+        }
+        return some(told, kMostGone, frame);
+    }
+
+    std::vector<PointConstraint> held(const ImplicitFunction& before, const Affine3& frame, const Work& work) const {
+        std::vector<PointConstraint> told;
+        for (const std::uint32_t cell : walk_.asked)
+            cells_.visit_neighbours(cell, [&](int, std::size_t next) {
+                if (!asked_[next] && walk_.is_inside(next) != walk_.is_inside(cell) && is_off_contours(next))
+                    told.push_back(datum(next, 0, kHeldNoise));
+            });
+        told = some(told, kMostHeld, frame);
+        std::vector<Vec3> places;
+        for (const PointConstraint& one : told) places.push_back(one.position);
+        std::vector<double> values(places.size());
+        before.values(places, values, work);
+        const double most = kMostHeldValue * cells_.edge_mm();
+        for (std::size_t n = 0; n < told.size(); ++n) told[n].value = std::clamp(values[n], -most, most);
+        return told;
+    }
+
+private:
+    PointConstraint datum(std::size_t cell, double steps, double noise) const {
+        const double edge = cells_.edge_mm();
+        return {.position = cells_.center(cell), .value = steps * edge, .noise_mm = noise * edge};
+    }
+
+    bool is_off_contours(std::size_t cell) const {
+        return static_cast<double>(alone_.far_mm[cell]) > options_.off_contours * cells_.edge_mm();
+    }
+
+    double value(std::size_t cell) const { return static_cast<double>(walk_.inside[cell]) - 0.5; }
+
+    /// From a cell's centre to the plane that passes where the walk's surface crosses the nearest step along each axis; 0
+    /// where it crosses none.
+    double steps_to_surface(std::size_t cell) const {
+        std::array<double, 3> least{};  // the inverse of the way to the crossing
+        cells_.visit_neighbours(cell, [&](int side, std::size_t next) {
+            if (walk_.is_inside(next) == walk_.is_inside(cell)) return;
+            const double way = std::max(value(cell) / (value(cell) - value(next)), kLeastCrossing);
+            double& along = least[static_cast<std::size_t>(side / 2)];
+            along = std::max(along, 1 / way);
+        });
+        const double sum = least[0] * least[0] + least[1] * least[1] + least[2] * least[2];
+        return sum > 0 ? 1 / std::sqrt(sum) : 0;
+    }
+
+    /// How much the probability changes from cell to cell, where it changes most.
+    double fall(std::size_t cell) const {
+        constexpr int kAround = 2;
+        const Index3 at = cells_.index(cell);
+        Vec3 sum;
+        double squares = 0;
+        for (int k = -kAround; k <= kAround; ++k)
+            for (int j = -kAround; j <= kAround; ++j)
+                for (int i = -kAround; i <= kAround; ++i) {
+                    const Index3 near{at.i + i, at.j + j, at.k + k};
+                    if (!cells_.holds(near)) continue;
+                    const double weight = std::exp(-0.5 * (i * i + j * j + k * k));
+                    sum += weight * value(cells_.offset(near)) * Vec3{1.0 * i, 1.0 * j, 1.0 * k};
+                    squares += weight * i * i;
+                }
+        return norm(sum) / squares;
+    }
+
+    /// About so many of them, evenly.
+    static std::vector<PointConstraint> some(const std::vector<PointConstraint>& all, std::size_t most,
+                                             const Affine3& frame) {
+        if (all.size() <= most) return all;
+        std::map<std::array<double, 3>, std::size_t> number;
+        std::vector<Vec3> places;
+        for (const PointConstraint& one : all) {
+            number.emplace(std::array{one.position.x, one.position.y, one.position.z}, places.size());
+            places.push_back(one.position);
+        }
+        std::vector<PointConstraint> kept;
+        for (const Vec3& p : spread(places, most, frame)) kept.push_back(all[number.at({p.x, p.y, p.z})]);
+        return kept;
+    }
+
+    const VoxelWalk& walk_;
+    const ImageCells& cells_;
+    const CellDepths& alone_;
+    const WalkedDataOptions& options_;
+    std::vector<std::uint8_t> asked_;
+};
+
+}  // namespace
+
+std::vector<PointConstraint> walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone,
+                                         const ImplicitFunction& before, const Affine3& frame,
+                                         const WalkedDataOptions& options, const Work& work) {
+    const Data data(walk, cells, alone, options);
+    std::vector<PointConstraint> told = data.beside_surface(frame);
+    for (const std::vector<PointConstraint>& more : {data.gone(frame), data.held(before, frame, work)})
+        told.insert(told.end(), more.begin(), more.end());
+    return told;
+}
+
+std::vector<float> depths_below(const VoxelWalk& walk, const ImageCells& cells) {
+    std::vector<std::uint8_t> inside(walk.inside.size());
+    for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = walk.is_inside(n);
+    return depths_of(inside, cells).depth_mm;
+}
+
+}  // namespace kontur

@@ -47,6 +47,9 @@ Facts image_facts(const RefineReport& image) {
     return {{"verdict", name(image.verdict)},
             {"planes_left_out", image.planes_left_out},
             {"displaced", image.displaced},
+            {"walked", image.walked},
+            {"wrong_without", image.wrong_without},
+            {"wrong_with", image.wrong_with},
             {"error_without_mm", image.error_without_mm},
             {"error_with_mm", image.error_with_mm}};
 }

@@ -66,9 +66,7 @@ bool is_anything_left_out(const PaintedObject& object, const IndexBox& range) {
 }
 
 /// By which factor the image makes the variance of the fit smaller; 1 where it is not used.
-double variance_left(const RefineReport& image) {
-    return image.share_left() * image.share_left();
-}
+double variance_left(const RefineReport& image) { return image.share_left() * image.share_left(); }
 
 /// What one fit leaves.
 struct Fitted {

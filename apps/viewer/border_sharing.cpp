@@ -7,6 +7,7 @@
 
 #include "kontur/editor.h"
 #include "kontur/extract/find_surface.h"
+#include "kontur/labels/borrowed_borders.h"
 #include "kontur/labels/shared_surface.h"
 
 namespace kontur::viewer {
@@ -95,13 +96,11 @@ std::set<std::size_t> sharing(const Partition& parts) {
 
 }  // namespace
 
-const BoxedMask& BorderSharing::mask_of(const LoneSurface& alone, const Work& work) {
-    KnownMask& known = masks_[alone.structure];
-    if (known.mesh != alone.mesh) {
-        known.mask = voxels(alone.function, *alone.mesh, lattice_, work);
-        known.mesh = alone.mesh;
-    }
-    return known.mask;
+const BoxedMask& BorderSharing::mask_of(const LoneSurface& surface, const Work& work) {
+    auto known = masks_.find(surface.mesh);
+    if (known == masks_.end())
+        known = masks_.emplace(surface.mesh, voxels(surface.function, *surface.mesh, lattice_, work)).first;
+    return known->second;
 }
 
 /// As quickly as a preview: it only decides who owns the gaps.
@@ -119,65 +118,117 @@ FittedObject BorderSharing::fit_union(const std::vector<Id>& structures, const C
     return fitted;
 }
 
-SharedBorders BorderSharing::share(const std::vector<LoneSurface>& alone, const Borders& borders, const Work& work) {
-    const std::vector<const LoneSurface*> all = with_neighbors(alone);
+SharedBorders BorderSharing::share(const std::vector<LoneSurface>& alone, const Borders& borders, const Work& work,
+                                   const Refit& refit) {
+    const Surfaces all = with_neighbors(alone);
     if (all.size() < 2) return {};
     std::vector<std::shared_ptr<const TriangleMesh>> meshes;
     for (const LoneSurface* one : all) meshes.push_back(one->mesh);
     if (meshes == last_meshes_ && borders == last_borders_) return last_;
-    last_ = shared_anew(all, borders, work);
+    last_ = shared_anew(all, borders, work, refit);
     last_meshes_ = std::move(meshes);
     last_borders_ = borders;
     return last_;
 }
 
-SharedBorders BorderSharing::shared_anew(const std::vector<const LoneSurface*>& all, const Borders& borders,
-                                         const Work& work) {
-    SharedBorders result;
-    if (const Grid lattice = lattice_around(all); !(lattice == lattice_)) {
-        lattice_ = lattice;
-        masks_.clear();
-        unions_.clear();
-    }
+void BorderSharing::take_lattice_around(const Surfaces& all) {
+    const Grid lattice = lattice_around(all);
+    if (lattice == lattice_) return;
+    lattice_ = lattice;
+    masks_.clear();
+    unions_.clear();
+}
+
+BorderSharing::Parted BorderSharing::parted(const Surfaces& all, const Borders& borders, const Work& work) {
+    take_lattice_around(all);
     std::vector<Id> ids;
     SingleFits fits;
-    std::vector<double> counts;
     for (const LoneSurface* one : all) {
         ids.push_back(one->structure);
         fits.drawn.push_back(one->drawn.get());
         fits.functions.push_back(one->function);
         fits.masks.push_back(mask_of(*one, work));
-        const std::vector<std::uint8_t>& values = fits.masks.back().mask.values;
-        counts.push_back(static_cast<double>(std::count(values.begin(), values.end(), std::uint8_t{1})));
     }
-    const std::vector<ImplicitFunction> functions = fits.functions;
-    const Partition parts = partition(
-        std::move(fits), lattice_, rules_among(borders, ids),
-        [&](std::span<const std::size_t> group, const ContourSet& outlines) {
-            std::vector<Id> members;
-            for (const std::size_t n : group) members.push_back(ids[n]);
-            return fit_union(members, outlines, work);
-        },
-        work);
+    Parted parted;
+    const auto fit = [&](std::span<const std::size_t> group, const ContourSet& outlines) {
+        std::vector<Id> members;
+        for (const std::size_t n : group) members.push_back(ids[n]);
+        FittedObject fitted = fit_union(members, outlines, work);
+        parted.unions.insert_or_assign({group.begin(), group.end()}, fitted.function);
+        return fitted;
+    };
+    parted.parts = partition(std::move(fits), lattice_, rules_among(borders, ids), fit, work);
+    return parted;
+}
+
+const LoneSurface* BorderSharing::refitted(const LoneSurface& alone, const std::vector<SurfacePoint>& borrowed,
+                                           const Work& work, const Refit& refit) {
+    KnownRefit& known = refits_[alone.structure];
+    if (known.alone != alone.mesh || known.borrowed != borrowed) {
+        ContourSet more = *alone.drawn;
+        more.surface.insert(more.surface.end(), borrowed.begin(), borrowed.end());
+        known.made = refit(alone, more, work);
+        known.alone = alone.mesh;
+        known.borrowed = borrowed;
+    }
+    return &known.made;
+}
+
+BorderSharing::Surfaces BorderSharing::with_borrowed_borders(const Surfaces& all, const Parted& alone, const Work& work,
+                                                             const Refit& refit) {
+    Surfaces made = all;
+    for (const auto& [group, function] : alone.unions) {
+        Neighbours neighbours;
+        neighbours.all = &function;
+        for (const std::size_t n : group) {
+            neighbours.drawn.push_back(all[n]->drawn.get());
+            neighbours.functions.push_back(&made[n]->function);
+        }
+        const auto borrowed = borrowed_borders(neighbours, work);
+        for (std::size_t member = 0; member < group.size(); ++member)
+            if (!borrowed[member].empty())
+                made[group[member]] = refitted(*all[group[member]], borrowed[member], work, refit);
+    }
+    return made;
+}
+
+std::vector<BorderPair> BorderSharing::pairs_of(const Surfaces& all, const Partition& parts, const Work& work) {
+    const auto count = [&](std::size_t n) {
+        const std::vector<std::uint8_t>& values = mask_of(*all[n], work).mask.values;
+        return static_cast<double>(std::count(values.begin(), values.end(), std::uint8_t{1}));
+    };
+    std::vector<BorderPair> pairs;
     for (const StructurePair& pair : parts.pairs)
-        result.pairs.push_back(
-            {ids[pair.first], ids[pair.second], pair.relation,
-             static_cast<double>(pair.shared_voxels) / std::max(1.0, std::min(counts[pair.first], counts[pair.second])),
+        pairs.push_back(
+            {all[pair.first]->structure, all[pair.second]->structure, pair.relation,
+             static_cast<double>(pair.shared_voxels) / std::max(1.0, std::min(count(pair.first), count(pair.second))),
              pair.is_given});
+    return pairs;
+}
+
+SharedBorders BorderSharing::shared_anew(Surfaces all, const Borders& borders, const Work& work, const Refit& refit) {
+    std::erase_if(masks_, [](const auto& known) { return known.first.use_count() == 1; });  // nobody else has it any more
+    Parted now = parted(all, borders, work);
+    if (Surfaces borrowed = refit ? with_borrowed_borders(all, now, work, refit) : all; borrowed != all) {
+        all = std::move(borrowed);
+        now = parted(all, borders, work);
+    }
+    SharedBorders result;
+    result.pairs = pairs_of(all, now.parts, work);
     std::vector<std::size_t> members;
     std::vector<BoxedMask> masks;
-    std::vector<ImplicitFunction> member_functions;
-    for (const std::size_t n : sharing(parts)) {
+    std::vector<ImplicitFunction> functions;
+    for (const std::size_t n : sharing(now.parts)) {
         members.push_back(n);
-        masks.push_back(trimmed(parts.masks[n], lattice_));
-        member_functions.push_back(functions[n]);
+        masks.push_back(trimmed(now.parts.masks[n], lattice_));
+        functions.push_back(all[n]->function);
     }
     work.check();
-    const SharedSurface surface = shared_surface(masks, member_functions, lattice_, work);
+    const SharedSurface surface = shared_surface(masks, functions, lattice_, work);
     for (std::size_t n = 0; n < members.size(); ++n) {
         TriangleMesh own = surface_of(surface, n);
         own.normals = normals_of(own);
-        result.meshes[ids[members[n]]] = std::make_shared<const TriangleMesh>(std::move(own));
+        result.meshes[all[members[n]]->structure] = std::make_shared<const TriangleMesh>(std::move(own));
     }
     return result;
 }

@@ -147,6 +147,7 @@ const DicomSeries& series_of(const std::optional<DicomSeries>& images, std::stri
 }
 
 /// The surfaces with their borders, on a lattice that does not depend on the image's slices; `pairs` as the masks have them.
+/// The functions have borrowed their neighbours' borders already.
 void share_surfaces(std::vector<FittedStructure>& all, const std::vector<StructurePair>& pairs, const Work& work) {
     std::vector<LoneSurface> alone;
     for (const FittedStructure& one : all)

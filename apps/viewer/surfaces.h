@@ -122,6 +122,8 @@ private:
     struct Alone {
         Surface surface;
         ImplicitFunction function;
+        std::optional<double> smoothing{};     ///< of its fit
+        std::shared_ptr<const Image> image{};  ///< that was asked, if any was
     };
     struct Follower {
         std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit, counted through all editors

@@ -25,6 +25,15 @@ Surface with_mesh(const Surface& alone, std::shared_ptr<const TriangleMesh> mesh
     return surface;
 }
 
+/// As `segment` would fit it.
+LoneSurface refitted(const LoneSurface& alone, const ContourSet& contours, std::optional<double> smoothing,
+                     const Image* image, const Work& work) {
+    EditorOptions options;
+    options.segment.smoothing = smoothing;
+    EditedSurface made = Editor(options).refine(contours, image, work);
+    return {alone.structure, alone.drawn, made.function, std::make_shared<const TriangleMesh>(std::move(made.mesh))};
+}
+
 }  // namespace
 
 void Surfaces::share_borders(const Borders& borders) {
@@ -47,7 +56,7 @@ bool Surfaces::hand_over(const SurfaceTask& task, const Alone& alone) {
     Follower& follower = followers_[task.structure];
     if (follower.tasks.size() != 1 || follower.is_outdated) return false;
     if (alone.surface.stage != SurfaceStage::refined) return alone_.erase(task.structure), false;
-    alone_[task.structure] = alone;
+    alone_[task.structure] = {alone.surface, alone.function, task.smoothing, image_};
     const bool is_last = later_.empty() && std::all_of(followers_.begin(), followers_.end(), [&](const auto& other) {
                              return other.first == task.structure || !other.second.is_working;
                          });
@@ -96,7 +105,11 @@ void Surfaces::share(const std::map<Id, Alone>& alone, const Borders& borders, c
     try {
         std::vector<LoneSurface> surfaces;
         for (const auto& [id, one] : alone) surfaces.push_back({id, one.surface.drawn, one.function, one.surface.mesh});
-        if (borders.shared) found = sharing_.share(surfaces, borders, {.stop = stop});
+        const Refit refit = [&](const LoneSurface& lone, const ContourSet& contours, const Work& work) {
+            const Alone& known = alone.at(lone.structure);
+            return refitted(lone, contours, known.smoothing, known.image.get(), work);
+        };
+        if (borders.shared) found = sharing_.share(surfaces, borders, {.stop = stop}, refit);
         if (stop.stop_requested()) return;
     } catch (const std::exception& error) {
         const auto* known = dynamic_cast<const Error*>(&error);

@@ -143,6 +143,48 @@ TEST(Session, NeighboursShareBordersByASwitchThatCanBeTakenBack) {
               "invalid_input");
 }
 
+/// Halves of a cylinder along z on both sides of x = `middle`; on the slice in the middle the border is at `there`, and only
+/// the first one has drawn it.
+std::vector<ContourSet> halves(double middle, double there) {
+    std::vector<ContourSet> sets(2);
+    for (int k = -3; k <= 3; ++k)
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (k == 0 && side == 1) continue;
+            const double x = k == 0 ? there : middle;
+            const double from = side == 0 ? -14 : x + 0.05, to = side == 0 ? x - 0.05 : 14;
+            Contour contour{{{0, 0, 3.0 * k}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {}, true, false};
+            const std::vector<Vec3> corners{{from, -8, 3.0 * k}, {to, -8, 3.0 * k}, {to, 8, 3.0 * k}, {from, 8, 3.0 * k}};
+            for (std::size_t n = 0; n < 4; ++n)
+                for (int step = 0; step < 16; ++step)
+                    contour.points.push_back(corners[n] + (step / 16.0) * (corners[(n + 1) % 4] - corners[n]));
+            sets[side].contours.push_back(contour);
+        }
+    return sets;
+}
+
+TEST(Session, ABorderThatOneAloneHasDrawnIsTheNeighboursToo) {
+    std::vector<ContourSet> sets = halves(0, 2.5);
+    SharingSession here({moved(sets[0]), moved(sets[1])});
+    here.session.wait_for_surfaces();
+    // Where the second one's surface cuts the slice on which it has drawn nothing.
+    const Plane middle{{20, 20, 20}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    const auto border = [&] {
+        here.session.wait_for_surfaces();
+        const json lines =
+            here.call({{"call", "outline"}, {"structure", here.ids[1]}, {"plane", to_json(middle)}})["result"]["lines"];
+        double least = 1e9;
+        for (const json& line : lines)
+            for (const json& p : line)
+                if (std::abs(p[1].get<double>() - 20) < 4) least = std::min(least, p[0].get<double>());
+        return least - 20;
+    };
+    EXPECT_NEAR(border(), 2.5, 0.4);
+    here.call({{"call", "borders.set"}, {"shared", false}});
+    EXPECT_LT(border(), 1.2) << "by itself it does not know";
+    here.call({{"call", "undo"}});
+    EXPECT_NEAR(border(), 2.5, 0.4);
+}
+
 TEST(Session, BordersAreThoseOfTheLatestContoursHoweverFastTheyCome) {
     SharingSession here({moved(ball(-kOff)), moved(ball(kOff))});
     const double before = here.volume_ml(0);

@@ -2,7 +2,7 @@
 import type { BorderPair, Borders, Changed, Contour, History, Session, Structure, Surface, UseImage } from "../net/protocol";
 import { Emitter } from "./emitter";
 
-type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders" | "image";
+type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders" | "image" | "refused";
 
 export interface Selection {
   contour: number;
@@ -96,7 +96,7 @@ export class Project extends Emitter<Topic> {
   /** An edit was not carried out: what shows it already has to show again what is. */
   refused(): void {
     this.draftContour = null;
-    this.emit("draft", "stages");
+    this.emit("draft", "refused");
   }
 
   contour(id: number): Contour | undefined {

@@ -11,6 +11,15 @@ export type Caller = <Name extends CallName>(name: Name, args: Arguments<Name>) 
 /** Has the server do something. What comes of it is told by events. */
 export type Maker = <Name extends CallName>(name: Name, args: Arguments<Name>) => void;
 
+const OF_LOOKS = ["id", "ids", "name", "color", "visible"];
+
+/** Whether a call changes what is drawn, and not only how it is called, coloured and seen. */
+export function changesDrawing<Name extends CallName>(name: Name, args: Arguments<Name>): boolean {
+  if (name === "structure.add") return false;
+  const isSetting = name === "contour.set" || name === "structure.set";
+  return !isSetting || Object.keys(args).some((key) => !OF_LOOKS.includes(key));
+}
+
 /** Those that change a contour, or add one, and can be drafts. */
 export type EditName = { [Name in CallName]: Result<Name> extends Edited ? Name : never }[CallName];
 export type Edit = { [Name in EditName]: { name: Name; args: Arguments<Name> } }[EditName];

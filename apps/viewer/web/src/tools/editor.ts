@@ -3,6 +3,7 @@ import type { Point2, Screen } from "../geometry/screen";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
+import { changesDrawing, type Maker } from "../net/calls";
 import type { ViewName } from "../net/protocol";
 import type { OverlayPainter } from "../view/overlay";
 import { ContourEdits } from "./contour_edits";
@@ -18,7 +19,7 @@ import { Proposals } from "./proposals";
 import { Pushing } from "./pushing";
 import { TOOLS, toolNamed, type ToolName } from "./registry";
 import type { EditorServices } from "./services";
-import { SurfacePoints } from "./surface_points";
+import { SinglePoints } from "./single_points";
 import type { Hover, Tool, ToolContext } from "./tool";
 
 /** Hands presses and moves on a view to the tool that the user has chosen. */
@@ -34,7 +35,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   readonly planeLines: PlaneLines;
   readonly pushing: Pushing;
   readonly proposals: Proposals;
-  readonly points: SurfacePoints;
+  readonly points: SinglePoints;
   readonly measuring = new Measuring();
 
   constructor(
@@ -48,7 +49,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.edits = new ContourEdits(navigation, project, this.drawing, drafts, services);
     this.outlines = new OutlineEdits(navigation, project, this.drawing, drafts, services);
     this.pushing = new Pushing(project, this.drawing, this.edits, this.outlines, drafts, services);
-    this.points = new SurfacePoints(project, this.edits, services);
+    this.points = new SinglePoints(project, this.edits, services);
     this.proposals = new Proposals(navigation, project, this.drawing, services);
     this.planeLines = new PlaneLines(navigation, project, services.screenOf);
     this.drawing.on(["resumed"], () => this.takeToolOfSketch());
@@ -98,6 +99,12 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   mayNotEdit(): boolean {
     return !this.tool.looksAround && this.isAnotherTime();
   }
+
+  /** What a button asks for: as keys do, it changes nothing that is drawn while another time is seen. */
+  readonly make: Maker = (name, args) => {
+    if (changesDrawing(name, args) && this.isAnotherTime()) return this.project.refused();
+    this.edits.make(name, args);
+  };
 
   /** Whether another time is seen than the one that contours belong to: they are not edited there. Says so, and offers to go there. */
   isAnotherTime(): boolean {

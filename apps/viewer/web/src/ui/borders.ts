@@ -41,7 +41,7 @@ export class BorderPanel {
       "Structures share borders",
     );
     this.element.append(el("div", { class: "borders-row" }, label, this.rules), this.sentence);
-    services.project.on(["structures", "borders"], () => this.update());
+    services.project.on(["structures", "borders", "refused"], () => this.update());
   }
 
   private update(): void {
@@ -65,7 +65,7 @@ function openBorderRules({ project, call }: BorderServices): void {
       rows,
       pairsToShow(project.borders, project.borderPairs, project.structures).map(([a, b]) => row(project, call, a, b)),
     );
-  const off = project.on(["structures", "borders"], update);
+  const off = project.on(["structures", "borders", "refused"], update);
   update();
   const dialog = openDialog(
     "How structures lie to each other",

@@ -60,7 +60,7 @@ export class ContourActions {
         title: "Delete the contour, or its selected point (Del)",
         class: "tool",
         part: "delete",
-        click: () => editor.edits.deleteSelected(),
+        click: () => void (editor.isAnotherTime() || editor.edits.deleteSelected()),
       }),
       piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
       this.owner([contour], "The structure that this contour belongs to"),

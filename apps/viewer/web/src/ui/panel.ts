@@ -62,7 +62,7 @@ export class Panel {
       new SmoothingSlider(services).element,
       this.quality,
     );
-    project.on(["structures", "contours", "selection", "surfaces", "stages"], () => this.update());
+    project.on(["structures", "contours", "selection", "surfaces", "stages", "refused"], () => this.update());
     services.points.on(["points"], () => this.update());
     services.editor.proposals.on(["proposal"], () => this.update());
   }
@@ -89,7 +89,8 @@ export class Panel {
     const structure = project.activeStructure;
     const surface = structure && project.surfaces.get(structure.id);
     const { proposals } = this.services.editor;
-    const nothingHere = structure && proposals.shown?.structure === structure.id ? () => void proposals.nothingHere() : null;
+    const nothingHere =
+      structure && proposals.shown?.structure === structure.id ? () => void (this.services.editor.isAnotherTime() || proposals.nothingHere()) : null;
     render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere }));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";

@@ -56,6 +56,10 @@ export class SmoothingSlider {
 
   constructor(private readonly services: SmoothingServices) {
     services.project.on(["contours", "structures", "selection"], () => this.update());
+    services.project.on(["refused"], () => {
+      this.sent = null;
+      this.update();
+    });
   }
 
   private update(): void {

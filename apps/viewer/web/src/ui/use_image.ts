@@ -28,7 +28,7 @@ export class UseImageSwitch {
   );
 
   constructor(private readonly services: UseImageServices) {
-    services.project.on(["contours", "image", "stages"], () => this.update());
+    services.project.on(["contours", "image", "stages", "refused"], () => this.update());
   }
 
   private update(): void {

@@ -121,10 +121,17 @@ describe("an image of several frames", () => {
     await page.keyboard.press(".");
     const notice = page.locator(".notice", { hasText: "Contours belong to frame 2; frame 3 is only to be looked at." });
     await page.mouse.move(...(await viewer.at("coronal", await viewer.pixels("coronal", 32), 0)));
+    const row = page.locator(".contour-row");
+    const smoothing = await page.locator("[data-test=smoothing]").inputValue();
     const tries = [
       ...["Enter", "Delete", "Backspace", "a", "c", "g", "e", "h", "Control+z", "Control+y"].map((key) => () => page.keyboard.press(key)),
       () => page.click("[data-test=undo]"),
       () => page.click("[data-test=propose-next]"),
+      () => page.click(".contour-actions button:has-text('Delete')"),
+      () => page.click(".contour-actions input[type=checkbox]"),
+      () => row.hover().then(() => row.locator("[data-test=delete-contour]").click()),
+      () => page.click(".structure-row [data-part=remove]"),
+      () => page.locator("[data-test=smoothing]").press("ArrowRight"),
     ];
     for (const attempt of tries) {
       await attempt();
@@ -135,7 +142,14 @@ describe("an image of several frames", () => {
     await viewer.saved();
     assert.equal(await viewer.contours(), 1);
     assert.equal(await page.locator(".contour-row .flag").count(), 0, "no hole");
+    assert.equal(await page.isChecked(".contour-actions input[type=checkbox]"), false, "the box shows again what is");
+    assert.equal(await page.locator("[data-test=smoothing]").inputValue(), smoothing);
     await viewer.waitForStep("undo", "Draw a contour");
+    await row.hover();
+    await row.locator("[data-part=eye]").click(); // looks change nothing that is drawn
+    await row.locator("[data-part=eye][title=Show]").click();
+    await row.locator("[data-part=eye][title=Hide]").waitFor();
+    await viewer.waitForStep("undo", "Show or hide");
     await page.keyboard.press(",");
     await page.locator(".hint", { hasText: "A proposal" }).waitFor();
     await page.keyboard.press("Enter");

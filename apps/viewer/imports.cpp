@@ -26,6 +26,7 @@
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
+#include "viewer/drawable.h"
 #include "viewer/model_json.h"
 #include "viewer/temporary_files.h"
 #include "viewer/views.h"
@@ -123,7 +124,11 @@ Imported read_rtstruct_of(const fs::path& path) {
     for (Roi& roi : set.rois) {
         if (!roi.damage.empty()) imported.notes.push_back("left out: " + roi.damage);
         for (const std::string& note : roi.notes) imported.notes.push_back(roi.name + ": " + note);
-        if (roi.contours.contours.empty()) continue;
+        for (const std::string& note : leave_out_undrawable(roi.contours)) imported.notes.push_back(roi.name + ": " + note);
+        if (roi.contours.contours.empty()) {
+            if (!roi.contours.surface.empty()) imported.notes.push_back(roi.name + ": left out: points without a contour");
+            continue;
+        }
         if (imported.frame_of_reference_uid.empty()) imported.frame_of_reference_uid = roi.frame_of_reference_uid;
         check_contours(roi.contours);
         imported.sets.push_back(std::move(roi.contours));
@@ -137,6 +142,8 @@ Imported read_contours_of(const fs::path& path) {
     ReadContours read = read_contours(path);
     check_contours(read.contours);
     for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
+    for (std::string& note : leave_out_undrawable(read.contours)) read.notes.push_back(std::move(note));
+    check_is_drawable(read.contours);
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }
 

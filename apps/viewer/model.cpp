@@ -48,11 +48,12 @@ DrawnContour as_drawn(const Contour& contour) {
     return drawn;
 }
 
+ContourSet without_contours(const Structure& s) {
+    return {s.name, {}, s.interior, s.exterior, s.surface_points, s.empty_planes};
+}
+
 ContourSet contour_set(const State& state, Id structure) {
-    ContourSet set;
-    set.name = structure_of(state, structure).name;
-    set.empty_planes = structure_of(state, structure).empty_planes;
-    set.surface = structure_of(state, structure).surface_points;
+    ContourSet set = without_contours(structure_of(state, structure));
     for (const auto& [id, contour] : state.contours)
         if (contour->structure == structure) set.contours.push_back({contour->plane, contour->points, true, contour->hole});
     return set;

@@ -56,6 +56,7 @@ struct Structure {
     std::vector<Plane> empty_planes{};           ///< in which nothing of it is seen
     std::optional<double> smoothing{};           ///< of the fit (SegmentOptions); unset: the usual one
     std::vector<SurfacePoint> surface_points{};  ///< that its surface passes
+    std::vector<Vec3> interior{}, exterior{};    ///< points that lie inside, outside of it
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };
@@ -67,6 +68,9 @@ struct State {
     Borders borders;
     bool use_image = true;  ///< between the contours, where it helps
 };
+
+/// What is known of the structure beside its contours, as the library takes it.
+ContourSet without_contours(const Structure& structure);
 
 /// The structure's contours as the library takes them, in the order they were made.
 ContourSet contour_set(const State& state, Id structure);

@@ -111,6 +111,8 @@ json to_json(const Structure& s) {
     if (s.smoothing) told["smoothing"] = *s.smoothing;
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
+    if (!s.interior.empty()) told["interior"] = to_json(s.interior);
+    if (!s.exterior.empty()) told["exterior"] = to_json(s.exterior);
     return told;
 }
 
@@ -220,8 +222,8 @@ std::vector<Plane> Members::planes(const char* key, std::size_t most) const {
 
 std::vector<SurfacePoint> Members::surface_points(const char* key) const {
     const json& array = at(key);
-    if (!array.is_array() || array.size() > kMostSurfacePoints)
-        refuse(fmt::format("'{}' is no array of at most {} points", key, kMostSurfacePoints));
+    if (!array.is_array() || array.size() > kMostSinglePoints)
+        refuse(fmt::format("'{}' is no array of at most {} points", key, kMostSinglePoints));
     std::vector<SurfacePoint> points;
     for (const json& item : array) {
         const Members point(item, limits_);
@@ -255,11 +257,13 @@ std::optional<double> Members::smoothing(const char* key) const {
 }
 
 Structure structure_from_json(const json& value) {
-    const Members m(value);
+    const Members m(value, kStoredLimits);
     Structure structure{m.id("id"), m.text("name", kMostNameBytes), m.color("color"), m.flag("visible")};
     if (m.has("empty_planes")) structure.empty_planes = m.planes("empty_planes");
     if (m.has("smoothing")) structure.smoothing = m.smoothing("smoothing");
     if (m.has("surface_points")) structure.surface_points = m.surface_points("surface_points");
+    if (m.has("interior")) structure.interior = m.points("interior");
+    if (m.has("exterior")) structure.exterior = m.points("exterior");
     return structure;
 }
 

@@ -46,7 +46,7 @@ nlohmann::json to_json(const ControlPoint& point);
 nlohmann::json to_json(const DrawnContour& contour);
 
 /// Of one structure.
-constexpr std::size_t kMostEmptyPlanes = 1000, kMostSurfacePoints = 1000;
+constexpr std::size_t kMostEmptyPlanes = 1000, kMostSinglePoints = 1000;
 Structure structure_from_json(const nlohmann::json& value);
 DrawnContour contour_from_json(const nlohmann::json& value, const Limits& limits = {});
 

@@ -32,6 +32,7 @@ class Members;
 struct ImportReply {
     std::vector<Id> structures;
     std::vector<std::string> doubts;
+    std::vector<std::string> notes;  ///< what was left out, or had to be decided
 };
 
 /// Of an open page; 0: of nobody.
@@ -137,9 +138,10 @@ private:
     nlohmann::json add_structure(const Members& m);
     nlohmann::json set_structure(const Members& m);
     nlohmann::json remove_structure(const Members& m);
-    nlohmann::json add_surface_point(const Members& m);
-    nlohmann::json move_surface_point(const Members& m);
-    nlohmann::json remove_surface_point(const Members& m);
+    nlohmann::json add_single_point(const Members& m);
+    nlohmann::json move_single_point(const Members& m);
+    nlohmann::json set_single_point(const Members& m);
+    nlohmann::json remove_single_point(const Members& m);
     nlohmann::json drop_draft(const Members& m);
     nlohmann::json undo(const Members& m);
     nlohmann::json redo(const Members& m);
@@ -154,7 +156,7 @@ private:
 
     /// Stores a new or changed contour, or only shows it when the call is a draft.
     nlohmann::json put(const std::string& label, DrawnContour contour, const Members& m);
-    nlohmann::json put_points(const std::string& label, const Structure& before, std::vector<SurfacePoint> points);
+    nlohmann::json put_points(const std::string& label, const Structure& after);
     nlohmann::json moved(const std::optional<Commit>& step);
     Commit new_structures(const std::string& label, const std::vector<ContourSet>& sets);
     void commit(const Commit& commit);

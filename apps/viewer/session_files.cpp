@@ -115,11 +115,10 @@ ImportReply Session::import(const std::string& bytes, const Upload& upload, cons
     work.check();
     if (!upload.anyway) {
         auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
-        if (!doubts.empty()) return {{}, std::move(doubts)};
+        if (!doubts.empty()) return {{}, std::move(doubts), {}};
     }
-    for (const std::string& note : imported.notes) notice("info", note);
     const bool is_mask = upload.content == Upload::Content::mask;
-    return {add_structures(is_mask ? "Import a mask" : "Import contours", imported.sets), {}};
+    return {add_structures(is_mask ? "Import a mask" : "Import contours", imported.sets), {}, imported.notes};
 }
 
 }  // namespace kontur::viewer

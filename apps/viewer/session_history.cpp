@@ -26,7 +26,8 @@ json changes_json(const std::vector<Change<Row>>& changes) {
 
 /// Whether both ask the same of the surface.
 bool same_surface(const Structure& a, const Structure& b) {
-    return a.empty_planes == b.empty_planes && a.smoothing == b.smoothing && a.surface_points == b.surface_points;
+    return a.empty_planes == b.empty_planes && a.smoothing == b.smoothing && a.surface_points == b.surface_points &&
+           a.interior == b.interior && a.exterior == b.exterior;
 }
 
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
@@ -135,9 +136,7 @@ SurfaceTask Session::surface_task(Id structure) const {
     task.structure = structure;
     const State& state = project_.state();
     if (const auto own = state.structures.find(structure); own != state.structures.end()) {
-        task.set.name = own->second.name;
-        task.set.empty_planes = own->second.empty_planes;
-        task.set.surface = own->second.surface_points;
+        task.set = without_contours(own->second);
         task.smoothing = own->second.smoothing;
     }
     const auto add = [&](const DrawnContour& contour) {

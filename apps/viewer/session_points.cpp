@@ -7,75 +7,129 @@
 #include "kontur/base/error.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
+#include "viewer/single_points.h"
 
-// Single points that a structure's surface passes. They are named by where they are: numbers would be others as soon as
-// another page has removed one.
+// Single points that a structure's surface passes, or that lie inside or outside of it. They are named by where they are:
+// numbers would be others as soon as another page has removed one.
 
 namespace kontur::viewer {
 namespace {
 
 using nlohmann::json;
-using Points = std::vector<SurfacePoint>;
+
+enum class PointKind { surface, interior, exterior };
+
+/// One of a structure's single points.
+struct FoundPoint {
+    PointKind kind = PointKind::surface;
+    std::ptrdiff_t index = 0;  ///< among those of its kind
+};
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
 
-Points::iterator point_at(Points& points, const Vec3& at) {
-    return std::find_if(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.position == at; });
+PointKind kind_of(const Members& m) {
+    const std::string word = m.has("kind") ? m.text("kind", 16) : "surface";
+    if (word == "interior") return PointKind::interior;
+    return word == "exterior" ? PointKind::exterior : PointKind::surface;
 }
 
-Points::iterator known_point(Points& points, const Vec3& at, const Structure& structure) {
-    const auto found = point_at(points, at);
-    if (found == points.end())
-        refuse(fmt::format("{} has no surface point at {:.6g}, {:.6g}, {:.6g}", structure.name, at.x, at.y, at.z));
-    return found;
+std::vector<Vec3>& side(Structure& structure, PointKind kind) {
+    return kind == PointKind::interior ? structure.interior : structure.exterior;
 }
 
-/// Contours that cannot be followed are told with the surface.
-void check_points(const ContourSet& set) {
-    if (const auto problems = set_problems(set); !problems.empty()) refuse(problems.front());
+std::optional<FoundPoint> find_point(Structure& structure, const Vec3& at) {
+    const auto& surface = structure.surface_points;
+    const auto on = std::find_if(surface.begin(), surface.end(), [&](const SurfacePoint& p) { return p.position == at; });
+    if (on != surface.end()) return FoundPoint{PointKind::surface, on - surface.begin()};
+    for (const PointKind kind : {PointKind::interior, PointKind::exterior}) {
+        const std::vector<Vec3>& points = side(structure, kind);
+        if (const auto found = std::find(points.begin(), points.end(), at); found != points.end())
+            return FoundPoint{kind, found - points.begin()};
+    }
+    return std::nullopt;
 }
 
-void check_is_new(Points& points, const Vec3& at, const Structure& structure) {
-    if (point_at(points, at) != points.end()) refuse(structure.name + " has a surface point there already");
+FoundPoint known_point(Structure& structure, const Vec3& at) {
+    const auto found = find_point(structure, at);
+    if (!found) refuse(fmt::format("{} has no point at {:.6g}, {:.6g}, {:.6g}", structure.name, at.x, at.y, at.z));
+    return *found;
+}
+
+void check_is_new(Structure& structure, const Vec3& at) {
+    if (find_point(structure, at)) refuse(structure.name + " has a point there already");
+}
+
+void append_point(Structure& structure, PointKind kind, const Vec3& at) {
+    if (kind == PointKind::surface) structure.surface_points.push_back({at, {}});
+    else side(structure, kind).push_back(at);
+}
+
+void erase_point(Structure& structure, const FoundPoint& point) {
+    if (point.kind == PointKind::surface) structure.surface_points.erase(structure.surface_points.begin() + point.index);
+    else side(structure, point.kind).erase(side(structure, point.kind).begin() + point.index);
+}
+
+std::string_view where(PointKind kind) {
+    if (kind == PointKind::interior) return "inside of";
+    return kind == PointKind::exterior ? "outside of" : "on";
 }
 
 }  // namespace
 
-json Session::put_points(const std::string& label, const Structure& before, Points points) {
-    Structure after = before;
-    after.surface_points = std::move(points);
-    commit({label + after.name, {{after.id, before, after}}, {}});
+void check_single_points(const ContourSet& set) {
+    const std::size_t count = set.surface.size() + set.interior.size() + set.exterior.size();
+    if (count > kMostSinglePoints)
+        throw Error(ErrorKind::too_large,
+                    fmt::format("{} has {} single points; the limit is {}", set.name, count, kMostSinglePoints));
+}
+
+json Session::put_points(const std::string& label, const Structure& after) {
+    ContourSet set = contour_set(project_.state(), after.id);
+    if (set.contours.empty()) refuse(after.name + " has no contour yet, and a point alone makes no surface");
+    ContourSet wanted = without_contours(after);
+    wanted.contours = std::move(set.contours);
+    check_single_points(wanted);
+    // Contours that cannot be followed are told with the surface.
+    if (const auto problems = set_problems(wanted); !problems.empty()) refuse(problems.front());
+    commit({label + " " + after.name, {{after.id, structure_of(project_.state(), after.id), after}}, {}});
     return {{"structure", to_json(after)}};
 }
 
-json Session::add_surface_point(const Members& m) {
-    const Structure structure = structure_of(project_.state(), m.id("structure"));
-    ContourSet set = contour_set(project_.state(), structure.id);
-    if (set.contours.empty()) refuse(structure.name + " has no contour yet, and a point alone makes no surface");
-    if (set.surface.size() >= kMostSurfacePoints)
-        refuse(fmt::format("{} has {} surface points; the limit is {}", structure.name, set.surface.size(),
-                           kMostSurfacePoints));
-    check_is_new(set.surface, m.point("at"), structure);
-    set.surface.push_back({m.point("at"), {}});
-    check_points(set);
-    return put_points("Point on ", structure, std::move(set.surface));
+json Session::add_single_point(const Members& m) {
+    Structure structure = structure_of(project_.state(), m.id("structure"));
+    check_is_new(structure, m.point("at"));
+    append_point(structure, kind_of(m), m.point("at"));
+    return put_points(fmt::format("Point {}", where(kind_of(m))), structure);
 }
 
-json Session::move_surface_point(const Members& m) {
-    const Structure structure = structure_of(project_.state(), m.id("structure"));
-    ContourSet set = contour_set(project_.state(), structure.id);
-    const auto moved = known_point(set.surface, m.point("at"), structure);
-    check_is_new(set.surface, m.point("to"), structure);
-    *moved = {m.point("to"), {}};  // which way is out was said of another place
-    check_points(set);
-    return put_points("Move a point on ", structure, std::move(set.surface));
+json Session::move_single_point(const Members& m) {
+    Structure structure = structure_of(project_.state(), m.id("structure"));
+    const auto [kind, index] = known_point(structure, m.point("at"));
+    check_is_new(structure, m.point("to"));
+    const auto i = static_cast<std::size_t>(index);
+    // Which way is out was said of another place.
+    if (kind == PointKind::surface) structure.surface_points[i] = {m.point("to"), {}};
+    else side(structure, kind)[i] = m.point("to");
+    return put_points(fmt::format("Move a point {}", where(kind)), structure);
 }
 
-json Session::remove_surface_point(const Members& m) {
-    const Structure structure = structure_of(project_.state(), m.id("structure"));
-    Points points = structure.surface_points;
-    points.erase(known_point(points, m.point("at"), structure));
-    return put_points("Remove a point on ", structure, std::move(points));
+json Session::set_single_point(const Members& m) {
+    Structure structure = structure_of(project_.state(), m.id("structure"));
+    const FoundPoint point = known_point(structure, m.point("at"));
+    if (point.kind == kind_of(m)) return {{"structure", to_json(structure)}};
+    erase_point(structure, point);
+    append_point(structure, kind_of(m), m.point("at"));
+    return put_points(fmt::format("Point {}", where(kind_of(m))), structure);
+}
+
+json Session::remove_single_point(const Members& m) {
+    Structure structure = structure_of(project_.state(), m.id("structure"));
+    const FoundPoint point = known_point(structure, m.point("at"));
+    erase_point(structure, point);
+    commit({fmt::format("Remove a point {} {}", where(point.kind), structure.name),
+            {{structure.id, structure_of(project_.state(), structure.id), structure}},
+            {}});
+    return {{"structure", to_json(structure)}};
 }
 
 }  // namespace kontur::viewer

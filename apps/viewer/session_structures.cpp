@@ -8,6 +8,7 @@
 #include "kontur/base/error.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
+#include "viewer/single_points.h"
 
 // Structures: made, named, imported, removed.
 
@@ -92,7 +93,10 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
         Structure structure{project_.new_id(), name_from(set.name), next_color(state), true, set.empty_planes};
+        check_single_points(set);
         structure.surface_points = set.surface;
+        structure.interior = set.interior;
+        structure.exterior = set.exterior;
         if (structure.name.empty()) structure.name = free_name(state);
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});

@@ -467,6 +467,26 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 422 and str(tmp_path) not in body.decode()
 
 
+def test_an_import_takes_points_along_and_tells_what_it_leaves_out(server):
+    page = server.page()
+    drawing = {**rings(30, 3, 20), "interior": [[0, 0, 31]], "exterior": [[20, 0, 31]], "surface": [[10, 0, 33]]}
+    drawing["planes"][0]["contours"][0].update(closed=False)
+    drawing["planes"][1]["contours"][0].update(end="flat")
+    status, _, body = server.request("POST", "/api/import/contours?name=a.json&anyway=1", json.dumps(drawing).encode())
+    assert status == 200, body
+    reply = json.loads(body)
+    assert reply["notes"] == [
+        "left out: 1 open line; the page draws closed contours only",
+        "left out: how the object ends at 1 contour, which the page does not keep",
+    ]
+    page.do("ping")
+    (imported,) = (page.structures[i] for i in reply["structures"])
+    assert (imported["interior"], imported["exterior"], imported["surface_points"]) == ([[0, 0, 31]], [[20, 0, 31]], [{"at": [10, 0, 33]}])
+    drawing["planes"] = drawing["planes"][:1]
+    status, _, body = server.request("POST", "/api/import/contours?name=a.json&anyway=1", json.dumps(drawing).encode())
+    assert status == 415 and "all its contours are open lines" in json.loads(body)["error"]["message"]
+
+
 def test_every_format_that_the_page_is_told_of_can_be_imported(server, tmp_path):
     """Files of each, by the command line's writers or, where it has none, by the tests' own."""
     page = server.page()

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
 
-// Single points that a structure's surface passes.
+// Single points that a structure's surface passes, or that lie inside or outside of it.
 
 namespace kontur::viewer {
 namespace {
@@ -101,12 +102,53 @@ TEST(SurfacePoints, OfAFileComeInWithItsContours) {
     EXPECT_LT(visit.off(kOut), 0.5);
 }
 
+TEST(SinglePoints, InsideAndOutsideBendTheSurfaceAndComeInWithAFile) {
+    Visit visit;
+    ContourSet set = ball();
+    set.interior = {{28, 28, 28}};  // 14 mm from the middle, where the ball is 10 mm wide
+    visit.id = visit.session->add_structures("Import", {set}).front();
+    const Vec3 edge{20 + 10 / std::sqrt(3.0), 20 + 10 / std::sqrt(3.0), 20 + 10 / std::sqrt(3.0)};
+    EXPECT_EQ(contour_set(visit.session->state(), visit.id).interior, set.interior);
+    EXPECT_GT(visit.off(edge), 2) << "the surface goes around the inner point";
+    visit.session.reset();
+    visit.session = visit.open();
+    EXPECT_EQ(structure_of(visit.session->state(), visit.id).interior, set.interior) << "kept";
+    EXPECT_EQ(json::parse(visit.session->exported("contours.json", visit.id).bytes)["interior"], to_json(set.interior));
+
+    const auto turn = [&](const char* kind) {
+        return visit.call({{"call", "point.set"}, {"structure", visit.id}, {"at", {28, 28, 28}}, {"kind", kind}});
+    };
+    const json turned = turn("exterior")["result"]["structure"];
+    EXPECT_EQ(turned.count("interior"), 0u);
+    EXPECT_EQ(turned["exterior"], json::parse("[[28, 28, 28]]"));
+    EXPECT_LT(visit.off(edge), 1.5) << "outside it is anyway";
+    EXPECT_EQ(turn("surface")["result"]["structure"]["surface_points"], json::parse(R"([{"at": [28, 28, 28]}])"));
+    EXPECT_LT(visit.off({28, 28, 28}), 0.5);
+    EXPECT_EQ(visit.call({{"call", "undo"}})["result"]["label"], "Point on Ball");
+    EXPECT_EQ(visit.call({{"call", "undo"}})["result"]["label"], "Point outside of Ball");
+    EXPECT_EQ(structure_of(visit.session->state(), visit.id).interior, set.interior);
+
+    visit.call({{"call", "point.move"}, {"structure", visit.id}, {"at", {28, 28, 28}}, {"to", {29, 28, 28}}});
+    EXPECT_EQ(structure_of(visit.session->state(), visit.id).interior, (std::vector<Vec3>{{29, 28, 28}}));
+    EXPECT_EQ(visit.call({{"call", "undo"}})["result"]["label"], "Move a point inside of Ball");
+    EXPECT_EQ(visit.point("point.add", {28, 28, 28})["error"]["message"], "Ball has a point there already");
+    EXPECT_EQ(visit.point("point.remove", {28, 28, 28})["result"]["structure"].count("interior"), 0u);
+}
+
+TEST(SinglePoints, OfAFileAreNoMoreThanAProjectKeeps) {
+    Visit visit;
+    ContourSet set = ball();
+    for (int i = 0; i < 1001; ++i) (i % 2 ? set.interior : set.exterior).push_back({0.01 * i, 5, 5});
+    EXPECT_KONTUR_ERROR(visit.session->add_structures("Import", {set}), ErrorKind::too_large,
+                        "Ball has 1001 single points; the limit is 1000");
+}
+
 TEST(SurfacePoints, WhatCannotBeDoneIsRefusedInOneSentence) {
     Visit visit;
     const auto refusal = [&](const char* what, const Vec3& at) { return visit.point(what, at)["error"]["message"]; };
-    EXPECT_EQ(refusal("point.remove", kOut), "Ball has no surface point at 30, 30, 30");
+    EXPECT_EQ(refusal("point.remove", kOut), "Ball has no point at 30, 30, 30");
     visit.point("point.add", kOut);
-    EXPECT_EQ(refusal("point.add", kOut), "Ball has a surface point there already");
+    EXPECT_EQ(refusal("point.add", kOut), "Ball has a point there already");
     EXPECT_EQ(refusal("point.add", {1e5, 0, 0}).get<std::string>().substr(0, 22), "surface point 2 lies 1");
     visit.id = visit.call({{"call", "structure.add"}, {"name", "New"}})["result"]["structure"]["id"];
     EXPECT_EQ(refusal("point.add", kOut), "New has no contour yet, and a point alone makes no surface");

@@ -147,7 +147,7 @@ export class App {
     const panel = new Panel({
       ...shared,
       points: this.editor.points,
-      call: (name, args) => this.editor.edits.make(name, args),
+      call: this.editor.make,
       identity: this.identity.element,
       time: new TimeCard(this.navigation, this.cine).element,
       secondImage: this.secondCard.element,
@@ -486,7 +486,7 @@ export class App {
 
   /** Esc: first what the pointer does, then the sketch, then the tool, then the selection. */
   private leave(): void {
-    if (this.inputs.some((input) => input.cancel())) return;
+    if ([...this.inputs, this.surface].some((input) => input.cancel())) return;
     if (this.editor.drawing.sketch) return this.editor.drawing.leave();
     if (this.editor.proposals.drop() || this.editor.leaveBegun()) return;
     if (this.editor.tool.id !== "edit") return this.editor.choose("edit");

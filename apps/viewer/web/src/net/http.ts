@@ -2,7 +2,7 @@
 import { BinaryReply } from "./binary";
 import { Link } from "./link";
 import type { CodedMesh } from "./mesh_code";
-import type { Comparison, Folder, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
+import type { Comparison, Folder, ImportReply, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
@@ -19,12 +19,6 @@ export class ServerError extends Error {
   ) {
     super(message);
   }
-}
-
-/** With doubts, nothing was imported. */
-export interface ImportReply {
-  structures: number[];
-  doubts: string[];
 }
 
 export interface MeshHeader extends CodedMesh {

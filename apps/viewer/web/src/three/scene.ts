@@ -17,6 +17,13 @@ export interface MeshData {
   colors?: Float32Array | undefined;
 }
 
+export interface ScenePoint {
+  at: Vec3;
+  color: string;
+  selected: boolean;
+  isOnSurface: boolean;
+}
+
 /** A surface, and the same with fewer triangles for when it must be drawn fast. */
 interface Shown {
   mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
@@ -203,11 +210,12 @@ export class Scene {
     this.pace.changed(true);
   }
 
-  /** Single points that surfaces pass: seen where the surface is. */
-  setPoints(points: readonly { at: Vec3; color: string; selected: boolean }[]): void {
+  /** Single points: those that surfaces pass are seen where the surface is, the others through it. */
+  setPoints(points: readonly ScenePoint[]): void {
     if (points.length === 0 && this.points.children.length === 0) return;
     this.clear(this.points);
-    for (const { at, color, selected } of points) this.points.add(ball(at, this.pointMaterial(selected ? "#ffffff" : tinted(color, 0.6))));
+    for (const { at, color, selected, isOnSurface } of points)
+      this.points.add(ball(at, this.pointMaterial(selected ? "#ffffff" : tinted(color, 0.6), isOnSurface)));
     this.pace.changed(true);
   }
 
@@ -253,13 +261,27 @@ export class Scene {
     this.pace.changed();
   }
 
-  /** Where a ray through this place of the canvas (0 to 1) meets a surface. */
-  pick(x: number, y: number): { structure: number; at: Vec3 } | null {
+  /** Where a ray through this place of the canvas, in pixels, meets a surface; `only`: that of one structure. */
+  pick(x: number, y: number, only?: number): { structure: number; at: Vec3 } | null {
+    return this.meets(this.rayThrough(x, y), only);
+  }
+
+  /** The place of the canvas, at the same distance from the viewer as another place. */
+  beside(p: Vec3, x: number, y: number): Vec3 {
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(vector(this.axes.back), vector(p));
+    return this.rayThrough(x, y).ray.intersectPlane(plane, new THREE.Vector3())?.toArray() ?? p;
+  }
+
+  private rayThrough(x: number, y: number): THREE.Raycaster {
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(new THREE.Vector2(2 * x - 1, 1 - 2 * y), this.camera);
+    ray.setFromCamera(new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
+    return ray;
+  }
+
+  private meets(ray: THREE.Raycaster, only?: number): { structure: number; at: Vec3 } | null {
     let nearest: { structure: number; at: Vec3; distance: number } | null = null;
     for (const [structure, { mesh, fine }] of this.surfaces) {
-      if (!mesh.visible) continue;
+      if (!mesh.visible || structure !== (only ?? structure)) continue;
       mesh.geometry = fine; // a rough one is millimetres off
       const hit = ray.intersectObject(mesh)[0];
       if (hit && hit.distance < (nearest?.distance ?? Infinity)) nearest = { structure, at: hit.point.toArray(), distance: hit.distance };
@@ -325,17 +347,42 @@ export class Scene {
 
   /** The mark that is nearest to this place of the canvas, in pixels, if that is within `reach`. */
   markAt(x: number, y: number, reach: number): Vec3 | null {
+    return this.nearestOf(this.marks.children, x, y, reach)?.position.toArray() ?? null;
+  }
+
+  /** The number of the point that is nearest to this place, as `setPoints` had it; none that a surface hides. */
+  pointAt(x: number, y: number, reach: number): number | null {
+    const all = this.points.children;
+    const found = this.nearestOf(
+      all.filter((point) => !this.isCovered(point)),
+      x,
+      y,
+      reach,
+    );
+    return found ? all.indexOf(found) : null;
+  }
+
+  private nearestOf(objects: readonly THREE.Object3D[], x: number, y: number, reach: number): THREE.Object3D | null {
     const seen = new THREE.Vector3();
     let nearest = reach;
-    let found: Vec3 | null = null;
-    for (const { position } of this.marks.children) {
-      seen.copy(position).project(this.camera);
+    let found: THREE.Object3D | null = null;
+    for (const object of objects) {
+      seen.copy(object.position).project(this.camera);
       const distance = Math.hypot(((seen.x + 1) / 2) * this.canvas.clientWidth - x, ((1 - seen.y) / 2) * this.canvas.clientHeight - y);
       if (distance > nearest) continue;
       nearest = distance;
-      found = position.toArray();
+      found = object;
     }
     return found;
+  }
+
+  /** Whether a surface that is no glass lies between the point and the viewer. */
+  private isCovered(point: THREE.Object3D): boolean {
+    const { material, position } = point as THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
+    if (!material.depthTest || ![...this.surfaces.values()].some(({ mesh }) => !mesh.material.transparent)) return false;
+    const back = vector(this.axes.back);
+    const start = position.clone().addScaledVector(back, MARK_PIXELS * this.mm_per_pixel);
+    return this.meets(new THREE.Raycaster(start, back)) !== null;
   }
 
   private clear(group: THREE.Group): void {
@@ -362,8 +409,8 @@ export class Scene {
     return this.material("mark", () => new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
   }
 
-  private pointMaterial(color: string): THREE.MeshBasicMaterial {
-    return this.material(`point ${color}`, () => new THREE.MeshBasicMaterial({ color }));
+  private pointMaterial(color: string, isOnSurface: boolean): THREE.MeshBasicMaterial {
+    return this.material(`point ${color} ${isOnSurface}`, () => new THREE.MeshBasicMaterial({ color, depthTest: isOnSurface, transparent: !isOnSurface }));
   }
 
   private imageBox(): THREE.LineSegments {

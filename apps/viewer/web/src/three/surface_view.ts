@@ -15,10 +15,11 @@ import { ICONS } from "../ui/icons";
 import { piece, render } from "../ui/pieces";
 import { PLANE_COLORS } from "../view/palette";
 import type { Editor } from "../tools/editor";
-import { CLICK_PIXELS } from "../tools/gesture";
+import type { SinglePoint } from "../tools/single_points";
 import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors } from "./band";
 import { OrientationCube, SIDES } from "./cube";
-import type { Scene } from "./scene";
+import type { Scene, ScenePoint } from "./scene";
+import { SurfaceInput } from "./surface_input";
 
 export interface SurfaceViewServices {
   navigation: Navigation;
@@ -33,13 +34,14 @@ export interface SurfaceViewServices {
 }
 
 const COMPARED_WITH_OPACITY = 0.2; // it may lie around the one that is looked at
-const REACH_PIXELS = { finger: 22, other: 9 };
 
 /** The pane of the 3D view. Without WebGL it says so, and the rest of the page works on. */
 export class SurfaceView {
   readonly element: HTMLElement;
   readonly header = el("div", { class: "pane-header" });
-  private readonly canvas = el("canvas", { class: "surface-canvas", on: { dblclick: (event) => this.pick(event) } });
+  private readonly canvas = el("canvas", { class: "surface-canvas" });
+  /** Listens before the controls of the scene, which turn the view. */
+  private readonly input: SurfaceInput;
   private readonly message = el("div", { class: "pane-message" });
   private readonly fetches = new Map<number, Latest<void>>();
   private readonly shownRevisions = new Map<number, number>();
@@ -61,6 +63,7 @@ export class SurfaceView {
   private opacity = 1;
 
   constructor(private readonly services: SurfaceViewServices) {
+    this.input = new SurfaceInput(this.canvas, services, () => this.scene);
     const look = el(
       "div",
       { class: "look-from" },
@@ -95,7 +98,6 @@ export class SurfaceView {
       this.cube.element,
     );
     this.cube.element.hidden = true;
-    this.watchClicks();
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
@@ -147,11 +149,13 @@ export class SurfaceView {
 
   pointsChanged(): void {
     const { editor, project } = this.services;
-    this.scene?.setPoints(
-      editor.points
-        .shown()
-        .map((point) => ({ at: point.at, color: project.structures.get(point.structure)!.color, selected: editor.points.isSelected(point) })),
-    );
+    const seen = (point: SinglePoint): ScenePoint => ({
+      at: point.at,
+      color: project.structures.get(point.structure)!.color,
+      selected: editor.points.isSelected(point),
+      isOnSurface: point.kind === "surface",
+    });
+    this.scene?.setPoints(editor.points.shown().map(seen));
   }
 
   /** Fetches meshes that are newer than those shown. */
@@ -282,42 +286,6 @@ export class SurfaceView {
     this.bar.style.width = `${pixels}px`;
   }
 
-  /** A click on a mark goes to the place; elsewhere on a surface it is the tool's. */
-  private watchClicks(): void {
-    let pressed: PointerEvent | null = null;
-    const isStill = (event: PointerEvent) =>
-      pressed?.pointerId === event.pointerId && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < CLICK_PIXELS;
-    this.canvas.addEventListener("pointerdown", (event) => {
-      pressed = event.isPrimary && event.button === 0 ? event : null;
-    });
-    this.canvas.addEventListener("pointermove", (event) => {
-      if (pressed && !isStill(event)) pressed = null; // it turns the view, even if it comes back
-      if (event.buttons === 0) this.canvas.style.cursor = this.markBelow(event) ? "pointer" : this.services.editor.tool.clickSurface ? "crosshair" : "";
-    });
-    this.canvas.addEventListener("pointerup", (event) => {
-      if (isStill(event)) this.click(event);
-      pressed = null;
-    });
-  }
-
-  private click(event: PointerEvent): void {
-    const { editor } = this.services;
-    const mark = this.markBelow(event);
-    if (mark) return this.services.goTo(mark);
-    const hit = editor.tool.clickSurface && !editor.isBare && !editor.mayNotEdit() ? this.surfaceBelow(event) : null;
-    if (hit) editor.tool.clickSurface!(editor, { ...hit, reach_mm: reachOf(event) * this.scene!.mm_per_pixel });
-  }
-
-  private markBelow(event: PointerEvent): Vec3 | null {
-    const box = this.canvas.getBoundingClientRect();
-    return this.scene?.markAt(event.clientX - box.left, event.clientY - box.top, reachOf(event)) ?? null;
-  }
-
-  private surfaceBelow(event: MouseEvent): { structure: number; at: Vec3 } | null {
-    const box = this.canvas.getBoundingClientRect();
-    return this.scene?.pick((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height) ?? null;
-  }
-
   private showHint(): void {
     if (!this.scene) return;
     const hasSurface = [...this.services.project.surfaces.values()].some((surface) => surface.stage !== "none");
@@ -335,9 +303,9 @@ export class SurfaceView {
     this.restyle();
   }
 
-  private pick(event: MouseEvent): void {
-    const hit = this.surfaceBelow(event);
-    if (hit) this.services.goTo(hit.at);
+  /** Leaves what the pointer is doing; false when it is doing nothing. */
+  cancel(): boolean {
+    return this.input.cancel();
   }
 
   private resized(): void {
@@ -345,8 +313,6 @@ export class SurfaceView {
     this.scene?.resize(box.width, box.height);
   }
 }
-
-const reachOf = ({ pointerType }: PointerEvent): number => (pointerType === "touch" ? REACH_PIXELS.finger : REACH_PIXELS.other);
 
 function hasWebGl(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");

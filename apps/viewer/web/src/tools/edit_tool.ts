@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { onSlice } from "./single_points";
 import { usualCursor, type Tool } from "./tool";
 
 const SELECTED = "Drag points or the line · Ctrl + click inserts · Del deletes · C proposes the next slice";
@@ -24,13 +25,14 @@ export const editTool: Tool<"edit"> = {
     ],
   },
   movesPlanes: true,
+  grabsPoints: true,
   looksAround: true,
   hint: ({ project }, hover) => (hover && "outline" in hover ? OUTLINE : project.selection ? SELECTED : LOOKING),
   press: ({ edits, navigation, outlines, planeLines, points }, place, modifiers) => {
     const { view, screen, pointer, hit } = place;
     if (navigation.isAway) return planeLines.press(view, screen, pointer);
     const point = points.at(place);
-    if (point) return points.grab(screen, pointer, point);
+    if (point) return points.grab(onSlice(screen), pointer, point);
     if (hit) return edits.press(screen, pointer, hit, modifiers);
     const isHandle = planeLines.at(view, screen, pointer)?.on === "turn";
     return (isHandle ? null : outlines.press(view, screen, pointer)) ?? planeLines.press(view, screen, pointer);

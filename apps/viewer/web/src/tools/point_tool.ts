@@ -8,9 +8,13 @@ export const pointTool: Tool<"point"> = {
   title: "Click where the surface has to pass, on a slice or on the surface in 3D; points can be dragged, Del removes",
   icon: "M10 10.500v.01M3 15c2-7 4-9 7-4.500S15 8 17 4M7 10.500a3 3 0 1 0 6 0 3 3 0 1 0-6 0",
   isMinor: true,
+  grabsPoints: true,
   help: {
-    Edit: [["Q, click", "set a point that the surface passes; drag it, Del removes it"]],
-    "3D": [["Q, click on the surface", "keep the surface here: set a point that it passes"]],
+    Edit: [["Q, click", "set a point that the surface passes; drag it, Del removes it; in the list: whether it lies inside or outside instead"]],
+    "3D": [
+      ["Q, click on the surface", "keep the surface here: set a point that it passes"],
+      ["Drag a point", "move it along the surface"],
+    ],
   },
   hint: ({ points, project }, hover) => {
     if (hover && "point" in hover) return "Drag the point to where the surface belongs, on this slice";

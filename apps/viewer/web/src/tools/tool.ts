@@ -14,7 +14,7 @@ import type { Place } from "./place";
 import type { PlaneLines } from "./plane_lines";
 import type { Pushing } from "./pushing";
 import type { Sketch } from "./sketch";
-import type { PointOfSurface, SurfacePlace, SurfacePoints } from "./surface_points";
+import type { SinglePoint, SurfacePlace, SinglePoints } from "./single_points";
 
 /** What a tool works with. */
 export interface ToolContext {
@@ -25,7 +25,7 @@ export interface ToolContext {
   outlines: OutlineEdits;
   planeLines: PlaneLines;
   pushing: Pushing;
-  points: SurfacePoints;
+  points: SinglePoints;
   measuring: Measuring;
 }
 
@@ -34,7 +34,7 @@ export type Hover =
   | { contour: ContourHit; view: ViewName }
   | { line: LineHit; view: ViewName }
   | { outline: OutlineHit; view: ViewName }
-  | { point: PointOfSurface; view: ViewName }
+  | { point: SinglePoint; view: ViewName }
   | { brush: Point2; view: ViewName }
   | { measure: boolean; at: Point2; view: ViewName }
   | null;
@@ -62,6 +62,8 @@ export interface Tool<Id extends string = string> {
   readonly stretch?: StretchKind;
   /** It takes the lines of other planes: they are bright, and have handles. */
   readonly movesPlanes?: boolean;
+  /** It takes single points by the hand, on slices and in 3D. */
+  readonly grabsPoints?: boolean;
   /** It may be used where another time is seen than the one that contours belong to. */
   readonly looksAround?: boolean;
   /** Whether it is the tool to go on with this sketch. */

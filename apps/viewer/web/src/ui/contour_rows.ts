@@ -5,7 +5,7 @@ import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { Contour, Structure, ViewName } from "../net/protocol";
-import type { SurfacePoints } from "../tools/surface_points";
+import type { SinglePoints } from "../tools/single_points";
 import { PLANE_COLORS } from "../view/palette";
 import { placeOf, type InPlane } from "./contour_names";
 import { buttonPiece, eye } from "./dom";
@@ -16,7 +16,7 @@ export interface RowServices {
   navigation: Navigation;
   project: Project;
   call: Maker;
-  points: SurfacePoints;
+  points: SinglePoints;
   goTo(p: Vec3): void;
   /** Shows the contour's plane in the view that looks its way, or else in the oblique one. */
   show(contour: InPlane): void;

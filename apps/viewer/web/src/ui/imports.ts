@@ -72,13 +72,19 @@ async function send(what: "contours" | "mask", file: File, options: Record<strin
   const abort = new AbortController();
   const done = services.working(`Importing ${file.name} …`, () => abort.abort());
   try {
-    const { structures, doubts } = await services.http.import(what, file, options, abort.signal);
+    const { structures, doubts, notes } = await services.http.import(what, file, options, abort.signal);
     if (doubts.length === 0) services.imported(file.name, structures);
-    else askDespite(doubts, file.name, () => void send(what, file, { ...options, anyway: "1" }, services));
+    if (notes.length > 0) tellNotes(file.name, notes);
+    if (doubts.length > 0) askDespite(doubts, file.name, () => void send(what, file, { ...options, anyway: "1" }, services));
   } catch (error) {
     if (!abort.signal.aborted) services.failed(error);
   }
   done();
+}
+
+/** What was left out of a file, or had to be decided: in a dialog, for notices go by themselves, and of many only the last ones are seen. */
+function tellNotes(file: string, notes: readonly string[]): void {
+  openDialog(`What became of ${file}`, "import-notes", el("ul", { class: "import-notes" }, ...notes.map((note) => el("li", {}, note))));
 }
 
 /** Nothing has been imported yet: what lies elsewhere may be another patient's. */

@@ -7,7 +7,7 @@ import { buttonPiece, el, eye } from "./dom";
 import { emptyPlaneRows } from "./empty_planes";
 import { ICONS } from "./icons";
 import { piece, render, type Piece } from "./pieces";
-import { surfacePointRows } from "./surface_points";
+import { singlePointRows } from "./single_points";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye
 
@@ -106,7 +106,7 @@ export class StructureList {
     return [
       ...this.rows.rowsOf(structure, this.contoursOf(structure)),
       ...emptyPlaneRows(structure, this.services),
-      ...surfacePointRows(structure, this.services),
+      ...singlePointRows(structure, this.services),
     ];
   }
 

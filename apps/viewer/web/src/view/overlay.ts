@@ -4,8 +4,9 @@ import { scaleBar } from "../geometry/scale_bar";
 import type { PixelPlane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
-import type { Contour, LineRun, SliceHeader } from "../net/protocol";
+import type { Contour, LineRun, PointKind, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
+import type { SinglePoint } from "../tools/single_points";
 import type { Outline } from "./outlines";
 import { PLANE_COLORS, tinted, withAlpha } from "./palette";
 
@@ -14,6 +15,24 @@ const INK = "#e8edf2";
 const MEASURED = "#f0e442";
 
 const USUAL_FONT_PIXELS = 13;
+
+/** A quarter of a plus, which is turned for the others. */
+const QUARTER: readonly Point2[] = [
+  [0.5, 0.5],
+  [0.5, 1.6],
+  [-0.5, 1.6],
+];
+const turned = ([x, y]: Point2, quarters: number): Point2 => (quarters === 0 ? [x, y] : turned([-y, x], quarters - 1));
+const POINT_SHAPES: Record<PointKind, readonly Point2[]> = {
+  surface: [0, 1, 2, 3].map((quarters) => turned([1, 1], quarters)),
+  interior: [0, 1, 2, 3].flatMap((quarters) => QUARTER.map((corner) => turned(corner, quarters))),
+  exterior: [
+    [-1.6, -0.5],
+    [1.6, -0.5],
+    [1.6, 0.5],
+    [-1.6, 0.5],
+  ],
+};
 
 /** Draws vectors over a slice, in CSS pixels of `screen`; lines and marks grow with the letters. */
 export class OverlayPainter {
@@ -71,12 +90,13 @@ export class OverlayPainter {
     contour.control.forEach(({ at }, i) => this.handle(toScreen(this.screen, at), i === state.point, i === state.hoveredPoint, color));
   }
 
-  /** A single point that a surface passes: square, unlike the points of lines. */
-  surfacePoint(at: Vec3, color: string, state: { selected: boolean; hovered: boolean }): void {
+  /** A single point: a square where the surface passes it, unlike the points of lines; a plus inside, a minus outside. */
+  singlePoint({ at, kind }: SinglePoint, color: string, state: { selected: boolean; hovered: boolean }): void {
     const [x, y] = toScreen(this.screen, at);
     const r = this.scale * (state.selected || state.hovered ? 5.2 : 4);
     const path = new Path2D();
-    path.rect(x - r, y - r, 2 * r, 2 * r);
+    for (const [right, down] of POINT_SHAPES[kind]) path.lineTo(x + right * r, y + down * r);
+    path.closePath();
     this.ctx.lineJoin = "miter";
     this.stroke(path, SHADE, 4.4);
     this.ctx.fillStyle = state.selected ? "#ffffff" : color;

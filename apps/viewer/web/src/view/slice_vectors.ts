@@ -104,7 +104,7 @@ export class SliceVectors {
     const { editor, navigation, project } = this.services;
     const hover = editor.hover && "point" in editor.hover && editor.hover.view === this.name ? editor.hover.point : null;
     for (const point of editor.points.lyingIn(screen, navigation.step(this.name)))
-      painter.surfacePoint(point.at, project.structures.get(point.structure)?.color ?? "#888888", {
+      painter.singlePoint(point, project.structures.get(point.structure)?.color ?? "#888888", {
         selected: editor.points.isSelected(point),
         hovered: hover?.at === point.at,
       });

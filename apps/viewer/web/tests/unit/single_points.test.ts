@@ -39,7 +39,7 @@ test("a point is dragged with Point and with Edit, and a press alone leaves it w
   for (const tool of ["point", "edit"] as const) {
     const { points, drag, edits, seen } = withPoints(tool, [30, 0, 0.4], [0, 30, 0]);
     drag([260, 200], [261, 200]);
-    assert.deepEqual([edits(), points.selected], [[], { structure: 1, at: [30, 0, 0.4] }]);
+    assert.deepEqual([edits(), points.selected], [[], { structure: 1, kind: "surface", at: [30, 0, 0.4] }]);
     drag([260, 200], [280, 200], [300, 220]);
     assert.deepEqual(edits(), [{ name: "point.move", args: { structure: 1, at: [30, 0, 0.4], to: [50, 10, 0] } }]);
     assert.deepEqual(

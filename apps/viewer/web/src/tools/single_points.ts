@@ -3,6 +3,7 @@ import { depthBelow, gap, toScreen, toWorld, type Point2, type Screen } from "..
 import { distance, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Project } from "../model/project";
+import type { PointKind, Structure } from "../net/protocol";
 import type { ContourEdits } from "./contour_edits";
 import { CLICK_PIXELS, DRAG_PIXELS, type Gesture } from "./gesture";
 import type { Place } from "./place";
@@ -11,22 +12,40 @@ import { isHidden } from "./sight";
 
 const POINT_PIXELS = 8;
 
-/** A single point that the structure's surface passes. */
-export interface PointOfSurface {
+/** A single point of a structure: its surface passes it, or it lies inside or outside. */
+export interface SinglePoint {
   structure: number;
+  kind: PointKind;
   at: Vec3;
 }
 
+/** Where the hand has a point, by where the pointer is; null where that is no place for it. */
+export type PlaceOf = (pointer: Point2) => Vec3 | null;
+
 /** Where a click in the 3D view met a structure's surface, and how large a click is there. */
-export interface SurfacePlace extends PointOfSurface {
+export interface SurfacePlace {
+  structure: number;
+  at: Vec3;
   reach_mm: number;
 }
 
-/** Sets, moves and removes single points of surfaces. */
-export class SurfacePoints extends Emitter<"points"> {
-  private chosen: PointOfSurface | null = null;
-  /** One under the hand, or on its way to the server; `from`: where it was, if it was. */
-  private held: (PointOfSurface & { from: Vec3 | null }) | null = null;
+/** `from`: where it was, if it was. */
+interface Held extends SinglePoint {
+  from: Vec3 | null;
+}
+
+/** In the order of the list. */
+export const pointsOf = ({ id: structure, surface_points = [], interior = [], exterior = [] }: Structure): SinglePoint[] => [
+  ...surface_points.map(({ at }): SinglePoint => ({ structure, kind: "surface", at })),
+  ...interior.map((at): SinglePoint => ({ structure, kind: "interior", at })),
+  ...exterior.map((at): SinglePoint => ({ structure, kind: "exterior", at })),
+];
+
+/** Sets, moves and removes single points of structures. */
+export class SinglePoints extends Emitter<"points"> {
+  private chosen: SinglePoint | null = null;
+  /** One under the hand, or on its way to the server. */
+  private held: Held | null = null;
 
   constructor(
     private readonly project: Project,
@@ -41,24 +60,22 @@ export class SurfacePoints extends Emitter<"points"> {
   }
 
   /** Of structures that are seen, each where the hand has it. */
-  shown(): PointOfSurface[] {
+  shown(): SinglePoint[] {
     const { held } = this;
-    const stored = [...this.project.structures.values()]
-      .filter(({ visible }) => visible)
-      .flatMap(({ id, surface_points = [] }) => surface_points.map(({ at }): PointOfSurface => ({ structure: id, at })));
+    const stored = [...this.project.structures.values()].filter(({ visible }) => visible).flatMap(pointsOf);
     if (!held) return stored;
     return [...stored.filter(({ structure, at }) => structure !== held.structure || !isSame(at, held.from)), held];
   }
 
-  get selected(): PointOfSurface | null {
+  get selected(): SinglePoint | null {
     return this.shown().find((point) => this.isSelected(point)) ?? null;
   }
 
-  isSelected({ structure, at }: PointOfSurface): boolean {
+  isSelected({ structure, at }: SinglePoint): boolean {
     return this.chosen?.structure === structure && isSame(at, this.chosen.at);
   }
 
-  select(point: PointOfSurface): void {
+  select(point: SinglePoint): void {
     this.project.select(null);
     this.project.activate(point.structure);
     this.choose(point);
@@ -72,11 +89,11 @@ export class SurfacePoints extends Emitter<"points"> {
   }
 
   /** Those that lie in the slice. */
-  lyingIn(screen: Screen, step_mm: number): PointOfSurface[] {
+  lyingIn(screen: Screen, step_mm: number): SinglePoint[] {
     return this.shown().filter(({ at }) => Math.abs(depthBelow(screen, at)) < step_mm / 2);
   }
 
-  at({ screen, step_mm, pointer }: Place): PointOfSurface | null {
+  at({ screen, step_mm, pointer }: Place): SinglePoint | null {
     const reach = POINT_PIXELS * (screen.reach ?? 1);
     return this.lyingIn(screen, step_mm).find(({ at }) => gap(toScreen(screen, at), pointer) < reach) ?? null;
   }
@@ -84,17 +101,18 @@ export class SurfacePoints extends Emitter<"points"> {
   /** Sets a point of the active structure, which the hand may still move until it lets go; or takes one that is there. */
   press(place: Place): Gesture | null {
     const grabbed = this.at(place);
-    if (grabbed) return this.grab(place.screen, place.pointer, grabbed);
+    if (grabbed) return this.grab(onSlice(place.screen), place.pointer, grabbed);
     const structure = this.project.activeStructure?.id;
     if (structure === undefined || !this.takesPoints(structure)) return null;
-    return this.gesture(place.screen, place.pointer, { structure, from: null }, 0, (at) => this.add({ structure, at }));
+    return this.gesture(onSlice(place.screen), place.pointer, { structure, kind: "surface", from: null }, 0, (at) => this.add(structure, at));
   }
 
-  grab(screen: Screen, pointer: Point2, point: PointOfSurface): Gesture {
+  /** `placeOf`: on a slice, or in space. */
+  grab(placeOf: PlaceOf, pointer: Point2, point: SinglePoint): Gesture {
     this.select(point);
-    const { structure, at: from } = point;
-    return this.gesture(screen, pointer, { structure, from }, DRAG_PIXELS, (to) => {
-      this.choose({ structure, at: to });
+    const { structure, kind, at: from } = point;
+    return this.gesture(placeOf, pointer, { structure, kind, from }, DRAG_PIXELS, (to) => {
+      this.choose({ structure, kind, at: to });
       this.edits.make("point.move", { structure, at: from, to });
     });
   }
@@ -102,24 +120,21 @@ export class SurfacePoints extends Emitter<"points"> {
   clickSurface({ structure, at, reach_mm }: SurfacePlace): void {
     const there = this.shown().find((point) => point.structure === structure && distance(point.at, at) < reach_mm);
     if (there) this.select(there);
-    else if (this.takesPoints(structure)) this.add({ structure, at });
+    else if (this.takesPoints(structure)) this.add(structure, at);
   }
 
   /** False where none is selected. */
   removeSelected(): boolean {
     const { selected } = this;
-    if (selected) this.remove(selected);
+    if (selected) this.edits.make("point.remove", { structure: selected.structure, at: selected.at });
     return selected !== null;
   }
 
-  remove({ structure, at }: PointOfSurface): void {
-    this.edits.make("point.remove", { structure, at });
-  }
-
-  private add(point: PointOfSurface): void {
+  private add(structure: number, at: Vec3): void {
+    const point: SinglePoint = { structure, kind: "surface", at };
     this.select(point);
     this.hold({ ...point, from: null });
-    this.edits.make("point.add", { ...point });
+    this.edits.make("point.add", { structure, at });
   }
 
   private takesPoints(structure: number): boolean {
@@ -130,35 +145,43 @@ export class SurfacePoints extends Emitter<"points"> {
   }
 
   /** A press that moves less than `slack` pixels from a point leaves it where it is. */
-  private gesture(screen: Screen, start: Point2, of: { structure: number; from: Vec3 | null }, slack: number, make: (at: Vec3) => void): Gesture {
+  private gesture(placeOf: PlaceOf, start: Point2, of: Omit<Held, "at">, slack: number, make: (at: Vec3) => void): Gesture {
     let isMoved = slack === 0;
+    let at: Vec3 | null = null;
     const follow = (to: Point2) => {
       isMoved ||= gap(to, start) > slack;
+      if (!isMoved) return;
       // A click is where it began, not where a hand that was not quite still has let go.
-      if (isMoved) this.hold({ ...of, at: toWorld(screen, gap(to, start) > CLICK_PIXELS ? to : start) });
+      at = placeOf(gap(to, start) > CLICK_PIXELS ? to : start) ?? at;
+      if (at) this.hold({ ...of, at });
     };
     if (isMoved) follow(start);
     return {
       move: follow,
       end: (to) => {
         follow(to);
-        if (isMoved) make(this.held!.at);
+        if (at) make(at);
       },
       cancel: () => this.hold(null),
     };
   }
 
-  private choose(point: PointOfSurface | null): void {
+  private choose(point: SinglePoint | null): void {
     if (this.chosen === point) return;
     this.chosen = point;
     this.emit("points");
   }
 
-  private hold(held: (PointOfSurface & { from: Vec3 | null }) | null): void {
+  private hold(held: Held | null): void {
     if (this.held === held) return;
     this.held = held;
     this.emit("points");
   }
 }
+
+export const onSlice =
+  (screen: Screen): PlaceOf =>
+  (pointer) =>
+    toWorld(screen, pointer);
 
 const isSame = (a: Vec3, b: Vec3 | null): boolean => b !== null && a.every((value, axis) => value === b[axis]);

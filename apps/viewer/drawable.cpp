@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/drawable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kontur/base/error.h"
+
+namespace kontur::viewer {
+namespace {
+
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::vector<std::string> leave_out_undrawable(ContourSet& set) {
+    std::vector<std::string> notes;
+    const std::size_t open = std::erase_if(set.contours, [](const Contour& contour) { return !contour.closed; });
+    if (open > 0)
+        notes.push_back(fmt::format("left out: {}; the page draws closed contours only", counted(open, "open line")));
+    std::size_t ends = 0, weights = 0;
+    for (Contour& contour : set.contours) {
+        ends += contour.end != ContourEnd::automatic;
+        weights += contour.weight != 1;
+        contour.end = ContourEnd::automatic;
+        contour.weight = 1;
+    }
+    if (ends > 0)
+        notes.push_back(
+            fmt::format("left out: how the object ends at {}, which the page does not keep", counted(ends, "contour")));
+    if (weights > 0)
+        notes.push_back(fmt::format("left out: the {}, which the page does not keep; every contour counts as 1",
+                                    weights == 1 ? "weight of a contour" : fmt::format("weights of {} contours", weights)));
+    return notes;
+}
+
+void check_is_drawable(const ContourSet& set) {
+    if (set.contours.empty())
+        throw Error(ErrorKind::unsupported, "all its contours are open lines, and the page draws closed contours only");
+}
+
+}  // namespace kontur::viewer

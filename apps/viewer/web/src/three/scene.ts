@@ -197,7 +197,7 @@ export class Scene {
       const rim = new THREE.BufferGeometry().setFromPoints(points);
       this.planes.add(
         new THREE.Mesh(sheet, this.glassMaterial(color)),
-        new THREE.LineLoop(rim, this.lineMaterial(this.ground === "light" ? tinted(color, -0.25) : color, this.ground === "light" ? 0.7 : 0.4)),
+        new THREE.LineLoop(rim, this.ground === "light" ? this.lineMaterial(tinted(color, -0.25), 0.7) : this.lineMaterial(color, 0.4)),
       );
     }
     this.pace.changed(true);

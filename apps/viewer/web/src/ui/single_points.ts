@@ -7,7 +7,7 @@ import { ICONS } from "./icons";
 import { piece, type Piece } from "./pieces";
 import { placeText } from "./values";
 
-const LABELS: Record<PointKind, string> = { surface: "on the surface", interior: "inside", exterior: "outside" };
+const LABELS: Record<PointKind, string> = { surface: "surface", interior: "inside", exterior: "outside" };
 /** As warnings of the surface call them, by their numbers. */
 const NAMES: Record<PointKind, string> = { surface: "Surface", interior: "Interior", exterior: "Exterior" };
 
@@ -24,8 +24,8 @@ export function singlePointRows(structure: Structure, { call, points, goTo }: Ro
     };
     const go = buttonPiece({
       label: placeText(at),
-      title: `Show ${name.toLowerCase()}`,
-      class: "contour-plane",
+      title: `Show ${name.toLowerCase()}: ${placeText(at)}`,
+      class: "contour-plane point-place",
       part: `point-${i}`,
       click: show,
       more: { "aria-pressed": isSelected },

@@ -145,15 +145,17 @@ describe("an image of several frames", () => {
     assert.equal(await page.isChecked(".contour-actions input[type=checkbox]"), false, "the box shows again what is");
     assert.equal(await page.locator("[data-test=smoothing]").inputValue(), smoothing);
     await viewer.waitForStep("undo", "Draw a contour");
-    await row.hover();
-    await row.locator("[data-part=eye]").click(); // looks change nothing that is drawn
-    await row.locator("[data-part=eye][title=Show]").click();
-    await row.locator("[data-part=eye][title=Hide]").waitFor();
-    await viewer.waitForStep("undo", "Show or hide");
     await page.keyboard.press(",");
     await page.locator(".hint", { hasText: "A proposal" }).waitFor();
     await page.keyboard.press("Enter");
     await viewer.waitForContours(2);
+    await page.keyboard.press(".");
+    await row.first().hover();
+    await row.first().locator("[data-part=eye]").click(); // looks change nothing that is drawn
+    await viewer.waitForStep("undo", "Show or hide");
+    await page.keyboard.press(",");
+    await page.keyboard.press("Control+z");
+    await row.first().locator("[data-part=eye][title=Hide]").waitFor();
   });
 
   test("has a second image of as many frames beside it that moves in time with it", async () => {

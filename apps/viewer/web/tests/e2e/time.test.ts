@@ -149,13 +149,6 @@ describe("an image of several frames", () => {
     await page.locator(".hint", { hasText: "A proposal" }).waitFor();
     await page.keyboard.press("Enter");
     await viewer.waitForContours(2);
-    await page.keyboard.press(".");
-    await row.first().hover();
-    await row.first().locator("[data-part=eye]").click(); // looks change nothing that is drawn
-    await viewer.waitForStep("undo", "Show or hide");
-    await page.keyboard.press(",");
-    await page.keyboard.press("Control+z");
-    await row.first().locator("[data-part=eye][title=Hide]").waitFor();
   });
 
   test("has a second image of as many frames beside it that moves in time with it", async () => {

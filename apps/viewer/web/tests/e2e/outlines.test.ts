@@ -109,7 +109,7 @@ describe("a computed outline", () => {
     await viewer.surfaceShown();
     await viewer.saved();
     assert.equal(await viewer.contours(), 2);
-    assert.equal(await viewer.volume(), volume);
+    assert.ok(Math.abs((await viewer.volume()) - volume) <= 1, "the same, told in whole ml");
   });
 
   test("is made a contour as it is by A, under the pointer; the next A says that it is drawn already", async () => {

@@ -344,6 +344,7 @@ export class Viewer {
     );
     await field.click();
     assert.equal(await this.page.evaluate(() => document.body.dataset["clicked"]), "through", "the click opens the colour picker");
+    await this.page.keyboard.press("Escape"); // it has the keyboard as long as it is open
     await field.evaluate((input: HTMLInputElement, chosen) => {
       input.value = chosen;
       for (const type of ["input", "change"]) input.dispatchEvent(new Event(type, { bubbles: true }));

@@ -117,7 +117,13 @@ export class StructureList {
       value: color,
       title: `Colour of ${name}`,
       class: "color",
-      on: { change: ({ currentTarget }) => this.services.call("structure.set", { id, color: currentTarget.value }), blur: () => this.refresh() },
+      on: {
+        change: ({ currentTarget }) => {
+          this.services.call("structure.set", { id, color: currentTarget.value });
+          currentTarget.blur(); // the tools have the keys again, and what is refused is shown as it is
+        },
+        blur: () => this.refresh(),
+      },
     });
   }
 

@@ -125,11 +125,11 @@ void describe_thinness(const ContourSet& contours, const Grid& grid, std::vector
 
 /// Where a contour has few points, the surface may leave the line between them.
 void describe_long_edges(const StageResults& results, const Work& work, std::vector<std::string>& warnings) {
-    constexpr double kLong = 0.02, kFar = 0.01;  // of the drawing's diameter
+    constexpr double kShare = 0.02;  // of the drawing's diameter
     const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
     const double diameter = drawing.diameter_mm();
-    const Residual between = residual_between_points(fitted.function, drawing.contours, kLong * diameter, work);
-    if (between.max_mm > kFar * diameter)
+    const Residual between = residual_between_points(fitted.function, drawing.contours, kShare * diameter, work);
+    if (between.max_mm > kShare * diameter)
         warnings.push_back(fmt::format(
             "the surface leaves contour {} by {:.2g} mm between its points; with more points it follows the line",
             between.worst_contour + 1, between.max_mm));

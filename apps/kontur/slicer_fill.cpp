@@ -58,62 +58,12 @@ constexpr const char* kParameters = R"(  <parameters>
       <element>half</element>
       <element>open</element>
     </string-enumeration>
-    <double>
-      <name>shapeWeight</name>
-      <label>Shape weight</label>
-      <longflag>--shape_weight</longflag>
-      <description><![CDATA[Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone]]></description>
-      <default>{shape_weight}</default>
-      <constraints>
-        <minimum>0</minimum>
-        <maximum>1</maximum>
-        <step>0.1</step>
-      </constraints>
-    </double>
-    <double>
-      <name>smoothingVoxels</name>
-      <label>Smoothing (voxels)</label>
-      <longflag>--smoothing_voxels</longflag>
-      <description><![CDATA[Smoothing of the painted outlines, standard deviation]]></description>
-      <default>{smoothing_voxels}</default>
-      <constraints>
-        <minimum>0</minimum>
-        <maximum>5</maximum>
-        <step>0.1</step>
-      </constraints>
-    </double>
-    <integer>
-      <name>threads</name>
-      <label>Threads</label>
-      <longflag>--threads</longflag>
-      <description><![CDATA[0: as many as the machine has]]></description>
-      <default>{threads}</default>
-      <constraints>
-        <minimum>0</minimum>
-        <maximum>256</maximum>
-        <step>1</step>
-      </constraints>
-    </integer>
-  </parameters>
-  <parameters>
-    <label>Result</label>
-    <description><![CDATA[What was found]]></description>
-    <integer>
-      <name>filledLabelCount</name>
-      <label>Labels</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[How many labels were painted]]></description>
-    </integer>
-    <integer>
-      <name>addedVoxels</name>
-      <label>Voxels added</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Voxels that were filled, of all labels]]></description>
-    </integer>
-  </parameters>
-)";
+{numbers}  </parameters>
+{results})";
+
+constexpr std::array<SlicerResult, 2> kResults{
+    {{"integer", "filledLabelCount", "Labels", "How many labels were painted"},
+     {"integer", "addedVoxels", "Voxels added", "Voxels that were filled, of all labels"}}};
 
 /// Values that 3D Slicer shows in the panel: lines NAME = VALUE.
 std::string return_parameters(const FillReport& report) {
@@ -140,10 +90,16 @@ void run(const SlicerFillCommand& command, Console& console) {
 
 std::string slicer_description(const SlicerFillCommand& defaults) {
     const FillOptions& o = defaults.fill.options;
-    return slicer_module_description(
-        kName, kPurpose,
-        fmt::format(kParameters, fmt::arg("ends", name(o.ends)), fmt::arg("shape_weight", o.shape_weight),
-                    fmt::arg("smoothing_voxels", o.smoothing_voxels), fmt::arg("threads", defaults.fill.threads)));
+    const std::string numbers =
+        slicer_number({"double", "shapeWeight", "Shape weight", "--shape_weight",
+                       "Share of the shape-based interpolation beside the fit, between parallel slices; 0: the fit alone",
+                       o.shape_weight, 0, 1, 0.1}) +
+        slicer_number({"double", "smoothingVoxels", "Smoothing (voxels)", "--smoothing_voxels",
+                       "Smoothing of the painted outlines, standard deviation", o.smoothing_voxels, 0, 5, 0.1}) +
+        slicer_threads(defaults.fill.threads);
+    return slicer_module_description(kName, kPurpose,
+                                     fmt::format(kParameters, fmt::arg("ends", name(o.ends)), fmt::arg("numbers", numbers),
+                                                 fmt::arg("results", slicer_results(kResults))));
 }
 
 }  // namespace kontur::app

@@ -42,6 +42,46 @@ std::string slicer_module_description(std::string_view title, std::string_view p
                        title, purpose, KONTUR_VERSION, parameters);
 }
 
+std::string slicer_number(const SlicerNumber& n) {
+    return fmt::format(R"(    <{0}>
+      <name>{1}</name>
+      <label>{2}</label>
+      <longflag>{3}</longflag>
+      <description><![CDATA[{4}]]></description>
+      <default>{5}</default>
+      <constraints>
+        <minimum>{6}</minimum>
+        <maximum>{7}</maximum>
+        <step>{8}</step>
+      </constraints>
+    </{0}>
+)",
+                       n.tag, n.name, n.label, n.flag, n.description, n.value, n.least, n.most, n.step);
+}
+
+std::string slicer_threads(int threads) {
+    return slicer_number({"integer", "threads", "Threads", "--threads", "0: as many as the machine has",
+                          static_cast<double>(threads), 0, 256, 1});
+}
+
+std::string slicer_results(std::span<const SlicerResult> results) {
+    std::string text = R"(  <parameters>
+    <label>Result</label>
+    <description><![CDATA[What was found]]></description>
+)";
+    for (const SlicerResult& result : results)
+        text += fmt::format(R"(    <{0}>
+      <name>{1}</name>
+      <label>{2}</label>
+      <channel>output</channel>
+      <default>0</default>
+      <description><![CDATA[{3}]]></description>
+    </{0}>
+)",
+                            result.tag, result.name, result.label, result.description);
+    return text + "  </parameters>\n";
+}
+
 SlicerRun::SlicerRun(std::string_view module) : module_(module) {
     tell(fmt::format(
         "<filter-start>\n<filter-name>{}</filter-name>\n<filter-comment>reading</filter-comment>\n</filter-start>\n",

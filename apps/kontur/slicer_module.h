@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -13,6 +14,22 @@ namespace kontur::app {
 /// The description that 3D Slicer builds a module's panel from. `parameters`: its groups of them, as XML. Source: the schema
 /// of its command-line modules, "Slicer Execution Model".
 std::string slicer_module_description(std::string_view title, std::string_view purpose, std::string_view parameters);
+
+/// A number of the panel. Its tag is double or integer, its flag --NAME in the words of the command line.
+struct SlicerNumber {
+    std::string_view tag, name, label, flag, description;
+    double value, least, most, step;
+};
+std::string slicer_number(const SlicerNumber& number);
+/// That of --threads.
+std::string slicer_threads(int threads);
+
+/// A number that the panel shows after a run.
+struct SlicerResult {
+    std::string_view tag, name, label, description;
+};
+/// The group of them.
+std::string slicer_results(std::span<const SlicerResult> results);
 
 /// One run of a command-line module, told on stdout by tags: the start, what is done, and the end.
 class SlicerRun {

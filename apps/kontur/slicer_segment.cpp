@@ -76,57 +76,13 @@ constexpr const char* kParameters = R"(  <parameters>
       <element>surface</element>
       <element>in-plane</element>
     </string-enumeration>
-    <double>
-      <name>quality</name>
-      <label>Quality</label>
-      <longflag>--quality</longflag>
-      <description><![CDATA[Fraction of each curve's points that is used]]></description>
-      <default>{quality}</default>
-      <constraints>
-        <minimum>0.05</minimum>
-        <maximum>1</maximum>
-        <step>0.05</step>
-      </constraints>
-    </double>
-    <integer>
-      <name>threads</name>
-      <label>Threads</label>
-      <longflag>--threads</longflag>
-      <description><![CDATA[0: as many as the machine has]]></description>
-      <default>{threads}</default>
-      <constraints>
-        <minimum>0</minimum>
-        <maximum>256</maximum>
-        <step>1</step>
-      </constraints>
-    </integer>
-  </parameters>
-  <parameters>
-    <label>Result</label>
-    <description><![CDATA[What was found]]></description>
-    <double>
-      <name>volumeMl</name>
-      <label>Volume (ml)</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Volume of the label map]]></description>
-    </double>
-    <double>
-      <name>residualMaxMm</name>
-      <label>Largest residual (mm)</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Largest distance of the surface from a drawn point]]></description>
-    </double>
-    <integer>
-      <name>components</name>
-      <label>Components</label>
-      <channel>output</channel>
-      <default>0</default>
-      <description><![CDATA[Connected parts of the label map]]></description>
-    </integer>
-  </parameters>
-)";
+{numbers}  </parameters>
+{results})";
+
+constexpr std::array<SlicerResult, 3> kResults{
+    {{"double", "volumeMl", "Volume (ml)", "Volume of the label map"},
+     {"double", "residualMaxMm", "Largest residual (mm)", "Largest distance of the surface from a drawn point"},
+     {"integer", "components", "Components", "Connected parts of the label map"}}};
 
 /// Values that 3D Slicer shows in the panel: lines NAME = VALUE.
 std::string return_parameters(const SegmentReport& report) {
@@ -216,11 +172,15 @@ void run(const SlicerCommand& command, Console& console) {
 
 std::string slicer_description(const SlicerCommand& defaults) {
     const SegmentOptions& o = defaults.options;
-    return slicer_module_description(kName, kPurpose,
-                                     fmt::format(kParameters, fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
-                                                 fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
-                                                 fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)),
-                                                 fmt::arg("quality", o.quality), fmt::arg("threads", defaults.threads)));
+    const std::string numbers = slicer_number({"double", "quality", "Quality", "--quality",
+                                               "Fraction of each curve's points that is used", o.quality, 0.05, 1, 0.05}) +
+                                slicer_threads(defaults.threads);
+    return slicer_module_description(
+        kName, kPurpose,
+        fmt::format(kParameters, fmt::arg("curves", curve_parameters(1, kCurvesInFront)),
+                    fmt::arg("more_curves", curve_parameters(kCurvesInFront + 1, kMostCurves)),
+                    fmt::arg("kernel", name(o.kernel)), fmt::arg("normals", name(o.normals)), fmt::arg("numbers", numbers),
+                    fmt::arg("results", slicer_results(kResults))));
 }
 
 }  // namespace kontur::app

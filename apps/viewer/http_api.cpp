@@ -255,7 +255,10 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     }
     upload.anyway = target.parameter("anyway").has_value();
     const ImportReply reply = workspace_.session(request.opening)->import(request.body, upload, stop);
-    return {200, "application/json", to_text({{"structures", reply.structures}, {"doubts", reply.doubts}, {"notes", reply.notes}}), {}};
+    return {200,
+            "application/json",
+            to_text({{"structures", reply.structures}, {"doubts", reply.doubts}, {"notes", reply.notes}}),
+            {}};
 }
 
 }  // namespace kontur::viewer

@@ -105,8 +105,7 @@ PreparedContours prepare(const Drawing& drawing, const StageOptions& options, co
 }
 
 ContourSet thinned(ContourSet set, std::size_t most) {
-    std::size_t count = 0;
-    for (const Contour& contour : set.contours) count += contour.points.size();
+    const std::size_t count = point_count(set);
     for (Contour& contour : set.contours) {
         const std::size_t step = std::min(count / most, contour.points.size() / kCoarseSegments);
         if (step < 2) continue;

@@ -69,6 +69,12 @@ Box3 Box3::padded(double margin) const {
     return {min - m, max + m};
 }
 
+double line_length(std::span<const Vec3> points, bool closed) {
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
+    return closed && !points.empty() ? length + distance(points.back(), points.front()) : length;
+}
+
 Box3 bounding_box(std::span<const Vec3> points) {
     Box3 box;
     for (const Vec3& p : points) box.extend(p);

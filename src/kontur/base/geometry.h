@@ -83,6 +83,9 @@ struct Box3 {
 
 Box3 bounding_box(std::span<const Vec3> points);
 
+/// Of the line through the points, mm; `closed`: with the edge from the last one to the first.
+double line_length(std::span<const Vec3> points, bool closed);
+
 /// x -> linear * x + translation. The columns of `linear` are the images of the unit vectors; shear and mirroring allowed.
 struct Affine3 {
     std::array<std::array<double, 3>, 3> linear{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< row major

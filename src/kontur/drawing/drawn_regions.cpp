@@ -50,9 +50,4 @@ std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes) {
 
 double faded(double noise_mm, double belief) { return noise_mm / (belief * belief); }
 
-double smooth_step(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
 }  // namespace kontur

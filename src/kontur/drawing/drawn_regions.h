@@ -35,7 +35,4 @@ double faded(double noise_mm, double belief);
 /// Bounds that are believed less than this are left out: their noise is ten thousand times as large.
 constexpr double kLeastBelief = 0.01;
 
-/// 0 up to `from`, 1 from `to` on, smooth between them.
-double smooth_step(double from, double to, double x);
-
 }  // namespace kontur

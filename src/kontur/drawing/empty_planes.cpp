@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kontur/base/smooth_step.h"
 #include "kontur/drawing/plane_lattice.h"
 
 namespace kontur {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/smooth_step.h"
+
 namespace kontur {
 namespace {
 

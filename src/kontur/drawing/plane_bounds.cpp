@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/smooth_step.h"
 #include "kontur/drawing/plane_lattice.h"
 
 namespace kontur {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/base/smooth_step.h"
 #include "kontur/drawing/bounds.h"
 #include "kontur/drawing/drawn_regions.h"
 

@@ -134,19 +134,13 @@ int least_segments(const PrepareOptions& options, std::size_t contours) {
     return static_cast<int>(std::ceil(options.quality * std::min(options.least_segments, share)));
 }
 
-double length_of(const Contour& contour) {
-    double length = 0;
-    for (std::size_t i = 1; i < contour.points.size(); ++i) length += distance(contour.points[i - 1], contour.points[i]);
-    return length + (contour.closed ? distance(contour.points.back(), contour.points.front()) : 0);
-}
-
 /// How finely lines are followed where they are narrow, and around the ends of thin parts.
 FinePieces fine_pieces(const ContourSet& set, int least_segments, double diameter_mm) {
     constexpr int kFiner = 8;        // than elsewhere, at most
     constexpr double kBulge = 0.01;  // of the diameter; normal constraints lie 1.35 % of it beside the line
     FinePieces pieces{{}, {}, kBulge * diameter_mm};
     for (const Contour& contour : set.contours) {
-        pieces.long_mm.push_back(length_of(contour) / least_segments);
+        pieces.long_mm.push_back(line_length(contour.points, contour.closed) / least_segments);
         pieces.shortest_mm.push_back(pieces.long_mm.back() / kFiner);
     }
     return pieces;
@@ -155,7 +149,7 @@ FinePieces fine_pieces(const ContourSet& set, int least_segments, double diamete
 Contour refined(const Contour& contour, int least_segments, const DrawnCorners& corners, const PrepareOptions& options) {
     if (options.corners == Corners::rounded || !contour.closed) return refine(contour, least_segments);
     return refine_to_corners(contour, corners.among(contour), options.corner_spacing_mm,
-                             length_of(contour) / std::max(least_segments, 1));
+                             line_length(contour.points, contour.closed) / std::max(least_segments, 1));
 }
 
 void check_prepare_options(const PrepareOptions& options) {

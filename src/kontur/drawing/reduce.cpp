@@ -105,8 +105,7 @@ Contour refine(const Contour& contour, int least_segments) {
     check_at_least("the least number of segments", least_segments, 0);
     const std::size_t n = contour.points.size(), segments = contour.closed ? n : n - 1;
     if (n < 2) return contour;
-    double total = 0;
-    for (std::size_t i = 0; i < segments; ++i) total += distance(contour.points[i], contour.points[(i + 1) % n]);
+    const double total = line_length(contour.points, contour.closed);
     const double average = total / static_cast<double>(segments);
     const double wanted = least_segments > 0 ? std::min(average, total / least_segments) : average;
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kontur/base/smooth_step.h"
+
 namespace kontur {
 namespace {
 
@@ -118,8 +120,7 @@ void ShapeInterpolation::move(const PaintedSlice& low, const PaintedSlice& high)
         nearest_mm = std::max(nearest_mm, double{low_mm_[n]});
     }
     const double thinner_mm = 2 * std::min(thickest(low_mm_), thickest(high_mm_));
-    const double near = std::clamp(1.5 + nearest_mm / thinner_mm, 0.0, 1.0);
-    apartness_ = near * near * (3 - 2 * near) * (1 - common / std::min(below.voxels, above.voxels));
+    apartness_ = smooth_step(0, 1, 1.5 + nearest_mm / thinner_mm) * (1 - common / std::min(below.voxels, above.voxels));
     way_u_ = apartness_ * (above.u - below.u), way_v_ = apartness_ * (above.v - below.v);
 }
 

@@ -33,8 +33,8 @@ public:
     double trust() const;
 
     /// The share of the smaller section that the other one does not cover, from 0 to 1; less where the room between them is
-    /// more than half as wide as the thinner one, and 0 from one and a half of its widths on: these are two bodies. At 1 a fit
-    /// knows of no way from one to the other.
+    /// more than half as wide as the thinner one, and 0 from one and a half of its widths on: these are two bodies. At 1 a
+    /// fit knows of no way from one to the other.
     double apartness() const { return apartness_; }
 
 private:

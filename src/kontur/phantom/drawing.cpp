@@ -12,12 +12,6 @@ namespace {
 constexpr double kSectionStep_mm = 0.5;
 constexpr double kSmallestSection_mm2 = 10;
 
-double perimeter(std::span<const Vec3> points) {
-    double sum = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) sum += distance(points[i], points[(i + 1) % points.size()]);
-    return sum;
-}
-
 ContourSet dense_sections(const Body& body, std::span<const Plane> planes) {
     ContourSet set;
     for (const Plane& plane : planes) {
@@ -108,7 +102,7 @@ private:
 };
 
 void displace(Contour& contour, const Body& body, const HandOptions& options, Random& random) {
-    const Wave wave(perimeter(contour.points), options, random);
+    const Wave wave(line_length(contour.points, true), options, random);
     const Plane& plane = contour.plane;
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
         const auto [du, dv] = descent_in_plane(body, plane, contour.points[i]);
@@ -123,7 +117,7 @@ void displace(Contour& contour, const Body& body, const HandOptions& options, Ra
 }  // namespace
 
 std::vector<Vec3> resample_closed(std::span<const Vec3> points, std::size_t count) {
-    const double spacing = perimeter(points) / static_cast<double>(count);
+    const double spacing = line_length(points, true) / static_cast<double>(count);
     std::vector<Vec3> result;
     double walked = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -143,7 +137,7 @@ ContourSet draw_sections(const Body& body, std::span<const Plane> planes, std::s
     ContourSet set = dense_sections(body, planes);
     set.name = body.name();
     std::vector<double> lengths;
-    for (const Contour& contour : set.contours) lengths.push_back(perimeter(contour.points));
+    for (const Contour& contour : set.contours) lengths.push_back(line_length(contour.points, true));
     const std::vector<std::size_t> counts = shares(lengths, point_count);
     for (std::size_t c = 0; c < counts.size(); ++c) {
         Contour& contour = set.contours[c];

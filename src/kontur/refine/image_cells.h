@@ -19,6 +19,11 @@ struct ImageCells {
     std::int64_t intensities = 0;  ///< read from the image
 
     double edge_mm() const { return norm(grid.index_to_mm.column(0)); }
+    /// From a cube's centre to three of its faces.
+    std::array<Vec3, 3> half_edges() const {
+        const Affine3& to_mm = grid.index_to_mm;
+        return {0.5 * to_mm.column(0), 0.5 * to_mm.column(1), 0.5 * to_mm.column(2)};
+    }
     Index3 index(std::size_t cell) const {
         const auto n = static_cast<std::int64_t>(cell);
         return {n % grid.size.i, n / grid.size.i % grid.size.j, n / (grid.size.i * grid.size.j)};

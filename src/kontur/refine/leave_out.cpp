@@ -19,8 +19,9 @@ namespace {
 constexpr std::size_t kMostPlanes = 10, kLeastPoints = 10;
 constexpr std::size_t kFewestPlanes = 4;  // two are too few to tell how a surface runs, when one of three is left out
 constexpr std::size_t kSamples = 300;
-constexpr double kHeldOutPoints = 500;    // of all planes together
-constexpr double kSurfaceSpacing = 0.04;  // of the drawing's diameter
+constexpr double kHeldOutPoints = 500;       // of all planes together
+constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter
+constexpr std::size_t kMostCells = 150'000;  // of the lattice for walks
 
 /// One plane left out: the surface through the others, and where it should have passed.
 struct Fold {
@@ -107,8 +108,8 @@ WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& ce
 
 }  // namespace
 
-std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const ImageCells& cells,
-                                              const FitContours& fit, const Work& work) {
+std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
+                                              const Work& work) {
     const ContourSet& drawn = drawing.contours;
     const std::vector<PlaneGroup> groups = at_most(kMostPlanes, contours_by_plane(drawn));
     if (groups.size() < kFewestPlanes) return std::nullopt;
@@ -140,12 +141,12 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     if (!tell_enough(errors)) return std::nullopt;
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
     LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
-                           std::vector<WrongCells>(folds.size())};
+                           image_cells(image, drawn, kMostCells, work), std::vector<WrongCells>(folds.size())};
     const bool is_moved_used = left_out.errors.image_helps();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
-            if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], cells, beliefs, is_moved_used, alone);
+            if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], left_out.cells, beliefs, is_moved_used, alone);
         }
     });
     return left_out;

@@ -40,9 +40,9 @@ struct Movement {
     std::int64_t intensities = 0;  ///< read from the image
 };
 
-inline constexpr double kLeastPrior = 0.08;  ///< voxels: no offset is known better than this beforehand
+inline constexpr double kLeastPrior = 0.08;      ///< voxels: no offset is known better than this beforehand
 inline constexpr double kMostPriorSlope = 0.25;  ///< prior standard deviation over the distance from the contours
-inline constexpr double kSearched = 2.5;     ///< prior standard deviations to each side: no offset beyond is considered
+inline constexpr double kSearched = 2.5;         ///< prior standard deviations to each side: no offset beyond is considered
 
 /// Asks the image how far the surface of f at some points of it (mm) is off. Points less than three quarters of a voxel from
 /// a contour are left out; none where fewer than 10 remain.

@@ -9,9 +9,8 @@
 namespace kontur {
 namespace {
 
-constexpr double kCautiousSlope = 0.12;      // without the gate: prior standard deviation over the distance ...
-constexpr double kCautiousImage = 0.7;       // ... and the image's error in voxels
-constexpr std::size_t kMostCells = 150'000;  // of the lattice for walks
+constexpr double kCautiousSlope = 0.12;  // without the gate: prior standard deviation over the distance ...
+constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
 
 /// With the errors by which it was decided.
 RefinedFunction told_by(const HeldOutErrors& errors, RefinedFunction result) {
@@ -56,10 +55,9 @@ RefinedFunction moved_if_it_helps(const Question& asked, const std::optional<Lef
     return displaced ? told_by_displacing(*displaced, std::move(unchanged)) : unchanged;
 }
 
-RefinedFunction walked(const Question& asked, const LeftOutPlanes& left_out, const ImageCells& cells,
-                       const RefinedFunction& moved) {
+RefinedFunction walked(const Question& asked, const LeftOutPlanes& left_out, const RefinedFunction& moved) {
     RefinedFunction result =
-        walk_surface({cells, asked.drawn.walls, left_out.errors.beliefs().prior_mm}, asked.drawing, asked.prepared,
+        walk_surface({left_out.cells, asked.drawn.walls, left_out.errors.beliefs().prior_mm}, asked.drawing, asked.prepared,
                      asked.fitted, moved, asked.options, asked.drawn.image.voxel_mm(), asked.work);
     const WrongCells wrong = sum(left_out.wrong);
     result.report.wrong_without = wrong.alone / wrong.drawn;
@@ -82,14 +80,13 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
         return move_surface(drawn, drawing, prepared, fitted, cautious, options, work);
     }
-    const ImageCells cells = image_cells(image, drawing.contours, kMostCells, work);
-    const std::optional<LeftOutPlanes> left_out = leave_planes_out(drawing, image, cells, fit_contours, work);
+    const std::optional<LeftOutPlanes> left_out = leave_planes_out(drawing, image, fit_contours, work);
     const Question asked{drawing, prepared, fitted, image, drawn, options, work};
     RefinedFunction result = moved_if_it_helps(asked, left_out);
-    result.report.intensities += cells.intensities;
-    if (left_out && walk_helps(left_out->wrong, result.report.verdict == ImageVerdict::used))
-        return walked(asked, *left_out, cells, result);
-    return result;
+    if (!left_out) return result;
+    result.report.intensities += left_out->cells.intensities;
+    return walk_helps(left_out->wrong, result.report.verdict == ImageVerdict::used) ? walked(asked, *left_out, result)
+                                                                                    : result;
 }
 
 }  // namespace kontur

@@ -37,9 +37,8 @@ void Refit::hold_contours(ConstraintSet& constraints) const {
 }
 
 double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, const Work& work) {
-    std::size_t count = 0, next = 0;
-    for (const Contour& contour : contours.contours) count += contour.points.size();
-    const std::size_t step = std::max<std::size_t>(1, count / kCompared);
+    std::size_t next = 0;
+    const std::size_t step = std::max<std::size_t>(1, point_count(contours) / kCompared);
     std::vector<Vec3> points;
     for (const Contour& contour : contours.contours)
         for (const Vec3& p : contour.points)

@@ -140,11 +140,7 @@ std::vector<Vec3> along_contours(const ContourSet& contours, double step_mm) {
     return points;
 }
 
-double length_mm(const Contour& contour) {
-    double sum = 0;
-    for (std::size_t i = 0; i < sides(contour); ++i) sum += side(contour, i);
-    return sum;
-}
+double length_mm(const Contour& contour) { return line_length(contour.points, contour.closed); }
 
 double length_mm(const ContourSet& contours) {
     double sum = 0;

@@ -44,8 +44,7 @@ private:
     bool is_asked(std::size_t cell) const { return number_[cell] != WalkPlace::kNowhere; }
 
     void find_band() {
-        std::vector<Vec3> half_edges;
-        for (int axis = 0; axis < 3; ++axis) half_edges.push_back(0.5 * cells_.grid.index_to_mm.column(axis));
+        const std::array<Vec3, 3> half_edges = cells_.half_edges();
         const double least = kLeastReach * cells_.edge_mm();
         for (std::size_t n = 0; n < number_.size(); ++n) {
             const double depth = std::abs(static_cast<double>(depths_.depth_mm[n]));

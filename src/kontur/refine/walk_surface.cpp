@@ -21,8 +21,7 @@ constexpr WalkedDataOptions kAttempts[] = {{}, {.off_contours = 2, .noise = 4}};
 /// Whether a surface leaves the walk's, or comes through drawn planes where nothing was drawn.
 bool strays(const CellDepths& depths, const VoxelWalk& walk, const std::vector<float>& walked, const CellDepths& alone,
             const WalkedImage& image) {
-    std::vector<Vec3> half_edges;
-    for (int axis = 0; axis < 3; ++axis) half_edges.push_back(0.5 * image.cells.grid.index_to_mm.column(axis));
+    const std::array<Vec3, 3> half_edges = image.cells.half_edges();
     const auto edge = static_cast<float>(image.cells.edge_mm());
     for (std::size_t n = 0; n < walked.size(); ++n) {
         if (depths.is_inside(n) != walk.is_inside(n) && std::abs(walked[n]) > static_cast<float>(kMostStray) * edge)

@@ -28,11 +28,7 @@ const isContour = (r: number, g: number, b: number): boolean => r > 225 && r - b
 
 /** Draws by hand around the ball, or a circle of another radius. */
 async function drawBall(view: string, radius_mm = BALL_RADIUS_MM, contours = 1): Promise<number> {
-  const radius = await viewer.pixels(view, radius_mm);
-  await viewer.page.keyboard.press("f");
-  await viewer.drag(view, circle(radius, 36));
-  await viewer.waitForContours(contours);
-  await viewer.saved(); // and selected
+  const radius = await viewer.drawBall(view, contours, radius_mm); // it is selected
   await viewer.page.keyboard.press("v");
   return radius;
 }

@@ -34,13 +34,6 @@ async function tabTo(wanted: string): Promise<string[]> {
   return assert.fail(`Tab does not reach ${wanted}: ${passed.join(" ")}`);
 }
 
-async function drawBall(view: string, contours: number): Promise<void> {
-  await viewer.page.keyboard.press("f");
-  await viewer.drag(view, circle(await viewer.pixels(view, BALL_RADIUS_MM), 36));
-  await viewer.waitForContours(contours);
-  await viewer.saved();
-}
-
 test("a new user drags around a structure with the tool that the hint leaves him, and has a contour", async () => {
   const { page } = viewer;
   assert.equal(await page.locator("[data-test=tool-wire]").getAttribute("aria-pressed"), "true");
@@ -53,7 +46,7 @@ test("a new user drags around a structure with the tool that the hint leaves him
 
 describe("the keyboard", () => {
   test("reaches every control by Tab, and the panel's, and comes around", async () => {
-    await drawBall("axial", 1);
+    await viewer.drawBall("axial", 1);
     await tabTo("tool-edit");
     const passed = await tabTo("delete-contour");
     await tabTo("tool-edit");
@@ -315,16 +308,16 @@ describe("what a hand gets wrong is said, with a way back", () => {
     assert.equal(await viewer.contours(), 0);
     await notice("Structure 1 is hidden").locator("button").click();
     await page.waitForSelector(".structure-row button[title=Hide]");
-    await drawBall("axial", 1);
+    await viewer.drawBall("axial", 1);
   });
 
   test("one contour, or several on one slice: the depth is a guess", async () => {
     const { page } = viewer;
     const guess = page.locator("[data-test=depth-guess]");
-    await drawBall("axial", 1);
+    await viewer.drawBall("axial", 1);
     await viewer.surfaceShown();
     assert.match((await guess.textContent())!, /^One contour: the depth is a guess/);
-    await drawBall("coronal", 2);
+    await viewer.drawBall("coronal", 2);
     await viewer.surfaceShown();
     assert.equal(await guess.count(), 0);
   });
@@ -332,7 +325,7 @@ describe("what a hand gets wrong is said, with a way back", () => {
   test("contours that lie outside of the image are asked about before they are imported", async () => {
     const { page } = viewer;
     const path = join(visits.folder.path, "elsewhere.json");
-    await drawBall("axial", 1);
+    await viewer.drawBall("axial", 1);
     const drawing = JSON.parse((await viewer.export("contours.json")).bytes.toString()) as {
       planes: { origin: number[]; contours: { points: number[][] }[] }[];
     };

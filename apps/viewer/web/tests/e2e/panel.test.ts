@@ -4,17 +4,14 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { NO_WEBGL } from "./browsers";
-import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
+import { BallVisits, Viewer } from "./support";
 
 const visits = new BallVisits(NO_WEBGL);
 let viewer: Viewer;
 
 beforeEach(async () => {
   viewer = await visits.next();
-  await viewer.page.keyboard.press("f");
-  await viewer.drag("axial", circle(await viewer.pixels("axial", BALL_RADIUS_MM), 36));
-  await viewer.waitForContours(1);
-  await viewer.saved();
+  await viewer.drawBall("axial");
 });
 
 /** In another window of the same project. */

@@ -2,7 +2,7 @@
 // The round brush under a real pointer, and how lines look.
 import assert from "node:assert/strict";
 import { beforeEach, describe, test } from "node:test";
-import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
+import { BALL_RADIUS_MM, BallVisits, Viewer } from "./support";
 
 const visits = new BallVisits();
 let viewer: Viewer;
@@ -10,10 +10,7 @@ let viewer: Viewer;
 /** The ball, drawn on the axial slice through its middle. */
 beforeEach(async () => {
   viewer = await visits.next();
-  await viewer.page.keyboard.press("f");
-  await viewer.drag("axial", circle(await viewer.pixels("axial", BALL_RADIUS_MM), 36));
-  await viewer.waitForContours(1);
-  await viewer.saved();
+  await viewer.drawBall("axial");
   await viewer.surfaceShown();
 });
 

@@ -277,6 +277,16 @@ export class Viewer {
     await this.page.waitForSelector(`[data-test=${which}][title^="${which === "undo" ? "Undo" : "Redo"}: ${label}"]`);
   }
 
+  /** Draws by hand around the ball, or a circle of another radius, whose pixels it returns; `contours` are there then, all saved. */
+  async drawBall(view: string, contours = 1, radius_mm = BALL_RADIUS_MM): Promise<number> {
+    const radius = await this.pixels(view, radius_mm);
+    await this.page.keyboard.press("f");
+    await this.drag(view, circle(radius, 36));
+    await this.waitForContours(contours);
+    await this.saved();
+    return radius;
+  }
+
   async click(view: string, right: number, down: number): Promise<void> {
     await this.page.mouse.move(...(await this.at(view, right, down)));
     await this.page.mouse.click(...(await this.at(view, right, down)));

@@ -1089,6 +1089,7 @@ def fit(
     most_solves: int = 3,
     normal_offset_mm: float = 1.0,
     both_sides: bool = False,
+    normal_spacing_mm: float = 0.0,
     slope_noise: float = 0.0,
     merge_distance_mm: float = 0.0,
     kernel: _Kernel = "screened",

@@ -88,6 +88,9 @@ Keywords<FitOptions> fit_keywords() {
             "both_sides", [](FitOptions& o) -> bool& { return o.place.both_sides; },
             "Normal constraints inside as well as outside, at every second point.")
         .field(
+            "normal_spacing_mm", [](FitOptions& o) -> double& { return o.place.normal_spacing_mm; },
+            "Along a line, from one point with normal constraints to the next, at least.")
+        .field(
             "slope_noise", [](FitOptions& o) -> double& { return o.place.slope_noise; },
             "Standard deviation of the slopes: of a normal constraint this times its length.")
         .field(

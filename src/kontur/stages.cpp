@@ -33,6 +33,7 @@ FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     fit.place.normal_offset_mm =
         options.normal_offset_mm.value_or((is_surface ? kOffsetFraction : kInPlaneOffsetFraction) * diameter_mm);
     fit.place.both_sides = is_surface;
+    fit.place.normal_spacing_mm = is_surface ? fit.place.normal_offset_mm : 0;
     fit.place.slope_noise = is_surface ? kSlopeNoise : 0;
     fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
     if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/random.h"
 
@@ -29,6 +30,25 @@ TEST(PlaceConstraints, ValuesAreThoseOfADistance) {
               (std::vector<Vec3>{{0, 0, 0}, {0, 5, 0}, {2, 0, 0}, {0, 7, 0}, {-3, 0, 0}, {9, 0, 0}, {0, 0, 8}}));
     EXPECT_EQ(placed.constraints.values, (std::vector<double>{0, 0, -2, -1, 2, -2, 0}));
     EXPECT_EQ(placed.merged, 0u);
+}
+
+TEST(PlaceConstraints, OneNormalStandsForThoseThatAreNearerThanTheSpacing) {
+    std::vector<BoundaryPoint> points;
+    for (const std::int32_t contour : {0, 1})
+        for (int i = 0; i < 12; ++i) points.push_back({{0, 1.0 * i, 20.0 * contour}, {1, 0, 0}, {0, 0, 1}, contour});
+    const std::vector<double> slopes(points.size(), 1.0);
+    const PlaceOptions options{.normal_offset_mm = 4, .both_sides = true, .normal_spacing_mm = 5, .slope_noise = 0.2};
+    const ConstraintSet placed = place_constraints(points, slopes, {}, options).constraints;
+    std::vector<double> at, noise;
+    for (std::size_t i = points.size(); i < placed.centers.size(); ++i)
+        if (placed.values[i] < 0) {  // those outside
+            at.push_back(placed.centers[i].y);
+            noise.push_back(placed.noise_mm[i]);
+        }
+    // Of every second point the first of a line, and what is 5 mm and more behind the last: each stands for 3.
+    EXPECT_EQ(at, (std::vector<double>{0, 6, 0, 6}));
+    for (const double n : noise) EXPECT_DOUBLE_EQ(n, 0.2 * 4 / std::sqrt(3));
+    EXPECT_EQ(placed.centers.size(), points.size() + 2 * at.size());
 }
 
 TEST(PlaceConstraints, KeepsTheMergeDistanceAndDropsNothingElse) {

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <unordered_map>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/fit/stretches.h"
 
 namespace kontur {
 namespace {
@@ -92,10 +94,37 @@ void check_points(std::span<const BoundaryPoint> points, std::span<const PointCo
     }
 }
 
+/// A point with normal constraints.
+struct Station {
+    std::size_t point;
+    std::size_t stands_for = 1;  ///< itself and those after it that would have normal constraints if they were not so near
+};
+
+std::vector<Station> choose_stations(std::span<const BoundaryPoint> points, const std::vector<bool>& kept,
+                                     const PlaceOptions& options) {
+    std::vector<Station> stations;
+    std::size_t with_normal = 0;
+    double since_mm = std::numeric_limits<double>::infinity();  // from the line's last station
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (follows(points, i)) since_mm += distance(points[i].position, points[i - 1].position);
+        else since_mm = std::numeric_limits<double>::infinity();
+        if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
+        if (options.both_sides && with_normal++ % 2 == 1) continue;
+        if (since_mm < options.normal_spacing_mm) {
+            ++stations.back().stands_for;
+            continue;
+        }
+        stations.push_back({i});
+        since_mm = 0;
+    }
+    return stations;
+}
+
 }  // namespace
 
 void check_place_options(const PlaceOptions& options) {
     check_above_0("the normal offset", options.normal_offset_mm, " mm");
+    check_not_below_0("the distance between normal constraints", options.normal_spacing_mm, " mm");
     check_not_below_0("the merge distance", options.merge_distance_mm, " mm");
     check_not_below_0("the noise of the slopes", options.slope_noise);
 }
@@ -128,17 +157,15 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
 
     std::vector<bool> kept(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) kept[i] = place(points[i].position, 0, points[i].trust);
-    const auto place_beside = [&](std::size_t i, double side, double room_mm) {
+    const auto place_beside = [&](const Station& station, double side, double room_mm) {
+        const std::size_t i = station.point;
         const double offset = std::min(options.normal_offset_mm, room_mm / 2);
         place(points[i].position + side * offset * points[i].inplane_normal, -side * offset * slopes[i], points[i].trust,
-              offset * options.slope_noise);
+              offset * options.slope_noise / std::sqrt(static_cast<double>(station.stands_for)));
     };
-    std::size_t with_normal = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
-        if (options.both_sides && with_normal++ % 2 == 1) continue;
-        place_beside(i, 1, points[i].gap_mm);
-        if (options.both_sides) place_beside(i, -1, points[i].depth_mm);
+    for (const Station& station : choose_stations(points, kept, options)) {
+        place_beside(station, 1, points[station.point].gap_mm);
+        if (options.both_sides) place_beside(station, -1, points[station.point].depth_mm);
     }
     for (const PointConstraint& p : single_points) place(p.position, p.value, p.trust, p.noise_mm);
     return result;

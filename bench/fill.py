@@ -120,9 +120,9 @@ def measure(task):
             continue
         left_out = [k for k in range(kept[0], kept[-1]) if k not in kept]
         for method, make in methods(options, name).items():
-            start = time.perf_counter()
+            begun = time.perf_counter()
             mask = make(truth, affine, kept)
-            seconds = time.perf_counter() - start
+            seconds = time.perf_counter() - begun
             rows.append([which, name, step, start, method, f"{plain.dice(mask, truth):.5f}",
                          f"{plain.dice(mask[:, :, left_out], truth[:, :, left_out]):.5f}", f"{roughness_mm(mask, spacing):.4f}", f"{seconds:.2f}"])
     return rows

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <span>
@@ -13,6 +14,7 @@
 #include "kontur/base/stopwatch.h"
 #include "kontur/labels/filled_map.h"
 #include "kontur/labels/gaps.h"
+#include "kontur/labels/outline_noise.h"
 #include "kontur/labels/painted_object.h"
 #include "kontur/labels/shape_interpolation.h"
 #include "kontur/segment.h"
@@ -84,7 +86,7 @@ public:
 
     /// Fits one object and gives it what nobody painted and no deeper one has. Returns what became of the image.
     RefineReport add(const PaintedObject& object, const IndexBox& range) {
-        Segmentation result = fit(object, range, image_);
+        Segmentation result = fit(object, std::array{&object}, range, image_);
         follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -108,7 +110,7 @@ public:
         if (all.slices.size() < 2) return;
         const IndexBox range = range_of(all, grid(), options_.ends);
         if (!is_anything_left_out(all, range)) return;
-        Segmentation result = fit(all, range, nullptr);
+        Segmentation result = fit(all, objects, range, nullptr);
         follow_shapes(all, range, result);
         std::vector<std::size_t> gaps;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -122,11 +124,15 @@ public:
     Image take() { return map_.take(); }
 
 private:
-    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image) const {
+    /// `parts`: what the object was united from.
+    Segmentation fit(const PaintedObject& object, std::span<const PaintedObject* const> parts, const IndexBox& range,
+                     const Image* image) const {
         SegmentOptions segmenting;
         segmenting.use_image = options_.use_image;
         segmenting.max_memory_mb = options_.max_memory_mb;
-        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, work_);
+        const ContourSet contours = contours_of(object, options_.smoothing_voxels);
+        segmenting.smoothing = outline_smoothing(parts, contours);
+        return segment(contours, grid_of(grid(), range), image, segmenting, work_);
     }
 
     /// Calls visit(index, offset), both of the image, for the voxels of a mask on a range.
@@ -156,7 +162,7 @@ private:
         const auto [u, v] = slice_axes(low.axis);
         std::vector<std::size_t> differing;
         std::vector<Vec3> places;
-        std::vector<double> shape_mm;
+        std::vector<ShapeInterpolation::Depth> depths;
         Index3 at;
         for (at[low.axis] = low.index + 1; at[low.axis] < high.index; ++at[low.axis])
             for (at[v] = 0; at[v] < object.grid.size[v]; ++at[v])
@@ -164,17 +170,18 @@ private:
                     const Index3 in_image{at.i + object.box.low.i, at.j + object.box.low.j, at.k + object.box.low.k};
                     const std::size_t place = result.mask.grid.offset(in_image.i - range.low.i, in_image.j - range.low.j,
                                                                       in_image.k - range.low.k);
-                    const double depth = shape.depth_mm(at);
-                    if ((depth > 0) == (result.mask.values[place] != 0)) continue;
+                    const ShapeInterpolation::Depth depth = shape.depth(at);
+                    if ((depth.mm > 0) == (result.mask.values[place] != 0)) continue;
                     differing.push_back(place);
                     places.push_back(grid().center_mm(in_image.i, in_image.j, in_image.k));
-                    shape_mm.push_back(depth);
+                    depths.push_back(depth);
                 }
         const double share = options_.shape_weight * shape.trust() * variance_left(result.report.image);
-        const double weight = std::lerp(share, 1.0, std::pow(shape.apartness(), 4));
         const std::vector<double> fit_mm = depths_mm(result.function, places, work_);
-        for (std::size_t n = 0; n < differing.size(); ++n)
-            result.mask.values[differing[n]] = std::lerp(fit_mm[n], shape_mm[n], weight) > 0;
+        for (std::size_t n = 0; n < differing.size(); ++n) {
+            const double weight = std::lerp(share, 1.0, depths[n].belief);
+            result.mask.values[differing[n]] = std::lerp(fit_mm[n], depths[n].mm, weight) > 0;
+        }
     }
 
     std::vector<Vec3> centers_mm(const std::vector<std::size_t>& voxels) const {

@@ -30,7 +30,7 @@ struct FillOptions {
     bool jointly = true;
     /// Between parallel slices, how far the shape-based interpolation counts beside the fit, from 0 to 1: the share where
     /// the slices are close for the thickness of the object; less where they are not (see ShapeInterpolation::trust).
-    double shape_weight = 0.7;
+    double shape_weight = 0.5;
     UseImage use_image = UseImage::automatic;  ///< between the painted slices; where an image is given
     double smoothing_voxels = 0.7;             ///< of the painted outlines, see SectionContourOptions
     std::vector<std::int64_t> labels{};        ///< only these; empty: all

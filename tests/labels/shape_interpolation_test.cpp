@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "kontur/labels/strands.h"
 #include "support/label_maps.h"
 
 namespace kontur {
@@ -52,31 +56,70 @@ TEST(ShapeInterpolation, AConeBetweenTwoCircles) {
     };
     const ShapeInterpolation shape(grid, section_where(grid, 0, disc(20)), section_where(grid, 10, disc(10)));
     const double slant = std::sqrt(1 + 0.25);  // 10 mm narrower over 20 mm of height
-    EXPECT_NEAR(shape.depth_mm({30 + 15, 30, 5}), 0, 0.6);
-    EXPECT_NEAR(shape.depth_mm({30 + 12, 30, 5}), 3 / slant, 0.6);
-    EXPECT_NEAR(shape.depth_mm({30 + 18, 30, 5}), -3 / slant, 0.6);
+    EXPECT_NEAR(shape.depth({30 + 15, 30, 5}).mm, 0, 0.6);
+    EXPECT_NEAR(shape.depth({30 + 12, 30, 5}).mm, 3 / slant, 0.6);
+    EXPECT_NEAR(shape.depth({30 + 18, 30, 5}).mm, -3 / slant, 0.6);
+}
+
+/// Discs of 10 voxels across around (u, v).
+PaintedSlice discs(const Grid& grid, std::int64_t slice, const std::vector<std::pair<double, double>>& middles) {
+    return section_where(grid, slice, [&](const Index3& at) {
+        return std::any_of(middles.begin(), middles.end(), [&](const auto& middle) {
+            return std::hypot(double(at.i) - middle.first, double(at.j) - middle.second) < 5;
+        });
+    });
 }
 
 TEST(ShapeInterpolation, SectionsThatDoNotOverlapAreMovedOverEachOther) {
     const Grid grid = index_grid({61, 41, 11}, {1, 1, 2});
-    const auto disc = [&](std::int64_t slice, double u, double v) {
-        return section_where(grid, slice,
-                             [=](const Index3& at) { return std::hypot(double(at.i) - u, double(at.j) - v) < 5; });
-    };
-    const ShapeInterpolation steep(grid, disc(0, 15, 15), disc(10, 27, 20));
-    EXPECT_EQ(steep.apartness(), 1);
-    for (std::int64_t k = 0; k <= 10; ++k) {
+    const ShapeInterpolation steep(grid, discs(grid, 0, {{15, 15}}), discs(grid, 10, {{27, 20}}));
+    for (std::int64_t k = 1; k < 10; ++k) {
         const std::int64_t u = 15 + std::lround(1.2 * double(k)), v = 15 + std::lround(0.5 * double(k));
-        EXPECT_NEAR(steep.depth_mm({u, v, k}), 4.5, 0.8) << "its middle in slice " << k;
-        EXPECT_LT(steep.depth_mm({u, v - 7, k}), 0);
-        EXPECT_LT(steep.depth_mm({u - 7, v, k}), 0);
+        EXPECT_NEAR(steep.depth({u, v, k}).mm, 4.5, 0.8) << "its middle in slice " << k;
+        EXPECT_EQ(steep.depth({u, v, k}).belief, 1);
+        EXPECT_LT(steep.depth({u, v - 7, k}).mm, 0);
+        EXPECT_LT(steep.depth({u - 7, v, k}).mm, 0);
     }
-    EXPECT_EQ(ShapeInterpolation(grid, disc(0, 10, 15), disc(10, 45, 15)).apartness(), 0) << "two bodies";
-    const PaintedSlice wide = section_where(grid, 10, [](const Index3& at) { return at.i > 3 && at.i < 50; });
-    EXPECT_EQ(ShapeInterpolation(grid, disc(0, 10, 15), wide).apartness(), 0) << "one within the other";
-    const double half = ShapeInterpolation(grid, disc(0, 15, 15), disc(10, 20, 15)).apartness();
-    EXPECT_GT(half, 0.4);
-    EXPECT_LT(half, 0.8);
+}
+
+TEST(Strands, AreWhatLiesBesideEachOtherAndNear) {
+    const Grid grid = index_grid({61, 41, 11}, {1, 1, 2});
+    const PaintedSlice low = discs(grid, 0, {{10, 15}});
+    const auto beliefs = [&](const PaintedSlice& high) {
+        std::vector<double> found;
+        for (const Strand& strand : find_strands(grid, low, high).strands) found.push_back(strand.belief);
+        return found;
+    };
+    EXPECT_EQ(beliefs(discs(grid, 10, {{22, 15}})), std::vector<double>{1});
+    EXPECT_TRUE(beliefs(discs(grid, 10, {{45, 15}})).empty()) << "two bodies";
+    EXPECT_TRUE(beliefs(discs(grid, 10, {{13, 15}})).empty()) << "they overlap";
+    const std::vector<double> little = beliefs(discs(grid, 10, {{18, 15}}));
+    ASSERT_EQ(little.size(), 1U);
+    EXPECT_GT(little[0], 0);
+    EXPECT_LT(little[0], 1);
+}
+
+TEST(Strands, PartsOfSectionsAreMovedEachByItself) {
+    const Grid grid = index_grid({101, 41, 11}, {1, 1, 2});
+    const PaintedSlice low = discs(grid, 0, {{15, 15}, {70, 20}}), high = discs(grid, 10, {{27, 15}, {70, 20}});
+    const Strands found = find_strands(grid, low, high);
+    ASSERT_EQ(found.strands.size(), 1U) << "the upright one is none";
+    EXPECT_EQ(found.strands[0].way_u, 12);
+    EXPECT_EQ(found.strands[0].way_v, 0);
+    const ShapeInterpolation shape(grid, low, high);
+    EXPECT_GT(shape.depth({21, 15, 5}).mm, 4);
+    EXPECT_GT(shape.depth({70, 20, 5}).mm, 4) << "stays where it is";
+    EXPECT_EQ(shape.depth({70, 20, 5}).belief, 0);
+    EXPECT_LT(shape.depth({76, 20, 5}).mm, 0);
+    EXPECT_LT(shape.depth({64, 20, 5}).mm, 0);
+}
+
+TEST(Strands, OfSeveralPartsTheNearestOnesBelongTogether) {
+    const Grid grid = index_grid({101, 41, 11}, {1, 1, 2});
+    const Strands found = find_strands(grid, discs(grid, 0, {{15, 15}, {40, 15}}), discs(grid, 10, {{27, 15}, {52, 15}}));
+    ASSERT_EQ(found.strands.size(), 2U);
+    for (const Strand& strand : found.strands) EXPECT_EQ(strand.way_u, 12);
+    EXPECT_TRUE(std::none_of(found.low_rest.begin(), found.low_rest.end(), [](std::uint8_t value) { return value; }));
 }
 
 TEST(ShapeInterpolation, IsTrustedLessTheFartherApartTheSlicesAre) {

@@ -10,7 +10,7 @@
 #include "kontur/base/error.h"
 #include "kontur/extract/rasterize.h"
 #include "kontur/labels/section_contours.h"
-#include "kontur/labels/shape_interpolation.h"
+#include "kontur/labels/section_distances.h"
 
 namespace kontur {
 namespace {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "kontur/base/checks.h"
@@ -86,7 +86,7 @@ public:
 
     /// Fits one object and gives it what nobody painted and no deeper one has. Returns what became of the image.
     RefineReport add(const PaintedObject& object, const IndexBox& range) {
-        Segmentation result = fit(object, std::array{&object}, range, image_);
+        Segmentation result = fit(object, range, image_);
         follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -110,7 +110,7 @@ public:
         if (all.slices.size() < 2) return;
         const IndexBox range = range_of(all, grid(), options_.ends);
         if (!is_anything_left_out(all, range)) return;
-        Segmentation result = fit(all, objects, range, nullptr);
+        Segmentation result = segment_object(all, range, nullptr, {});
         follow_shapes(all, range, result);
         std::vector<std::size_t> gaps;
         for_inside(range, result.mask, [&](const Index3& at, std::size_t n) {
@@ -124,15 +124,27 @@ public:
     Image take() { return map_.take(); }
 
 private:
-    /// `parts`: what the object was united from.
-    Segmentation fit(const PaintedObject& object, std::span<const PaintedObject* const> parts, const IndexBox& range,
-                     const Image* image) const {
+    Segmentation segment_object(const PaintedObject& object, const IndexBox& range, const Image* image,
+                                const std::optional<double>& smoothing) const {
         SegmentOptions segmenting;
         segmenting.use_image = options_.use_image;
         segmenting.max_memory_mb = options_.max_memory_mb;
+        segmenting.smoothing = smoothing;
+        return segment(contours_of(object, options_.smoothing_voxels), grid_of(grid(), range), image, segmenting, work_);
+    }
+
+    /// With the image through all outlines: there it is learnt what the border looks like.
+    Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image) const {
+        RefineReport asked;
+        if (image) {
+            Segmentation refined = segment_object(object, range, image, {});
+            if (refined.report.image.verdict == ImageVerdict::used) return refined;
+            asked = std::move(refined.report.image);
+        }
         const ContourSet contours = contours_of(object, options_.smoothing_voxels);
-        segmenting.smoothing = outline_smoothing(parts, contours);
-        return segment(contours, grid_of(grid(), range), image, segmenting, work_);
+        Segmentation alone = segment_object(object, range, nullptr, outline_smoothing(object, contours));
+        alone.report.image = std::move(asked);
+        return alone;
     }
 
     /// Calls visit(index, offset), both of the image, for the voxels of a mask on a range.

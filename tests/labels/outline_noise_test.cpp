@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "kontur/labels/label_boxes.h"
@@ -22,7 +21,7 @@ std::optional<double> smoothing_of_tube(double radius, const Vec3& spacing_mm, b
         return painted && std::hypot(double(at.i) - 25, double(at.j) - 25) < radius ? 1 : 0;
     });
     const PaintedObject object = painted_object(map, 1, label_boxes(map).at(1), 4);
-    return outline_smoothing(std::array{&object}, contours_of(object, 0.7));
+    return outline_smoothing(object, contours_of(object, 0.7));
 }
 
 TEST(OutlineSmoothing, HasNoUnit) {

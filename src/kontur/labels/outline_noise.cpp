@@ -31,15 +31,10 @@ double radius_mm(const ContourSet& contours) {
 
 }  // namespace
 
-std::optional<double> outline_smoothing(std::span<const PaintedObject* const> objects, const ContourSet& contours) {
+std::optional<double> outline_smoothing(const PaintedObject& object, const ContourSet& contours) {
     const double radius = radius_mm(contours);
-    if (radius == 0) return {};
-    double thinnest_mm = radius;
-    for (const PaintedObject* object : objects) {
-        if (object->only_axis() < 0) return {};
-        thinnest_mm = std::min(thinnest_mm, half_thickness_mm(*object));
-    }
-    const double noise = kShare * thinnest_mm / radius;
+    if (object.only_axis() < 0 || radius == 0) return {};
+    const double noise = kShare * half_thickness_mm(object) / radius;
     return 9 * kScreeningLength * noise * noise;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "kontur/labels/painted_object.h"
 #include "kontur/shape/contour.h"
@@ -14,7 +13,6 @@ namespace kontur {
 /// thickness, the mean over the slices of a voxel's largest distance from the outline. (Chosen on structures kept for it,
 /// docs/fill.md.) What was painted stays as it is, so the fit need not pass through it. Nothing where slices have several
 /// directions: these cross, and tell of each other.
-/// Of several objects that were united the thinnest counts.
-std::optional<double> outline_smoothing(std::span<const PaintedObject* const> objects, const ContourSet& contours);
+std::optional<double> outline_smoothing(const PaintedObject& object, const ContourSet& contours);
 
 }  // namespace kontur

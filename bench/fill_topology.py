@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Branches and holes: label maps of which some slices are left, filled by `kontur fill` and by its peers. docs/fill.md.
+
+Usage: bench/fill_topology.py DATA OUTPUT --kontur build/release/bin/kontur [--itk build/release/bin/itk_fill]
+                    [--words OPTIONS]... [--kind branches|holes]
+
+Every second, fourth and eighth slice is kept along each axis of the grid where voxels are cubes, else along the third, as in
+bench/fill.py, and the others are filled again. Measured are structures (organ_sources.py; the lateral ventricles, too, and a
+left ventricle's muscle) whose sections fall into parts, each a twentieth of the section at least, on a quarter of the slices
+(branches), or have a hole of a hundredth of it, on a tenth of them (holes). Counted are parts and tunnels between the first and
+the last kept slice; what touches by a corner hangs together. Writes OUTPUT/topology.csv and prints a table: mean Dice of what
+lies between these slices, the sum over the structures by how many the parts are off the truth's, and the tunnels.
+"""
+import argparse
+import csv
+import os
+import pathlib
+import sys
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy is loaded
+
+import numpy as np
+from scipy import ndimage
+
+import fill
+import organ_sources
+import plain
+import slices
+import structures
+
+CORNERS = np.ones((3, 3, 3))
+MOST_VOXELS = 6e5  # of the structure's box: finer maps are coarsened
+FIELDS = ["kind", "structure", "axis", "step", "method", "dice", "parts", "true_parts", "tunnels", "true_tunnels"]
+
+
+def cells(mask, axes):
+    """How many cells of the mask's closed cubes extend along all axes but these."""
+    for axis in axes:
+        low, high = ([slice(None)] * 3 for _ in range(2))
+        low[axis], high[axis] = slice(None, -1), slice(1, None)
+        mask = mask[tuple(low)] | mask[tuple(high)]
+    return int(mask.sum())
+
+
+def euler_number(mask):
+    """Of the union of the voxels' closed cubes: corners - edges + faces - cubes."""
+    padded = np.pad(mask, 1)
+    faces = sum(cells(padded, [axis]) for axis in range(3))
+    edges = sum(cells(padded, pair) for pair in ([0, 1], [0, 2], [1, 2]))
+    return cells(padded, [0, 1, 2]) - edges + faces - cells(padded, [])
+
+
+def parts_and_tunnels(mask):
+    """Connected parts, and ways through them: parts + cavities - the Euler number."""
+    parts = ndimage.label(mask, CORNERS)[1]
+    cavities = ndimage.label(~np.pad(mask, 1))[1] - 1
+    return parts, parts + cavities - euler_number(mask)
+
+
+def has_parts(section):
+    sizes = np.bincount(ndimage.label(section, CORNERS[0])[0].ravel())[1:]
+    return (sizes >= section.sum() / 20).sum() > 1
+
+
+def has_hole(section):
+    sizes = np.bincount(ndimage.label(ndimage.binary_fill_holes(section) & ~section)[0].ravel())[1:]
+    return len(sizes) > 0 and sizes.max() >= max(4, section.sum() / 100)
+
+
+def kinds(truth):
+    """What it is to be measured for, along its third axis."""
+    sections = [truth[:, :, k] for k in slices.occupied(truth)]
+    if np.mean([has_parts(section) for section in sections]) >= 1 / 4:
+        yield "branches"
+    if np.mean([has_hole(section) for section in sections]) >= 1 / 10:
+        yield "holes"
+
+
+def cropped(mask, affine):
+    """The mask with some margin, coarsened where it is large, and the voxels' edges in mm."""
+    found = np.argwhere(mask)
+    low, high = found.min(axis=0), found.max(axis=0) + 1
+    truth, spacing = mask[tuple(slice(a, b) for a, b in zip(low, high))], np.linalg.norm(affine[:3, :3], axis=0)
+    while truth.size > MOST_VOXELS:
+        factors = np.where(spacing < 1.5 * spacing.min(), 2, 1)
+        truth, spacing = structures.coarsened(truth, factors), spacing * factors
+    return np.pad(truth, 4), spacing
+
+
+def muscle(found):
+    """The wall of a left ventricle: within its outer contours and not within its inner ones."""
+    inner, outer = (found.get(f"ventricle_ED_{kind}") for kind in ("endo", "epi"))
+    return {} if inner is None or outer is None else {"muscle_ED": (outer[0] & ~inner[0], outer[1])}
+
+
+def cases(data, kontur):
+    """(kind, structure, axis, mask with that axis last, spacing)."""
+    organ_sources.WITHOUT.clear()  # no constant is chosen here
+    found = {name: entry[:2] for name, entry in organ_sources.label_maps(data, kontur).items()}
+    real = {name: entry[:2] for name, entry in organ_sources.structure_sets(data, kontur).items()}
+    for name, (mask, affine) in (found | real | muscle(real)).items():
+        truth, spacing = cropped(mask, affine)
+        for axis in range(3) if np.ptp(spacing) < 0.01 * spacing.max() else [2]:
+            turned, steps = np.moveaxis(truth, axis, 2), np.append(np.delete(spacing, axis), spacing[axis])
+            for kind in kinds(turned):
+                yield kind, name, "ijk"[axis], np.ascontiguousarray(turned), steps
+
+
+def measure(case, options):
+    kind, name, axis, truth, spacing = case
+    for step in slices.STEPS:
+        kept = slices.kept(truth, step)
+        if not len(kept):
+            continue
+        between = truth[:, :, kept[0]:kept[-1] + 1]
+        told = parts_and_tunnels(between)
+        for method, make in fill.methods(options, name).items():
+            mask = make(truth, np.diag([*spacing, 1]), kept)[:, :, kept[0]:kept[-1] + 1]
+            parts, tunnels = parts_and_tunnels(mask)
+            yield [kind, name, axis, step, method, f"{plain.dice(mask, between):.5f}", parts, told[0], tunnels, told[1]]
+
+
+def table(rows):
+    for kind in dict.fromkeys(row[0] for row in rows):
+        own = [row for row in rows if row[0] == kind]
+        count = len({tuple(row[1:3]) for row in own})
+        print(f"\n| {kind}: {count} cases | " + " | ".join(f"1 in {step}: Dice, parts off, tunnels off" for step in slices.STEPS) + " |")
+        print("|---" * (1 + len(slices.STEPS)) + "|")
+        for method in dict.fromkeys(row[4] for row in own):
+            texts = []
+            for step in slices.STEPS:
+                some = [row for row in own if row[3] == step and row[4] == method]
+                dice = np.mean([float(row[5]) for row in some])
+                off = [sum(abs(row[n] - row[n + 1]) for row in some) for n in (6, 8)]
+                texts.append(f"{dice:.4f}, {off[0]}, {off[1]}")
+            print(f"| {method} | " + " | ".join(texts) + " |")
+
+
+def main():
+    program = lambda path: pathlib.Path(path).resolve()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("data", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path)
+    parser.add_argument("--kontur", required=True, type=program)
+    parser.add_argument("--itk", type=program, metavar="ITK_FILL", help="measure ITK's filter, too")
+    parser.add_argument("--words", action="append", metavar="OPTIONS", help="options of `kontur fill` to try; again for more")
+    parser.add_argument("--kind", choices=["branches", "holes"])
+    options = parser.parse_args()
+    options.images = False
+    options.output.mkdir(parents=True, exist_ok=True)
+    rows = []
+    with open(options.output / "topology.csv", "w", newline="", encoding="utf-8") as file:
+        written = csv.writer(file)
+        written.writerow(FIELDS)
+        for case in cases(options.data, options.kontur):
+            if options.kind in (None, case[0]):
+                more = list(measure(case, options))
+                rows += more
+                written.writerows(more)
+                print(f"measured {' '.join(case[:3])}", file=sys.stderr)
+    table(rows)
+
+
+if __name__ == "__main__":
+    main()

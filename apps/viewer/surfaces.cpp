@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "kontur/shape/crossings.h"
@@ -13,6 +14,8 @@ namespace kontur::viewer {
 namespace {
 
 constexpr std::size_t kMostConflicts = 20;
+// A page fetches a preview's mesh and draws it, without a graphics processor, before the processors are taken to refine it.
+constexpr std::chrono::milliseconds kRest{80};
 
 /// The contour's point where the surface passes farthest.
 Vec3 worst_point(const Contour& contour, const ImplicitFunction& function) {
@@ -203,7 +206,8 @@ void Surfaces::begin_editor(Follower& follower, const SurfaceTask& task) {
         options, [this, structure, before](const EditorUpdate& update) { hear(structure, before + update.edit, update); },
         [this, structure, before](std::uint64_t edit, const SurfaceBand& band) {
             hear_ahead(structure, before + edit, band);
-        });
+        },
+        0, kRest);
     follower.edits_before = before;
     follower.smoothing = task.smoothing;
 }

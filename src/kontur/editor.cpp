@@ -27,6 +27,10 @@ constexpr double kShownNoise = 0.04;        // of the preview's spacing: what th
 constexpr double kPlaneTolerance = 0.0015;  // of the diameter: what is drawn so near to each other is in one plane
 // A cut is cheap: it may be finer than the mesh.
 constexpr double kCutFraction = 0.5;  // of the preview's spacing
+// The same contour, as far as the surface's tilt along it goes:
+constexpr double kSameDirection = 0.9999;  // cosine between normals
+constexpr double kEditedBy = 0.1;          // of the diameter, at most
+constexpr int kMostReuses = 16;            // of tilts, until they are found anew
 
 bool same_drawing(const Contour& a, const Contour& b) {
     return a.points == b.points && a.plane.origin == b.plane.origin && a.plane.normal == b.plane.normal &&
@@ -91,36 +95,63 @@ double Editor::preview_spacing(const Drawing& drawing) const {
     return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kPreviewSteps * refined_spacing(drawing);
 }
 
-/// One slope per prepared point; those of unknown contours are 1. Empty when no contour is known.
-std::vector<double> Editor::known_slopes(const ContourSet& contours, const PreparedContours& prepared) const {
-    const std::size_t count = contours.contours.size();
-    std::vector<std::size_t> points(count, 0), used(count, 0);
-    for (const BoundaryPoint& p : prepared.points)
-        if (p.contour != kNoContour) ++points[static_cast<std::size_t>(p.contour)];
-    std::vector<const Known*> matches(count, nullptr);
-    for (std::size_t c = 0; c < count; ++c) {
-        const auto known = std::find_if(known_.begin(), known_.end(),
-                                        [&](const Known& k) { return same_drawing(k.contour, contours.contours[c]); });
-        if (known != known_.end() && known->slopes.size() == points[c]) matches[c] = &*known;
+/// Of the point that lies nearest to a place, if it is near: mostly that of number `n`.
+std::optional<double> Editor::TiltedLine::slope_near(const Vec3& place, std::size_t n, double near_mm) const {
+    if (n < positions.size() && positions[n] == place) return slopes[n];
+    const auto squared = [&](const Vec3& p) { return dot(p - place, p - place); };
+    const auto nearest = std::min_element(positions.begin(), positions.end(),
+                                          [&](const Vec3& a, const Vec3& b) { return squared(a) < squared(b); });
+    if (nearest == positions.end() || squared(*nearest) > near_mm * near_mm) return std::nullopt;
+    return slopes[static_cast<std::size_t>(nearest - positions.begin())];
+}
+
+std::vector<Editor::TiltedLine> Editor::tilted_lines(const PreparedContours& prepared, const std::vector<double>& slopes,
+                                                     std::size_t contours) {
+    std::vector<TiltedLine> lines(contours);
+    for (std::size_t i = 0; i < prepared.points.size(); ++i) {
+        if (prepared.points[i].contour == kNoContour) continue;
+        TiltedLine& line = lines[static_cast<std::size_t>(prepared.points[i].contour)];
+        line.positions.push_back(prepared.points[i].position);
+        line.slopes.push_back(slopes[i]);
     }
-    std::vector<double> slopes(prepared.points.size(), 1.0);
-    bool any = false;
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
+    return lines;
+}
+
+/// What is known of the contour, or of the one that it was before it was bent or moved in its plane; null: nothing.
+const Editor::Known* Editor::known_of(const ContourSet& contours, std::size_t index) const {
+    const Contour& contour = contours.contours[index];
+    const auto same =
+        std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return same_drawing(k.contour, contour); });
+    if (same != known_.end()) return &*same;
+    if (known_.size() != contours.contours.size()) return nullptr;
+    const Known& before = known_[index];
+    const bool is_edited =
+        before.contour.closed == contour.closed && dot(before.contour.plane.normal, contour.plane.normal) > kSameDirection;
+    return is_edited ? &before : nullptr;
+}
+
+Editor::KnownTilts Editor::known_tilts(const ContourSet& contours, const PreparedContours& prepared) const {
+    const double near_mm = kEditedBy * prepared.ball.diameter();
+    std::vector<const Known*> known;
+    for (std::size_t c = 0; c < contours.contours.size(); ++c) known.push_back(known_of(contours, c));
+    std::vector<std::size_t> used(known.size(), 0);
+    KnownTilts tilts{std::vector<double>(prepared.points.size(), 1.0), false, known_.size() == known.size()};
+    for (std::size_t i = 0; i < prepared.points.size(); ++i) {
         if (prepared.points[i].contour == kNoContour) continue;
         const auto c = static_cast<std::size_t>(prepared.points[i].contour);
-        if (!matches[c]) continue;
-        slopes[i] = matches[c]->slopes[used[c]++];
-        any = true;
+        const std::optional<double> slope =
+            known[c] ? known[c]->line.slope_near(prepared.points[i].position, used[c]++, near_mm) : std::nullopt;
+        tilts.slopes[i] = slope.value_or(1.0);
+        tilts.any = tilts.any || slope;
+        tilts.all = tilts.all && slope;
     }
-    return any ? slopes : std::vector<double>();
+    return tilts;
 }
 
 void Editor::remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes) {
+    std::vector<TiltedLine> lines = tilted_lines(prepared, slopes, contours.contours.size());
     known_.clear();
-    for (const Contour& contour : contours.contours) known_.push_back({contour, {}});
-    for (std::size_t i = 0; i < prepared.points.size(); ++i)
-        if (prepared.points[i].contour != kNoContour)
-            known_[static_cast<std::size_t>(prepared.points[i].contour)].slopes.push_back(slopes[i]);
+    for (std::size_t c = 0; c < lines.size(); ++c) known_.push_back({contours.contours[c], std::move(lines[c])});
 }
 
 EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
@@ -142,12 +173,15 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     stages.fit.tilt_points = options_.preview_points;
     stages.fit.solve.tolerance_mm *= kPreviewTolerance;
     stages.fit.early_tolerance_factor = 2;
-    stages.fit.start_slopes = known_slopes(drawing.contours, prepared);
-    if (shown > 0) stages.fit.most_solves = 1;  // f misses such a place by ever so little, which is no reason for more
-    if (!stages.fit.start_slopes.empty()) {     // the last round is enough
+    KnownTilts known = known_tilts(drawing.contours, prepared);
+    if (known.any) stages.fit.start_slopes = std::move(known.slopes);
+    if (known.any) {  // the last round is enough, or none
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
-        stages.fit.rounds = 1;
+        stages.fit.rounds = known.all && reused_ < kMostReuses ? 0 : 1;
     }
+    // f misses a place that the image showed by ever so little, which is no reason for more solves than one that shows what
+    // is to be held and one that holds it.
+    if (shown > 0) stages.fit.most_solves = stages.fit.rounds > 0 ? 1 : 2;
     const FittedFunction fitted = fit(prepared, stages.fit, work);
     watch.lap("fit");
     const std::vector<Vec3> starts =
@@ -158,6 +192,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     watch.lap("mesh");
     surface.seconds = std::move(seconds);
     surface.shown_before = shown;
+    reused_ = stages.fit.rounds == 0 ? reused_ + 1 : 0;
     remember(drawing.contours, prepared, fitted.slopes);
     return surface;
 }

@@ -47,12 +47,14 @@ struct EditedSurface {
 /// whatever came before.
 ///
 /// A preview is fitted to a part of the points, to a fraction of a voxel, and of lines with many more than that a part is
-/// looked at at all; what it keeps from the edit before is the
-/// surface's tilt along every contour that has not changed, which saves the rounds that would find it, and where the image
-/// showed the border, so that the surface stays there until the image has been asked again. Nothing else is worth
-/// keeping: every weight and every value of the function change with each edit (weights of the edit before start the solver
-/// at a residual of 1e5 mm and more), and the set-up of a thousand points takes milliseconds. To ask the image parts of the
-/// drawing are fitted; a part that has been fitted in one of the last questions is not fitted again.
+/// looked at at all. What it keeps from the edit before is the surface's tilt along every contour, which saves the rounds
+/// that would find it, and where the image showed the border, so that the surface stays there until the image has been asked
+/// again. A contour that was moved or bent in its plane has the tilts of its nearest points before, as they turn with the
+/// surface, not with the line; where contours came, went or lie elsewhere, and with every seventeenth preview, one
+/// round finds all tilts anew. Nothing else is worth keeping: every weight and every value of the function change with each
+/// edit (weights of the edit before start the solver at a residual of 1e5 mm and more), and the set-up of a thousand points
+/// takes milliseconds. To ask the image parts of the drawing are fitted; a part that has been fitted in one of the last
+/// questions is not fitted again.
 class Editor {
 public:
     /// Throws Error(invalid_input) for a spacing that is not finite or below 0 and for a preview of no points.
@@ -75,19 +77,35 @@ public:
     const EditorOptions& options() const { return options_; }
 
 private:
-    /// What the last preview says of a contour.
+    /// Points of a contour, as the fit has them, and the cosines of the surface's tilts there.
+    struct TiltedLine {
+        std::vector<Vec3> positions;
+        std::vector<double> slopes;
+
+        std::optional<double> slope_near(const Vec3& place, std::size_t n, double near_mm) const;
+    };
+    /// What the last fit says of a contour.
     struct Known {
         Contour contour;
-        std::vector<double> slopes;  ///< at the points of the fit
+        TiltedLine line;
+    };
+    /// Cosines of the surface's tilts at prepared points.
+    struct KnownTilts {
+        std::vector<double> slopes;  ///< 1 where nothing is known
+        bool any, all;               ///< whether something is known, and whether everything is
     };
 
-    std::vector<double> known_slopes(const ContourSet& contours, const PreparedContours& prepared) const;
+    const Known* known_of(const ContourSet& contours, std::size_t index) const;
+    KnownTilts known_tilts(const ContourSet& contours, const PreparedContours& prepared) const;
+    static std::vector<TiltedLine> tilted_lines(const PreparedContours& prepared, const std::vector<double>& slopes,
+                                                std::size_t contours);
     void remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes);
     double preview_spacing(const Drawing& drawing) const;
     double refined_spacing(const Drawing& drawing) const;
 
     EditorOptions options_;
     std::vector<Known> known_;
+    int reused_ = 0;  ///< how many previews in a row found no tilts anew
     std::optional<AskedBefore> asked_;
     std::shared_ptr<KeptFits> fits_ = std::make_shared<KeptFits>();
 };

@@ -1,24 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/live_editor.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 #include "kontur/base/error.h"
 
 namespace kontur {
+namespace {
+
+auto parts(const Contour& c) { return std::tie(c.plane, c.points, c.closed, c.hole, c.end, c.inside, c.weight); }
+
+bool is_same(const ContourSet& a, const ContourSet& b) {
+    const auto others = [](const ContourSet& s) {
+        return std::tie(s.name, s.interior, s.exterior, s.surface, s.empty_planes);
+    };
+    return others(a) == others(b) && std::ranges::equal(a.contours, b.contours, [](const Contour& c, const Contour& d) {
+               return parts(c) == parts(d);
+           });
+}
+
+}  // namespace
 
 struct LiveEditor::Worker {
     struct Edit {
-        std::uint64_t number;
+        std::uint64_t number;  ///< of the last one that is answered with this
         ContourSet contours;
         std::shared_ptr<const Image> image;
+
+        bool asks_the_same(const ContourSet& others, const std::shared_ptr<const Image>& other_image) const {
+            return is_same(contours, others) && image == other_image;
+        }
     };
 
     Editor editor;
     int threads;
+    std::chrono::milliseconds rest;
     Listener listener;
     BandListener ahead;
     std::weak_ptr<const Image> last_image;  ///< of the last edit; the editor's thread alone uses it
@@ -27,13 +49,16 @@ struct LiveEditor::Worker {
     std::uint64_t newest = 0;    ///< number of edits so far
     std::uint64_t answered = 0;  ///< the newest that is done with
     std::optional<Edit> pending;
+    std::shared_ptr<Edit> answering;  ///< null once the last is told of it; its number alone changes
     std::stop_source refining{std::nostopstate};
     bool closing = false;
     std::jthread thread;  // last: starts when all else is there
 
-    Worker(const EditorOptions& options, Listener to, BandListener band_to, int threads_of_work)
+    Worker(const EditorOptions& options, Listener to, BandListener band_to, int threads_of_work,
+           std::chrono::milliseconds rest_before)
         : editor(options),
           threads(threads_of_work),
+          rest(rest_before),
           listener(std::move(to)),
           ahead(std::move(band_to)),
           thread([this](const std::stop_token& closed) { run(closed); }) {}
@@ -46,32 +71,32 @@ struct LiveEditor::Worker {
     }
 
     void run(const std::stop_token& closed) {
-        while (const std::optional<Edit> edit = next()) {
+        while (const std::shared_ptr<const Edit> edit = next()) {
             answer(*edit, closed);
             const std::lock_guard lock(mutex);
+            answering = nullptr;
             answered = edit->number;
             changed.notify_all();
         }
     }
 
-    std::optional<Edit> next() {
+    std::shared_ptr<const Edit> next() {
         std::unique_lock lock(mutex);
         changed.wait(lock, [&] { return closing || pending; });
-        if (closing) return std::nullopt;
-        return std::exchange(pending, std::nullopt);
+        if (closing) return nullptr;
+        return answering = std::make_shared<Edit>(*std::exchange(pending, std::nullopt));
     }
 
     void answer(const Edit& edit, const std::stop_token& closed) {
         EditorUpdate update;
-        update.edit = edit.number;
         try {
             std::function<void(const SurfaceBand&)> tell_ahead;
             if (edit.image != last_image.lock()) editor.forget_image();
             last_image = edit.image;
-            if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(edit.number, band); };
+            if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(number_of(edit), band); };
             update.surface = editor.preview(edit.contours, work_for(edit, closed), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;
-            listener(update);
+            tell(edit, update);
             const std::stop_token stop = start_refining();
             if (stop.stop_requested()) return;
             update.kind = EditorUpdate::Kind::refined;
@@ -79,62 +104,84 @@ struct LiveEditor::Worker {
                 update.kind = EditorUpdate::Kind::refined;
                 update.surface = alone;
                 update.asks_image = true;
-                listener(update);
+                tell(edit, update);
                 update.asks_image = false;
                 update.kind = EditorUpdate::Kind::with_image;
             };
             update.surface = editor.refine(edit.contours, edit.image.get(), work_for(edit, stop), tell_alone);
-            listener(update);
+            tell_last(edit, update);
         } catch (const std::exception& error) {
             const auto* known = dynamic_cast<const Error*>(&error);
             if (known && known->kind() == ErrorKind::cancelled) return;
-            tell_problem(edit.number, error.what());
+            tell_problem(edit, error.what());
         }
     }
 
-    void tell_problem(std::uint64_t number, const char* problem) {
+    std::uint64_t number_of(const Edit& edit) {
+        const std::lock_guard lock(mutex);
+        return edit.number;
+    }
+
+    void tell(const Edit& edit, EditorUpdate& update) {
+        update.edit = number_of(edit);
+        listener(update);
+    }
+
+    /// Later edits are not answered by it any more.
+    void tell_last(const Edit& edit, EditorUpdate& update) {
+        {
+            const std::lock_guard lock(mutex);
+            answering = nullptr;
+        }
+        tell(edit, update);
+    }
+
+    void tell_problem(const Edit& edit, const char* problem) {
         try {
             EditorUpdate update;
-            update.edit = number;
             update.kind = EditorUpdate::Kind::problem;
             update.problem = problem;
-            listener(update);
+            tell_last(edit, update);
         } catch (const std::exception&) {  // without memory nothing can be told, and from a thread it would end the program
         }
     }
 
-    /// A token that the next edit stops; stopped already if that edit has come.
+    /// Waits a little, then returns a token that the next edit stops; stopped already if that edit has come.
     std::stop_token start_refining() {
-        const std::lock_guard lock(mutex);
+        std::unique_lock lock(mutex);
+        const bool is_disturbed = changed.wait_for(lock, rest, [&] { return pending || closing; });
         refining = std::stop_source();
-        if (pending || closing) refining.request_stop();
+        if (is_disturbed) refining.request_stop();
         return refining.get_token();
     }
 
     Work work_for(const Edit& edit, std::stop_token stop) {
         return {threads,
-                [this, number = edit.number](std::string_view stage, double done) {
+                [this, &edit](std::string_view stage, double done) {
                     EditorUpdate update;
-                    update.edit = number;
                     update.stage = stage;
                     update.done = done;
-                    listener(update);
+                    tell(edit, update);
                 },
                 std::move(stop)};
     }
 };
 
-LiveEditor::LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead, int threads)
-    : worker_(std::make_unique<Worker>(options, std::move(listener), std::move(ahead), threads)) {}
+LiveEditor::LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead, int threads,
+                       std::chrono::milliseconds rest)
+    : worker_(std::make_unique<Worker>(options, std::move(listener), std::move(ahead), threads, rest)) {}
 
 LiveEditor::~LiveEditor() = default;
 
 std::uint64_t LiveEditor::edit(ContourSet contours, std::shared_ptr<const Image> image) {
     const std::lock_guard lock(worker_->mutex);
-    worker_->pending = {++worker_->newest, std::move(contours), std::move(image)};
+    const std::uint64_t number = ++worker_->newest;
+    const std::shared_ptr<Worker::Edit>& answering = worker_->answering;
+    if (!worker_->pending && answering && answering->asks_the_same(contours, image)) return answering->number = number;
+    worker_->pending = {number, std::move(contours), std::move(image)};
     worker_->refining.request_stop();
     worker_->changed.notify_all();
-    return worker_->newest;
+    return number;
 }
 
 void LiveEditor::wait() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -34,7 +35,8 @@ struct EditorUpdate {
 /// An Editor on a thread of its own: takes the newest contours, previews them, refines, and asks the image, if there is one.
 /// An edit cancels a running refinement, and the question to the image, at once. A running preview is finished first, so
 /// that surfaces keep coming while a hand drags a contour; edits that arrive meanwhile are answered by the newest of them
-/// alone.
+/// alone. An edit that changes nothing, as when a hand lets go, does not begin anything anew: what is being computed answers
+/// it, too.
 class LiveEditor {
 public:
     /// Called from the editor's thread, one update at a time; it must neither throw, nor call `wait`, nor destroy the
@@ -44,8 +46,10 @@ public:
     /// Likewise, when a preview can be cut by planes but has no mesh yet.
     using BandListener = std::function<void(std::uint64_t edit, const SurfaceBand& band)>;
 
-    /// Works on so many threads (0: the machine's). Throws as Editor does.
-    LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {}, int threads = 0);
+    /// Works on so many threads (0: the machine's). `rest`: so long after a preview refining begins, so that whoever shows
+    /// the preview has the processors to himself. Throws as Editor does.
+    LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {}, int threads = 0,
+               std::chrono::milliseconds rest = {});
     /// Cancels what runs and waits for it.
     ~LiveEditor();
 

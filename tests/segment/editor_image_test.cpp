@@ -211,7 +211,7 @@ TEST(LiveEditor, AnEditEndsTheQuestionToTheImage) {
     Listened live;
     live.at_update = [&](const EditorUpdate& update) {
         const bool is_asking = update.kind == Kind::progress && update.stage == "ask the image";
-        if (update.edit == 1 && is_asking) live.editor.edit(contours, helpful_image());
+        if (update.edit == 1 && is_asking) live.editor.edit(edited(contours), helpful_image());
     };
     live.editor.edit(contours, helpful_image());
     while (live.updates().empty() || live.updates().back().edit < 2) live.editor.wait();

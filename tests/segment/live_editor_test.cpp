@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kontur/phantom/cases.h"
@@ -102,6 +105,57 @@ TEST(LiveEditor, AnswersTheNewestOfManyEdits) {
     EXPECT_EQ(updates.back().edit, kEdits);
     EXPECT_TRUE(std::ranges::equal(updates.back().surface.function.weights(), Editor().refine(set).function.weights()));
     EXPECT_TRUE(std::ranges::is_sorted(updates, {}, &EditorUpdate::edit)) << "no answer is overtaken by an older one";
+}
+
+ContourSet moved_ball() {
+    ContourSet set = test::ball_contours();
+    for (Vec3& p : set.contours[0].points) p += 0.5 * set.contours[0].plane.u;
+    return set;
+}
+
+/// `second` comes when the preview of the first edit is told; which updates follow from there on.
+std::vector<std::pair<Kind, std::uint64_t>> told_with_edit_at_preview(const ContourSet& second) {
+    std::vector<std::pair<Kind, std::uint64_t>> told;
+    LiveEditor* editing = nullptr;
+    LiveEditor editor({}, [&](const EditorUpdate& update) {
+        if (update.kind == Kind::progress) return;
+        told.emplace_back(update.kind, update.edit);
+        if (told.size() == 1) editing->edit(second);
+    });
+    editing = &editor;
+    editor.edit(test::ball_contours());
+    editor.wait();
+    return told;
+}
+
+TEST(LiveEditor, AnswersAnEditThatChangesNothingByWhatItComputes) {
+    using Told = std::vector<std::pair<Kind, std::uint64_t>>;
+    EXPECT_EQ(told_with_edit_at_preview(test::ball_contours()), (Told{{Kind::preview, 1}, {Kind::refined, 2}}));
+    EXPECT_EQ(told_with_edit_at_preview(moved_ball()), (Told{{Kind::preview, 1}, {Kind::preview, 2}, {Kind::refined, 2}}));
+}
+
+TEST(LiveEditor, RefinesNothingThatIsEditedWhileItRests) {
+    Log log;
+    std::promise<void> both_told;
+    LiveEditor* editing = nullptr;
+    {
+        const LiveEditor::Listener keep = log.listener();
+        LiveEditor editor(
+            {},
+            [&](const EditorUpdate& update) {
+                keep(update);
+                if (update.kind != Kind::preview) return;
+                if (update.edit == 1) editing->edit(moved_ball());
+                if (update.edit == 2) both_told.set_value();
+            },
+            {}, 0, std::chrono::hours(1));
+        editing = &editor;
+        editor.edit(test::ball_contours());
+        both_told.get_future().wait();
+    }
+    const std::vector<EditorUpdate> updates = log.updates();
+    EXPECT_TRUE(std::ranges::all_of(updates, [](const EditorUpdate& update) { return update.kind == Kind::preview; }));
+    EXPECT_EQ(updates.size(), 2u);
 }
 
 TEST(LiveEditor, ReportsAProblemAndGoesOn) {

@@ -135,8 +135,8 @@ private:
         const auto evaluate = [this](std::span<const Vec3> points, std::span<double> values) {
             fast_.values(points, values, work_);
         };
-        for (const Index3& cell :
-             flood_coarse_cells(coarse_, evaluate, starts, kCoarseBulge * coarse_spacing_mm_, evaluations_, work_)) {
+        for (const Index3& cell : flood_coarse_cells(coarse_, evaluate, starts, kCoarseBulge * coarse_spacing_mm_,
+                                                     CoarseValues::stencils, evaluations_, work_)) {
             numbers_.emplace(key(cell), band_.size());
             band_.push_back({cell, kDoubtElsewhere * coarse_spacing_mm_});
         }

@@ -42,12 +42,12 @@ public:
         front_ = std::move(next);
     }
 
-    /// Computes the rest of the nodes that interpolation needs.
-    std::vector<Index3> finish() {
+    void compute_stencils() {
         for (const Index3& cell : cells_) want_stencil(cell);
         evaluate_wanted();
-        return std::move(cells_);
     }
+
+    std::vector<Index3> take_cells() { return std::move(cells_); }
 
     std::int64_t evaluations() const { return evaluations_; }
 
@@ -146,15 +146,16 @@ Index3 coarse_cell_at(const Vec3& index, const Index3& stride) {
 }
 
 std::vector<Index3> flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate,
-                                       std::span<const Index3> start_cells, double bulge_mm, std::int64_t& evaluations,
-                                       const Work& work) {
+                                       std::span<const Index3> start_cells, double bulge_mm, CoarseValues wanted,
+                                       std::int64_t& evaluations, const Work& work) {
     Flood flood(lattice, evaluate, bulge_mm);
     flood.add_starts(start_cells);
     for (bool are_starts = true; !flood.is_done(); are_starts = false) {
         work.check();
         flood.step(are_starts);
     }
-    std::vector<Index3> cells = flood.finish();
+    if (wanted == CoarseValues::stencils) flood.compute_stencils();
+    std::vector<Index3> cells = flood.take_cells();
     evaluations += flood.evaluations();
     return cells;
 }

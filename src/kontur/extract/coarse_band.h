@@ -52,11 +52,17 @@ private:
     Lattice lattice_;
 };
 
-/// Follows the surface over the coarse cells from those that hold the starts, and computes the values that interpolation
-/// in them needs. Points outside of the grid count as outside of the object. Returns the cells that the surface passes or
-/// may bulge into, in the order they were met; `evaluations` counts the values computed.
+/// What of the cells is computed when the surface has been followed.
+enum class CoarseValues {
+    corners,   ///< what following it took
+    stencils,  ///< and the values that interpolation in them needs
+};
+
+/// Follows the surface over the coarse cells from those that hold the starts. Points outside of the grid count as outside of
+/// the object. Returns the cells that the surface passes or may bulge into, in the order they were met; `evaluations` counts
+/// the values computed.
 std::vector<Index3> flood_coarse_cells(CoarseLattice& lattice, const EvaluatePoints& evaluate,
-                                       std::span<const Index3> start_cells, double bulge_mm, std::int64_t& evaluations,
-                                       const Work& work);
+                                       std::span<const Index3> start_cells, double bulge_mm, CoarseValues wanted,
+                                       std::int64_t& evaluations, const Work& work);
 
 }  // namespace kontur

@@ -39,8 +39,9 @@ SurfaceBand::SurfaceBand(const ImplicitFunction& function, std::span<const Vec3>
     const auto evaluate = [&](std::span<const Vec3> points, std::span<double> values) {
         function_.values(points, values, work);
     };
-    const std::vector<Index3> cells = flood_coarse_cells(
-        coarse, evaluate, start_cells, kCoarseBulge * kCoarseStride * options.spacing_mm, evaluations_, work);
+    const std::vector<Index3> cells =
+        flood_coarse_cells(coarse, evaluate, start_cells, kCoarseBulge * kCoarseStride * options.spacing_mm,
+                           CoarseValues::corners, evaluations_, work);
     if (cells.empty()) return;
 
     first_cell_ = cells.front();

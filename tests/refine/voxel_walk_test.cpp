@@ -19,7 +19,8 @@ double prior(double distance_mm) { return 0.25 * distance_mm; }
 
 /// A walk that begins with a ball of 25 mm.
 struct WalkAboutBall {
-    WalkAboutBall(const Image& image, const ContourSet& contours) : cells(image_cells(image, contours, kMany)) {
+    WalkAboutBall(const Image& image, const ContourSet& contours, const CellSlab& near = {})
+        : cells(image_cells(image, contours, kMany)) {
         const DrawnOnImage drawn(Drawing(contours), image);
         const std::vector<Vec3> along = along_contours(contours, 1);
         for (std::size_t n = 0; n < cells.looks.size(); ++n) {
@@ -27,7 +28,7 @@ struct WalkAboutBall {
             depths.depth_mm.push_back(static_cast<float>(25 - norm(p)));
             depths.far_mm.push_back(static_cast<float>(nearest_distance(p, along)));
         }
-        walk = walk_voxels(cells, depths, {drawn.walls, prior, 50});
+        walk = walk_voxels(cells, depths, {drawn.walls, prior, 50, near});
     }
 
     /// Of the cells at which `is_there` holds, the share inside.
@@ -98,6 +99,23 @@ TEST(VoxelWalk, AsksNothingInDrawnPlanesNorBeyondTheImage) {
         EXPECT_GT(std::abs(p.z - 6), 0.99);
         EXPECT_GT(std::abs(p.y + 10), 0.99);
     }
+}
+
+TEST(VoxelWalk, AskedNearAPlaneSaysThereWhatItSaysOtherwise) {
+    const ContourSet contours = cut(planes_of_ball(), ball_depth);
+    const Image image = image_of(cube_grid(1.5), horned_look, 8);
+    const CellSlab near{make_plane({15, 0, 0}, {1, 0, 0}), 8 * 1.5};
+    const WalkAboutBall everywhere(image, contours), there(image, contours, near);
+    EXPECT_LT(there.walk.asked.size(), 0.7 * static_cast<double>(everywhere.walk.asked.size()));
+    for (const std::uint32_t cell : there.walk.asked) ASSERT_TRUE(near.holds(there.cells.center(cell)));
+    double wrong = 0, in_plane = 0;
+    for (std::size_t n = 0; n < there.walk.inside.size(); ++n) {
+        if (std::abs(there.cells.center(n).x - 15) > 0.8) continue;
+        in_plane += everywhere.walk.is_inside(n);
+        wrong += everywhere.walk.is_inside(n) != there.walk.is_inside(n);
+    }
+    EXPECT_GT(in_plane, 1000);
+    EXPECT_LT(wrong, 0.01 * in_plane);
 }
 
 TEST(ImageCells, AreTheVoxelsWhereThoseAreCubes) {

@@ -174,6 +174,18 @@ TEST(Solve, TheScreenedKernelIsNegativeFarAway) {
     }
 }
 
+TEST(Solve, TheScreenedKernelGoesBackToTheMeanThatIsAskedFor) {
+    const ConstraintSet set = crossing_contours(60);
+    ConstraintSet above = set;
+    const double radius = solve(set, {.kernel = Kernel::screened}).function.frame().scale;
+    for (double& value : above.values) value += radius;
+    const ImplicitFunction usual = solve(set, {.kernel = Kernel::screened}).function;
+    const ImplicitFunction about_0 = solve(above, {.kernel = Kernel::screened, .mean_radii = 0}).function;
+    EXPECT_EQ(about_0.polynomial(), (std::array<double, 4>{}));
+    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{0.5, 0.25, -0.5}, set.centers.front()})
+        EXPECT_NEAR(about_0.value(p), usual.value(p) + radius, 1e-6 * radius);
+}
+
 /// So many that the residual is checked at samples only.
 TEST(Solve, TheScreenedKernelServesVeryManyConstraints) {
     ConstraintSet set;

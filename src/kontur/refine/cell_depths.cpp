@@ -60,12 +60,12 @@ CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function
 }
 
 CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const ImplicitFunction& function,
-                        const Movement& movement, const Beliefs& beliefs, const Work& work) {
+                        const Movement& movement, const Beliefs& beliefs, const CellSlab& near, const Work& work) {
     if (movement.points.empty()) return depths;
     std::vector<std::size_t> below;
     std::vector<Vec3> on_surface;
     for (std::size_t n = 0; n < depths.nearest.size(); ++n) {
-        if (depths.nearest[n] != n || !depths.is_inside(n)) continue;
+        if (depths.nearest[n] != n || !depths.is_inside(n) || !near.holds(cells.center(n))) continue;
         below.push_back(n);
         on_surface.push_back(cells.center(n));
     }

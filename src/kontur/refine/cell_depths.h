@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -31,8 +33,16 @@ Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cell
 CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
                        const Work& work = {});
 
-/// The same of the surface moved along its normals, by what moves the nearest place of it.
+/// Cells near a plane.
+struct CellSlab {
+    Plane plane{};
+    double half_mm = std::numeric_limits<double>::infinity();  ///< unless told otherwise all cells are near
+
+    bool holds(const Vec3& center) const { return std::abs(plane.distance_to(center)) <= half_mm; }
+};
+
+/// The same of the surface moved along its normals, by what moves the nearest place of it; beyond the slab it stays.
 CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const ImplicitFunction& function,
-                        const Movement& movement, const Beliefs& beliefs, const Work& work = {});
+                        const Movement& movement, const Beliefs& beliefs, const CellSlab& near, const Work& work = {});
 
 }  // namespace kontur

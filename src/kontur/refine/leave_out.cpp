@@ -21,6 +21,7 @@ constexpr std::size_t kFewestPlanes = 4;  // two are too few to tell how a surfa
 constexpr std::size_t kSamples = 300;
 constexpr double kHeldOutPoints = 500;       // of all planes together
 constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter
+constexpr double kAskedBeside = 8;           // cells beside the plane left out: walks from farther off hardly reach it
 constexpr std::size_t kMostCells = 150'000;  // of the lattice for walks
 
 /// One plane left out: the surface through the others, and where it should have passed.
@@ -99,10 +100,11 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
 /// one that would be used.
 WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& cells, const Beliefs& beliefs,
                 bool is_moved_used, const Work& alone) {
+    const CellSlab near{fold.plane.contours.front().plane, kAskedBeside * cells.edge_mm()};
     const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone);
-    const CellDepths moved = moved_depths(depths, cells, fold.function, movement, beliefs, alone);
-    const VoxelWalk walk = walk_voxels(cells, is_moved_used ? moved : depths,
-                                       {fold.others.walls, beliefs.prior_mm, smallest_ball(fold.rest).diameter()}, alone);
+    const CellDepths moved = moved_depths(depths, cells, fold.function, movement, beliefs, near, alone);
+    const WalkOptions options{fold.others.walls, beliefs.prior_mm, smallest_ball(fold.rest).diameter(), near};
+    const VoxelWalk walk = walk_voxels(cells, is_moved_used ? moved : depths, options, alone);
     return count_wrong(fold.plane, cells, depths, moved, walk);
 }
 

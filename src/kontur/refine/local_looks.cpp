@@ -9,6 +9,7 @@ namespace kontur {
 namespace {
 
 constexpr double kNodes = 1.25;      // reaches from node to node
+constexpr double kNegligible = 10;   // of an example's energy: the nearest of its side weighs e^10 times as much
 constexpr float kEverywhere = 0.1F;  // share of all examples
 constexpr float kUnseen = 0.15F;     // probability kept for looks that no example has
 constexpr int kBins = LocalLooks::kBins;
@@ -60,7 +61,8 @@ Sides sides_at(const Vec3& place, const std::vector<LookExample>& examples, cons
     Sides sides;
     for (const LookExample& e : examples) {
         const double beyond2 = dot(e.position - place, e.position - place) - nearest2[e.inside];
-        sides.add(e, static_cast<float>(std::exp(-0.5 * beyond2 / (reach_mm * reach_mm))));
+        const double energy = 0.5 * beyond2 / (reach_mm * reach_mm);
+        if (energy < kNegligible) sides.add(e, static_cast<float>(std::exp(-energy)));
     }
     sides.normalize();
     for (std::size_t b = 0; b < kBins; ++b) {

@@ -88,25 +88,32 @@ void hold_back(Movement& movement, std::span<const Vec3> places) {
 
 }  // namespace
 
+AskedSurface ask_surface(const DrawnOnImage& drawn, const Drawing& drawing, const FittedFunction& fitted,
+                         const Beliefs& beliefs, const RefineOptions& options, const Work& work) {
+    AskedSurface asked{{}, kSurfaceSpacing * drawing.diameter_mm(), {}};
+    asked.points = points_of_surface(fitted.function, drawing.contours, asked.spacing_mm, work);
+    std::vector<Vec3> points = spread(asked.points, options.samples, frame_of(drawing.contours));
+    slide_to_surface(fitted.function, points, {.reach_mm = asked.spacing_mm}, work);
+    work.check();
+    asked.movement = find_movement(drawn, fitted.function, points, beliefs, work);
+    return asked;
+}
+
 /// The image is asked once, as it was where contours were left out: asked again from the moved surface it would be believed
 /// twice.
-RefinedFunction move_surface(const DrawnOnImage& drawn, const Drawing& drawing, const PreparedContours& prepared,
-                             const FittedFunction& fitted, const Beliefs& beliefs, const RefineOptions& options,
-                             const Work& work) {
-    const double voxel = drawn.image.voxel_mm(), spacing = kSurfaceSpacing * drawing.diameter_mm();
+RefinedFunction move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawing& drawing,
+                             const PreparedContours& prepared, const FittedFunction& fitted, const Beliefs& beliefs,
+                             const RefineOptions& options, const Work& work) {
+    const double voxel = drawn.image.voxel_mm(), spacing = asked.spacing_mm;
+    Movement& movement = asked.movement;
     RefinedFunction result{fitted, {}};
-    const std::vector<Vec3> surface = points_of_surface(fitted.function, drawing.contours, spacing, work);
-    std::vector<Vec3> points = spread(surface, options.samples, frame_of(drawing.contours));
-    slide_to_surface(fitted.function, points, {.reach_mm = spacing}, work);
-    work.check();
-    Movement movement = find_movement(drawn, fitted.function, points, beliefs, work);
     result.report.intensities = movement.intensities;
     result.report.verdict = ImageVerdict::used;
     if (movement.points.empty()) return result;
 
-    const SearchedBand band = searched_band(surface, drawn, beliefs, spacing);
+    const SearchedBand band = searched_band(asked.points, drawn, beliefs, spacing);
     const std::vector<PointConstraint> held = anchors(movement, drawn, fitted.function, work);
-    Refit refit(prepared, fitted, options.fit);
+    Refit refit(prepared, fitted, options.fit, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
         std::vector<PointConstraint> told = observations(movement, fitted.function, voxel, work);

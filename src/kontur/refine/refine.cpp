@@ -12,19 +12,24 @@ namespace {
 constexpr double kCautiousSlope = 0.12;  // without the gate: prior standard deviation over the distance ...
 constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
 
-/// With the errors by which it was decided.
-RefinedFunction told_by(const HeldOutErrors& errors, RefinedFunction result) {
-    result.report.intensities += errors.intensities();
-    result.report.planes_left_out = errors.planes();
-    result.report.error_without_mm = errors.without_mm();
-    result.report.error_with_mm = errors.with_mm();
-    return result;
-}
+/// What speaks for the image and against it.
+struct Trial {
+    std::optional<LeftOutPlanes> left_out;
+    std::optional<HeldOutErrors> displaced;  ///< asked where leaving planes out does not show that the image helps
 
-RefinedFunction told_by_displacing(const HeldOutErrors& errors, RefinedFunction result) {
-    result.report.displaced = true;
-    return told_by(errors, std::move(result));
-}
+    bool left_out_helps() const { return left_out && left_out->errors.image_helps(); }
+    bool displacing_helps() const { return displaced && displaced->image_helps(1 - kTakenBack); }
+    /// By which the surface is moved; none if it is not.
+    const HeldOutErrors* helping() const {
+        return left_out_helps() ? &left_out->errors : displacing_helps() ? &*displaced : nullptr;
+    }
+    /// By which it was decided whether it is.
+    const HeldOutErrors* deciding() const {
+        if (const HeldOutErrors* errors = helping()) return errors;
+        return left_out ? &left_out->errors : displaced ? &*displaced : nullptr;
+    }
+    bool walk_helps() const { return left_out && kontur::walk_helps(left_out->wrong, helping() != nullptr); }
+};
 
 /// What becomes of a drawing, its fit and an image.
 struct Question {
@@ -36,35 +41,59 @@ struct Question {
     const RefineOptions& options;
     const Work& work;
 
-    RefinedFunction moved(const Beliefs& beliefs) const {
-        return move_surface(drawn, drawing, prepared, fitted, beliefs, options, work);
+    AskedSurface asked(const Beliefs& beliefs) const { return ask_surface(drawn, drawing, fitted, beliefs, options, work); }
+    RefinedFunction moved(AskedSurface surface, const Beliefs& beliefs) const {
+        return move_surface(std::move(surface), drawn, drawing, prepared, fitted, beliefs, options, work);
     }
+    std::optional<RefinedFunction> walked(const LeftOutPlanes& left_out, const std::optional<AskedSurface>& begin) const {
+        const Beliefs beliefs = left_out.errors.beliefs();
+        return walk_surface({left_out.cells, drawn.walls, beliefs}, drawing, prepared, fitted,
+                            begin ? &begin->movement : nullptr, options, drawn.image.voxel_mm(), work);
+    }
+    RefinedFunction unchanged(ImageVerdict verdict) const { return {fitted, {.verdict = verdict}}; }
 };
 
-/// The surface moved, if the image helps where planes are left out, or else displaced.
-RefinedFunction moved_if_it_helps(const Question& asked, const std::optional<LeftOutPlanes>& left_out) {
-    if (left_out && left_out->errors.image_helps())
-        return told_by(left_out->errors, asked.moved(left_out->errors.beliefs()));
-    const std::optional<HeldOutErrors> displaced =
-        displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
-    if (displaced && displaced->image_helps(1 - kTakenBack))
-        return told_by_displacing(*displaced, asked.moved(displaced->beliefs()));
-    const bool is_known = left_out || displaced;
-    RefinedFunction unchanged{asked.fitted, {.verdict = is_known ? ImageVerdict::no_help : ImageVerdict::unknown}};
-    if (left_out) return told_by(left_out->errors, std::move(unchanged));
-    return displaced ? told_by_displacing(*displaced, std::move(unchanged)) : unchanged;
+Trial try_image(const Question& asked, const FitContours& fit_contours) {
+    Trial trial{leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work), {}};
+    if (!trial.left_out_helps())
+        trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
+    return trial;
 }
 
-RefinedFunction walked(const Question& asked, const LeftOutPlanes& left_out, const RefinedFunction& moved) {
-    RefinedFunction result =
-        walk_surface({left_out.cells, asked.drawn.walls, left_out.errors.beliefs().prior_mm}, asked.drawing, asked.prepared,
-                     asked.fitted, moved, asked.options, asked.drawn.image.voxel_mm(), asked.work);
-    const WrongCells wrong = sum(left_out.wrong);
-    result.report.wrong_without = wrong.alone / wrong.drawn;
-    result.report.wrong_with = wrong.walked / wrong.drawn;
-    if (result.report.walked)
-        for (AskedPoint& point : result.report.asked) point.share = result.report.share_left();
-    return result;
+/// By a walk, if that helps most, or else moved, if that helps.
+RefinedFunction follow(const Question& asked, const Trial& trial) {
+    const HeldOutErrors* helping = trial.helping();
+    std::optional<AskedSurface> surface;
+    if (helping) surface = asked.asked(helping->beliefs());
+    const std::int64_t intensities = surface ? surface->movement.intensities : 0;
+    if (trial.walk_helps()) {
+        if (std::optional<RefinedFunction> walked = asked.walked(*trial.left_out, surface)) {
+            walked->report.intensities = intensities;
+            return *std::move(walked);
+        }
+        if (!helping) return asked.unchanged(ImageVerdict::astray);
+    }
+    if (helping) return asked.moved(*std::move(surface), helping->beliefs());
+    return asked.unchanged(trial.deciding() ? ImageVerdict::no_help : ImageVerdict::unknown);
+}
+
+/// With what it was decided by.
+void tell(const Trial& trial, RefineReport& report) {
+    const HeldOutErrors* deciding = trial.deciding();
+    if (!deciding) return;
+    report.displaced = deciding != (trial.left_out ? &trial.left_out->errors : nullptr);
+    report.intensities += deciding->intensities();
+    report.planes_left_out = deciding->planes();
+    report.error_without_mm = deciding->without_mm();
+    report.error_with_mm = deciding->with_mm();
+    if (!trial.left_out) return;
+    report.intensities += trial.left_out->cells.intensities;
+    if (!trial.walk_helps()) return;
+    const WrongCells wrong = sum(trial.left_out->wrong);
+    report.wrong_without = wrong.alone / wrong.drawn;
+    report.wrong_with = wrong.walked / wrong.drawn;
+    if (report.walked)
+        for (AskedPoint& point : report.asked) point.share = report.share_left();
 }
 
 }  // namespace
@@ -74,19 +103,17 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
     check_image(image);
     if (is_label_map(image)) return {fitted, {.verdict = ImageVerdict::labels}};
     const DrawnOnImage drawn(drawing, image);
-    const double voxel = drawn.image.voxel_mm();
+    const Question asked{drawing, prepared, fitted, image, drawn, options, work};
     if (!options.gate) {
+        const double voxel = drawn.image.voxel_mm();
         const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
-        return move_surface(drawn, drawing, prepared, fitted, cautious, options, work);
+        return asked.moved(asked.asked(cautious), cautious);
     }
-    const std::optional<LeftOutPlanes> left_out = leave_planes_out(drawing, image, fit_contours, work);
-    const Question asked{drawing, prepared, fitted, image, drawn, options, work};
-    RefinedFunction result = moved_if_it_helps(asked, left_out);
-    if (!left_out) return result;
-    result.report.intensities += left_out->cells.intensities;
-    return walk_helps(left_out->wrong, result.report.verdict == ImageVerdict::used) ? walked(asked, *left_out, result)
-                                                                                    : result;
+    const Trial trial = try_image(asked, fit_contours);
+    RefinedFunction result = follow(asked, trial);
+    tell(trial, result.report);
+    return result;
 }
 
 }  // namespace kontur

@@ -2,38 +2,88 @@
 #include "kontur/refine/refit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "kontur/fit/constraints.h"
+#include "kontur/fit/thin.h"
 
 namespace kontur {
 namespace {
 
 constexpr std::size_t kCompared = 500;  // drawn points at which functions are
+constexpr double kBetween = 0.5;        // of the spacing: from one point of the contours to the next
+constexpr double kTolerance = 5e-4;     // of the spacing
+
+double length_mm(const std::vector<BoundaryPoint>& points) {
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (points[i].contour == points[i - 1].contour) length += distance(points[i].position, points[i - 1].position);
+    return length;
+}
+
+/// Both have the same kernel and frame; a centre that both have is one.
+ImplicitFunction sum(const ImplicitFunction& a, const ImplicitFunction& b) {
+    std::vector<Vec3> centers;
+    std::vector<double> weights;
+    std::map<std::array<double, 3>, std::size_t> number;
+    for (const ImplicitFunction* f : {&a, &b})
+        for (std::size_t i = 0; i < f->weights().size(); ++i) {
+            const Vec3 c = f->centers()[i];
+            const auto [at, is_new] = number.emplace(std::array{c.x, c.y, c.z}, centers.size());
+            if (is_new) {
+                centers.push_back(c);
+                weights.push_back(0);
+            }
+            weights[at->second] += f->weights()[i];
+        }
+    std::array<double, 4> polynomial = a.polynomial();
+    for (std::size_t i = 0; i < polynomial.size(); ++i) polynomial[i] += b.polynomial()[i];
+    return {a.kernel(), a.frame(), PointArrays(centers), std::move(weights), polynomial};
+}
 
 }  // namespace
 
-FittedFunction Refit::with(const std::vector<PointConstraint>& more, const Work& work) {
-    std::vector<PointConstraint> single = fitted_.held;
-    single.insert(single.end(), more.begin(), more.end());
-    PlacedConstraints placed = place_constraints(prepared_.points, fitted_.slopes, single, options_.place);
-    hold_contours(placed.constraints);
-    FittedFunction result = fitted_;
-    solve_placed(placed, options_.solve, prepared_.ball, work, previous_, result);
-    return result;
+Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm)
+    : fitted_(fitted), options_(options) {
+    const auto most = static_cast<std::size_t>(std::ceil(length_mm(prepared.points) / (kBetween * spacing_mm)));
+    for (const std::size_t i : thin(prepared.points, std::max<std::size_t>(most, 1))) {
+        points_.push_back(prepared.points[i]);
+        points_.back().trust = 1;  // where contours contradict each other they yield to each other, and not to the image
+        slopes_.push_back(fitted.slopes[i]);
+    }
+    // Fewer points weigh as much against smoothness as all would.
+    const double share = static_cast<double>(points_.size()) / static_cast<double>(prepared.points.size());
+    options_.solve.smoothing *= share;
+    options_.place.slope_noise *= std::sqrt(share);
+    options_.solve.tolerance_mm = std::max(options.solve.tolerance_mm, kTolerance * spacing_mm);
+    options_.solve.ball = Ball3{fitted.function.frame().center, fitted.function.frame().scale};
+    options_.solve.mean_radii = 0;
+    known_ = place_constraints(points_, slopes_, {}, options_.place).constraints.size();
 }
 
-/// Points that yield where contours contradict each other yield to those, and not to the image: f stays there what it was.
-void Refit::hold_contours(ConstraintSet& constraints) const {
-    std::size_t place = 0;
-    for (const BoundaryPoint& point : prepared_.points) {
-        if (place == constraints.size() || constraints.centers[place] != point.position) continue;  // merged
-        if (point.trust < 1) {
-            constraints.values[place] = fitted_.function.value(point.position);
-            constraints.trust[place] = 1;
-        }
-        ++place;
+FittedFunction Refit::with(const std::vector<PointConstraint>& more, const Work& work) const {
+    std::vector<PointConstraint> changes = fitted_.held;
+    for (PointConstraint& held : changes) held.value = 0;
+    std::vector<Vec3> places;
+    for (const PointConstraint& one : more) places.push_back(one.position);
+    std::vector<double> before(places.size());
+    fitted_.function.values(places, before, work);
+    for (std::size_t i = 0; i < more.size(); ++i) {
+        changes.push_back(more[i]);
+        changes.back().value -= before[i];
     }
+    PlacedConstraints placed = place_constraints(points_, slopes_, changes, options_.place);
+    std::fill_n(placed.constraints.values.begin(), known_, 0.0);
+    const Solution change = solve(placed.constraints, options_.solve, work);
+    FittedFunction result = fitted_;
+    result.function = sum(fitted_.function, change.function);
+    result.report = change.report;
+    result.report.centres = result.constraints = result.function.weights().size();
+    result.iterations += change.report.iterations;
+    ++result.solves;
+    return result;
 }
 
 double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, const Work& work) {

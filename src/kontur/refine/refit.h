@@ -3,25 +3,26 @@
 
 #include <vector>
 
-#include "kontur/fit/solve_placed.h"
+#include "kontur/fit/fit.h"
 
 namespace kontur {
 
-/// One more solve, with what the image says beside all that the fit knew. Keeps references to what it is made of.
+/// Adds what the image says to a fit f: f + g, where g is the smoothest function of the same kernel that is 0 in all that
+/// the fit knew and elsewhere what f is off the image's data. That is the minimum of fit and image together, but that g
+/// knows the contours by points as far apart as the image tells details; f knows all.
 class Refit {
 public:
-    Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options)
-        : prepared_(prepared), fitted_(fitted), options_(options) {}
+    /// Keeps references to `fitted`.
+    Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm);
 
-    FittedFunction with(const std::vector<PointConstraint>& more, const Work& work);
+    FittedFunction with(const std::vector<PointConstraint>& more, const Work& work) const;
 
 private:
-    void hold_contours(ConstraintSet& constraints) const;
-
-    const PreparedContours& prepared_;
     const FittedFunction& fitted_;
-    const FitOptions& options_;
-    PreviousSolve previous_;
+    FitOptions options_;
+    std::vector<BoundaryPoint> points_;  ///< of the contours, and their slopes
+    std::vector<double> slopes_;
+    std::size_t known_;  ///< constraints of the contours
 };
 
 /// The largest difference of two functions at drawn points, about 500 of them.

@@ -53,7 +53,7 @@ private:
             if (options_.walls.is_in_plane(p, half_edges)) {
                 examples_.push_back({p, cells_.looks[n], depths_.is_inside(n)});
             } else if (depth <= kReach * options_.prior_mm(static_cast<double>(depths_.far_mm[n])) + least &&
-                       !options_.walls.is_beyond_end(p)) {
+                       options_.near.holds(p) && !options_.walls.is_beyond_end(p)) {
                 number_[n] = static_cast<std::int32_t>(walk_.asked.size());
                 walk_.asked.push_back(static_cast<std::uint32_t>(n));
             }

@@ -23,6 +23,7 @@ struct WalkOptions {
     const Walls& walls;
     std::function<double(double distance_mm)> prior_mm;  ///< standard deviation of the surface so far from the contours
     double diameter_mm;                                  ///< of the drawing
+    CellSlab near{};                                     ///< nothing is asked beyond
 };
 
 /// Seeds are the cells of the drawn planes and all beyond the band, which is as wide as errors of three standard deviations;

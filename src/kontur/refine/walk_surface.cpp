@@ -57,18 +57,19 @@ Moved moved(const ImplicitFunction& function, const CellDepths& now, const Voxel
 
 }  // namespace
 
-RefinedFunction walk_surface(const WalkedImage& image, const Drawing& drawing, const PreparedContours& prepared,
-                             const FittedFunction& fitted, const RefinedFunction& begun, const RefineOptions& options,
-                             double voxel_mm, const Work& work) {
+std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Drawing& drawing,
+                                            const PreparedContours& prepared, const FittedFunction& fitted,
+                                            const Movement* movement, const RefineOptions& options, double voxel_mm,
+                                            const Work& work) {
     const ImageCells& cells = image.cells;
     const Affine3 frame = frame_of(drawing.contours);
     const CellDepths alone = cell_depths(cells, fitted.function, drawing.contours, work);
-    const bool is_moved = begun.report.verdict == ImageVerdict::used;
-    const CellDepths start = is_moved ? cell_depths(cells, begun.fitted.function, drawing.contours, work) : alone;
-    const VoxelWalk walk = walk_voxels(cells, start, {image.walls, image.prior_mm, drawing.diameter_mm()}, work);
+    const WalkOptions walking{image.walls, image.beliefs.prior_mm, drawing.diameter_mm()};
+    const VoxelWalk walk = walk_voxels(
+        cells, movement ? moved_depths(alone, cells, fitted.function, *movement, image.beliefs, {}, work) : alone, walking,
+        work);
     const std::vector<float> walked = depths_below(walk, cells);
-    RefinedFunction result = begun;
-    Refit refit(prepared, fitted, options.fit);
+    Refit refit(prepared, fitted, options.fit, cells.edge_mm());
     for (const WalkedDataOptions& attempt : kAttempts) {
         work.check();
         FittedFunction through = refit.with(walked_data(walk, cells, alone, fitted.function, frame, attempt, work), work);
@@ -76,16 +77,14 @@ RefinedFunction walk_surface(const WalkedImage& image, const Drawing& drawing, c
         const CellDepths now = cell_depths(cells, through.function, drawing.contours, work);
         if (on_contours > kMostOnContours * voxel_mm || strays(now, walk, walked, alone, image)) continue;
         Moved places = moved(through.function, now, walk, alone, cells, frame, options.samples, work);
-        result.fitted = std::move(through);
-        result.report.verdict = ImageVerdict::used;
+        RefinedFunction result{std::move(through), {.verdict = ImageVerdict::used}};
         result.report.walked = true;
         result.report.on_contours_mm = on_contours;
         result.report.asked = std::move(places.asked);
         result.report.largest_move_mm = places.most_mm;
         return result;
     }
-    if (!is_moved) result.report.verdict = ImageVerdict::astray;
-    return result;
+    return std::nullopt;
 }
 
 }  // namespace kontur

@@ -182,7 +182,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
 
     const bool screened = options.kernel == Kernel::screened;
     const UnitFrame frame = frame_of(constraints, options);
-    const double mean = screened ? kMeanRadii * frame.scale : 0;
+    const double mean = screened ? options.mean_radii * frame.scale : 0;
     LinearSystem system{options.kernel, smoothing_of(constraints, options, frame.scale),
                         PointArrays(frame.to_unit(constraints.centers)), constraints.values};
     for (double& value : system.values) value -= mean;

@@ -24,9 +24,13 @@ enum class Solver {
 std::string_view name(Solver solver) noexcept;
 std::string_view name(Kernel kernel) noexcept;
 
+/// The mean of the screened kernel's functions in radii of the ball, outside.
+inline constexpr double kMeanRadii = -1;
+
 struct SolveOptions {
     Kernel kernel = Kernel::screened;
-    std::optional<Ball3> ball{};  ///< mm, of what was drawn, sets the unit; unset: the smallest one of all constraints
+    std::optional<Ball3> ball{};     ///< mm, of what was drawn, sets the unit; unset: the smallest one of all constraints
+    double mean_radii = kMeanRadii;  ///< screened kernel: the functions' mean, in radii of the ball
     Solver solver = Solver::automatic;
     double smoothing = 0;        ///< >= 0, on unit coordinates, divided by each constraint's trust; 0: exact
     double tolerance_mm = 1e-3;  ///< iterative only: largest |f(c_i) - h_i| over all constraints at which it stops
@@ -65,9 +69,6 @@ struct PreviousSolve {
     std::vector<double> weights;  ///< of phi of distances in mm
     std::shared_ptr<const PreconditionerPattern> pattern = {};
 };
-
-/// The mean of the screened kernel's functions in radii of the ball, outside.
-inline constexpr double kMeanRadii = -1;
 
 /// The variational interpolant through the constraints: with the screened kernel the function that departs least from its
 /// mean, with the others Eq. 2-6 with the side conditions sum w = 0 and sum w c = 0.

@@ -276,6 +276,8 @@ TEST(Solve, RefusesUnusableInput) {
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = 0}), ErrorKind::invalid_input, "tolerance");
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = std::nan("")}), ErrorKind::invalid_input, "tolerance");
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = -1e-7}), ErrorKind::invalid_input, "is -1e-07 mm");
+    EXPECT_KONTUR_ERROR(solve(good, {.mean_radii = std::numeric_limits<double>::infinity()}), ErrorKind::invalid_input,
+                        "mean is inf radii");
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_KONTUR_ERROR(solve(good, {.smoothing = infinity}), ErrorKind::invalid_input, "the smoothing is inf");
     EXPECT_KONTUR_ERROR(solve(good, {.tolerance_mm = infinity}), ErrorKind::invalid_input, "tolerance is inf mm");

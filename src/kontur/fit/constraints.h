@@ -30,8 +30,8 @@ struct PlacedConstraints {
     std::size_t merged = 0;  ///< constraints left out because they (nearly) repeat others
 };
 
-/// Throws Error(invalid_input) for an offset that is not above 0, a merge distance or a noise below 0, and what is not
-/// finite of them.
+/// Throws Error(invalid_input) for an offset that is not above 0, a spacing, a merge distance or a noise below 0, and what
+/// is not finite of them.
 void check_place_options(const PlaceOptions& options);
 /// Throws Error(invalid_input) unless there is one slope in (0, 1] for each of the points.
 void check_slopes(std::span<const double> slopes, std::size_t points);

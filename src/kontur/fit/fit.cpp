@@ -10,7 +10,6 @@
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/fit/active_bounds.h"
-#include "kontur/fit/solve_placed.h"
 #include "kontur/fit/thin.h"
 #include "kontur/fit/tilt_trust.h"
 
@@ -133,8 +132,20 @@ private:
         result_.bounded = single_points.size();
         result_.held = single_points;
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
-        solve_placed(placed, solving, ball_, work_of_stretch(), previous_, result_);
+        solve_placed(placed, solving);
         return bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
+    }
+
+    /// With the screened kernel in the ball of what was drawn unless the options have one.
+    void solve_placed(const PlacedConstraints& placed, SolveOptions solving) {
+        if (solving.kernel == Kernel::screened && !solving.ball) solving.ball = ball_;
+        Solution solution = solve(placed.constraints, solving, work_of_stretch(), &previous_);
+        result_.function = std::move(solution.function);
+        result_.report = std::move(solution.report);
+        result_.iterations += result_.report.iterations;
+        result_.merged = placed.merged;
+        result_.constraints = placed.constraints.size();
+        ++result_.solves;
     }
 
     /// By which smoothing is reduced so that fewer points weigh as much against smoothness as all would.

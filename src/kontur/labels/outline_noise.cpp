@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "kontur/base/smallest_ball.h"
-#include "kontur/function/screened_kernel.h"
+#include "kontur/function/smoothing_of_noise.h"
 #include "kontur/labels/section_distances.h"
 
 namespace kontur {
@@ -22,20 +21,12 @@ double half_thickness_mm(const PaintedObject& object) {
     return sum / static_cast<double>(std::max<std::size_t>(object.slices.size(), 1));
 }
 
-double radius_mm(const ContourSet& contours) {
-    std::vector<Vec3> points;
-    for (const Contour& contour : contours.contours)
-        points.insert(points.end(), contour.points.begin(), contour.points.end());
-    return smallest_ball(points).radius;
-}
-
 }  // namespace
 
 std::optional<double> outline_smoothing(const PaintedObject& object, const ContourSet& contours) {
-    const double radius = radius_mm(contours);
+    const double radius = smallest_ball(contours).radius;
     if (object.only_axis() < 0 || radius == 0) return {};
-    const double noise = kShare * half_thickness_mm(object) / radius;
-    return 9 * kScreeningLength * noise * noise;
+    return smoothing_of_noise(kShare * half_thickness_mm(object) / radius);
 }
 
 }  // namespace kontur

@@ -11,6 +11,7 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/function/smoothing_of_noise.h"
 #include "kontur/solve/linear_system.h"
 
 namespace kontur {
@@ -78,14 +79,10 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
     return c;
 }
 
-/// The smoothing that a noise of 1 radius is worth, if functions are taken to have gradients of length 1 in the mean: the
-/// screened kernel's have one of length sqrt(9 l).
-constexpr double kSmoothingOfNoise = 9 * kScreeningLength;
-
 std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double radius_mm) {
     std::vector<double> smoothing(constraints.size(), options.smoothing);
     for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
-        smoothing[i] += kSmoothingOfNoise * std::pow(constraints.noise_mm[i] / radius_mm, 2);
+        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / radius_mm);
     for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
         smoothing[i] /= constraints.trust[i];
         if (!std::isfinite(smoothing[i]))
@@ -165,6 +162,9 @@ void check_solve_options(const SolveOptions& options) {
     if (!(options.smoothing >= 0 && std::isfinite(options.smoothing)))
         throw Error(ErrorKind::invalid_input,
                     fmt::format("the smoothing is {:g}; it must be finite and at least 0", options.smoothing));
+    if (!std::isfinite(options.mean_radii))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the function's mean is {:g} radii; it must be finite", options.mean_radii));
     check_at_least("the most iterations of the solver", options.max_iterations, 1);
     if (!(options.max_memory_mb > 0))
         throw Error(ErrorKind::invalid_input,

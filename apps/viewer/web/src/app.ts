@@ -399,8 +399,16 @@ export class App {
     this.addImageDialog = new AddImageDialog({ http: this.http, places, folder, present: this.second.info });
   }
 
+  /** It goes at once, so that nothing is asked of it meanwhile; if the server keeps it, it is back. */
   private removeImage(): void {
-    if (this.second.info) void this.socket.call("image.remove", { image: this.second.info.image }).catch((error: unknown) => this.saving.failed(error));
+    const { info } = this.second;
+    if (!info) return;
+    const look = this.second.saved();
+    this.second.set(null);
+    this.socket.call("image.remove", { image: info.image }).catch((error: unknown) => {
+      this.second.set(info, look);
+      this.saving.failed(error);
+    });
   }
 
   /** What has to be assumed of a new one is said once; its card says it always. */

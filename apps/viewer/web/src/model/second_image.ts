@@ -30,11 +30,16 @@ export class SecondImage extends Emitter<"image" | "shown" | "look"> {
   /** Its card shows only which of the two are seen. */
   isFolded = false;
   private beforeAlone: Shown = "both";
+  private here = new AbortController(); // aborted when the image goes
 
   /** What the server holds now; `saved` is how this page, or the last visit, looked at it. */
   set(info: FurtherImage | null, saved: SavedSecondImage | null = null): void {
     const isSame = info !== null && this.info?.key === info.key;
     this.info = info;
+    if (!isSame) {
+      this.here.abort();
+      this.here = new AbortController();
+    }
     if (info && !isSame) this.takeLook(info, saved?.key === info.key ? saved : null);
     this.emit("image", "shown", "look");
   }
@@ -46,6 +51,11 @@ export class SecondImage extends Emitter<"image" | "shown" | "look"> {
     this.colors = COLOR_MAPS.find(({ name }) => name === saved?.colors)?.name ?? (info.emission ? "hot" : "gray");
     this.window = saved?.window ?? { ...info.window };
     this.isFolded = saved?.isFolded ?? false;
+  }
+
+  /** Aborts when the image is no longer there: what is asked of it then has no answer. */
+  get untilGone(): AbortSignal {
+    return this.here.signal;
   }
 
   /** Whether a slice needs it. */

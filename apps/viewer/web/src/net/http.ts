@@ -82,8 +82,9 @@ export class Http {
     await this.request("image", { method: "POST", body: JSON.stringify({ image: 1, ...request }), signal });
   }
 
-  async slice(request: SliceRequest): Promise<BinaryReply<SliceHeader>> {
-    const reply = await this.post("slice", JSON.stringify({ page: this.page, ...request, ...(this.link.isSlow && { compressed: true }) }));
+  async slice(request: SliceRequest, signal?: AbortSignal): Promise<BinaryReply<SliceHeader>> {
+    const body = JSON.stringify({ page: this.page, ...request, ...(this.link.isSlow && { compressed: true }) });
+    const reply = await this.request("slice", { method: "POST", body, signal: signal ?? null });
     const began = performance.now();
     const bytes = await reply.arrayBuffer();
     this.link.took(Number(reply.headers.get("Content-Length")), performance.now() - began);

@@ -56,21 +56,21 @@ export class SecondSlice {
 
   /** Returns what lays the values, so that both images of a slice can change at once; null where nothing is to be laid. */
   async ask(raster: Raster, planeKey: string): Promise<(() => void) | null> {
-    const { info } = this.second;
+    const { info, untilGone } = this.second;
     if (!info || !this.needs(planeKey)) return null;
     const key = this.keyOf(planeKey);
     const { navigation } = this;
     const time = navigation.isAway && this.movesWith(navigation) ? { time: navigation.time } : {};
     try {
-      const reply = await this.http.slice({ ...raster, image: info.image, ...time, pixels: "values", outlines: false });
+      const reply = await this.http.slice({ ...raster, image: info.image, ...time, pixels: "values", outlines: false }, untilGone);
       return () => {
         const { values, samples } = reply.header;
         this.values = { key, codes: reply.u16("values"), coding: values!, samples: samples!, ...raster };
         this.recolor();
       };
     } catch (error) {
-      const isGone = info !== this.second.info && !(error instanceof ServerError && error.kind === "cancelled");
-      if (isGone) return null; // what is there instead is asked for when the page is told
+      const isSuperseded = error instanceof ServerError && error.kind === "cancelled";
+      if (untilGone.aborted || (info !== this.second.info && !isSuperseded)) return null; // what is there instead is asked for when the page is told
       throw error;
     }
   }

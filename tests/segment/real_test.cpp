@@ -46,7 +46,7 @@ TEST_P(RealContours, DefaultOptionsReachTheKnownAgreementFromEverySetOfPlanes) {
         EXPECT_GT(agreement, GetParam().least_dice[p]) << kPlanes[p];
         EXPECT_LE(result.report.mask_components, static_cast<std::int64_t>(contours.contours.size())) << kPlanes[p];
         EXPECT_LT(result.report.residual.rms_mm, 0.5) << kPlanes[p];
-        EXPECT_LT(result.report.iterations, 30 * result.report.solves) << kPlanes[p];
+        EXPECT_LT(result.report.iterations, 14 * result.report.solves) << kPlanes[p];
     }
 }
 
@@ -66,7 +66,7 @@ TEST(RealBranches, ATumourOfSeveralContoursASliceIsOnePieceWithItsHoles) {
     const Segmentation result = of_a_quarter(contours, truth.grid);
     EXPECT_GT(test::dice(result.mask.values, truth.values), 0.997);
     EXPECT_EQ(result.report.mask_components, 1);
-    EXPECT_LT(result.report.iterations, 35 * result.report.solves);
+    EXPECT_LT(result.report.iterations, 16 * result.report.solves);
 }
 
 TEST(RealBranches, ALungKeepsTheHolesOfItsVessels) {
@@ -84,7 +84,7 @@ TEST(RealBranches, ALungKeepsTheHolesOfItsVessels) {
     const Mask truth = rasterize(contours, grid);
     const Segmentation result = of_a_quarter(contours, grid);
     EXPECT_GT(test::dice(result.mask.values, truth.values), 0.98);
-    EXPECT_LT(result.report.iterations, 30 * result.report.solves);
+    EXPECT_LT(result.report.iterations, 16 * result.report.solves);
 }
 
 /// The voxels of drawn slices that are on the wrong side of what was drawn there, and how far from the line the farthest is

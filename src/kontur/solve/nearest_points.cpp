@@ -52,16 +52,21 @@ void keep_nearest(std::vector<std::pair<double, std::int32_t>>& candidates, std:
 }  // namespace
 
 struct EarlierNeighbours::Search {
-    Cluster box;
-    std::int32_t limit;  ///< points from here on do not count
+    const PointArrays& points;
+    std::int32_t begin, end;  ///< the group; points from `begin` on do not count
     std::size_t wanted;
+    Cluster box{};                                           ///< of the group
     double reach = std::numeric_limits<double>::infinity();  ///< squared; nothing farther is among the wanted
-    std::vector<Candidate> candidates;
+    std::vector<Candidate> candidates{};
 
-    void add(double squared, std::int32_t point) {
-        if (point >= limit || squared > reach) return;
+    /// To the box first, which is nearer than any member.
+    void add(double squared_to_box, std::int32_t point) {
+        if (point >= begin || squared_to_box > reach) return;
+        const double squared =
+            nearest_squared_distance(points, begin, end - begin, points[static_cast<std::size_t>(point)]);
+        if (squared > reach) return;
         candidates.emplace_back(squared, point);
-        if (candidates.size() < 4 * wanted) return;
+        if (candidates.size() < 2 * wanted) return;
         keep_nearest(candidates, wanted);
         reach = std::max_element(candidates.begin(), candidates.end())->first;
     }
@@ -98,22 +103,18 @@ void EarlierNeighbours::visit(std::int32_t c, Search& search) const {
                                box_distance(search.box, tree_.clusters[lower + 1])};
     const int nearer = distance[1] < distance[0] ? 1 : 0;
     for (const int child : {nearer, 1 - nearer})
-        if (earliest_[lower + child] < search.limit && distance[child] * distance[child] <= search.reach)
+        if (earliest_[lower + child] < search.begin && distance[child] * distance[child] <= search.reach)
             visit(lower + child, search);
 }
 
 std::vector<std::int32_t> EarlierNeighbours::of(std::int32_t begin, std::int32_t end, std::int32_t count) const {
     Box3 box;
     for (std::int32_t i = begin; i < end; ++i) box.extend(points_[static_cast<std::size_t>(i)]);
-    Search search{{}, begin, static_cast<std::size_t>(count + count / 2), std::numeric_limits<double>::infinity(), {}};
+    Search search{points_, begin, end, static_cast<std::size_t>(count)};
     search.box.half = 0.5 * box.size();
     search.box.center = box.min + search.box.half;
     if (begin > 0) visit(0, search);
     keep_nearest(search.candidates, search.wanted);
-    // Nearest to the box of the group first, with some to spare; then those nearest to any member.
-    for (auto& [squared, point] : search.candidates)
-        squared = nearest_squared_distance(points_, begin, end - begin, points_[static_cast<std::size_t>(point)]);
-    keep_nearest(search.candidates, static_cast<std::size_t>(count));
     std::vector<std::int32_t> result;
     for (const auto& [squared, point] : search.candidates) result.push_back(point);
     std::sort(result.begin(), result.end());

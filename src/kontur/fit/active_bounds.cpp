@@ -9,9 +9,12 @@
 namespace kontur {
 namespace {
 
-// Of a bound's noise. Three times as much lets the volume jump by 4 % where one of two planes turns, a third of it changes
-// nothing but that some drawings take one more solve of all points.
+// Of a bound's noise, what f may leave it by. Three times as much lets the volume jump by 4 % where one of two planes turns,
+// a third of it changes nothing but that some drawings take one more solve of all points.
 constexpr double kCounts = 0.03;
+// Of the same, where f would keep a bound that is held and pulls it the wrong way: such bounds lie far from the surface,
+// which moves by a hundredth of a millimetre at most when they are let go of.
+constexpr double kCountsHeld = 0.5;
 
 }  // namespace
 
@@ -28,13 +31,14 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
     bool counts = false;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
         const double above = values[i] - bounds_[i].most_mm, below = bounds_[i].least_mm - values[i];
-        const double slack = std::max(tolerance_mm, kCounts * bounds_[i].noise_mm);
+        const double noise = bounds_[i].noise_mm;
         if (held_[i] == Held::no) {
             const double excess = std::max(above, below);
-            if (excess > slack) left.push_back({excess, i, above > below ? Held::at_most : Held::at_least});
+            if (excess > std::max(tolerance_mm, kCounts * noise))
+                left.push_back({excess, i, above > below ? Held::at_most : Held::at_least});
         } else if (const double excess = held_[i] == Held::at_most ? above : below; excess <= 0) {
             held_[i] = Held::no;
-            counts = counts || excess < -slack;
+            counts = counts || excess < -std::max(tolerance_mm, kCountsHeld * noise);
         }
     }
     counts = counts || !left.empty();

@@ -18,8 +18,9 @@ public:
     ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn);
 
     /// Holds f where it leaves its interval by more than counts, and lets it go where it keeps it by itself; true if another
-    /// solve would move f by more than counts: than the tolerance, and than 3 % of the bound's noise, which says how well it
-    /// is known. The first are held only where f is farthest off in a surrounding as wide as it is far to what was drawn.
+    /// solve would move f by more than counts: than the tolerance, and than 3 % of the noise of a bound that f leaves, which
+    /// says how well it is known, or half of it where f would keep a bound that is held. The first are held only where f is
+    /// farthest off in a surrounding as wide as it is far to what was drawn.
     bool update(const ImplicitFunction& function, double tolerance_mm, const Work& work);
 
     bool holds_any() const;

@@ -62,8 +62,7 @@ struct EarlierNeighbours::Search {
     /// To the box first, which is nearer than any member.
     void add(double squared_to_box, std::int32_t point) {
         if (point >= begin || squared_to_box > reach) return;
-        const double squared =
-            nearest_squared_distance(points, begin, end - begin, points[static_cast<std::size_t>(point)]);
+        const double squared = nearest_squared_distance(points, begin, end - begin, points[static_cast<std::size_t>(point)]);
         if (squared > reach) return;
         candidates.emplace_back(squared, point);
         if (candidates.size() < 2 * wanted) return;

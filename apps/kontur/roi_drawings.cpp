@@ -9,6 +9,7 @@
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "kontur/base/error.h"
+#include "own_grid.h"
 
 namespace kontur::app {
 namespace {
@@ -48,6 +49,22 @@ StructurePair rule_of(const char* option, const std::string& words, Relation rel
     refuse(fmt::format("{} is '{}'; two different ROIs of {} are needed, with a colon between them", option, words, names));
 }
 
+/// Of all that was drawn, once it is known to make sense.
+Box3 box_of(const std::vector<Roi>& rois) {
+    Box3 box;
+    for (const Roi& roi : rois) {
+        try {
+            check_contours(roi.contours);
+        } catch (const Error& error) {
+            throw error.with_context(fmt::format("ROI '{}'", roi.name));
+        }
+        const Box3 its = bounding_box(roi.contours);
+        box.extend(its.min);
+        box.extend(its.max);
+    }
+    return box;
+}
+
 }  // namespace
 
 RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
@@ -68,6 +85,10 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
     }
     for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, command.image))
         drawings.notes.push_back(std::move(note));
+    if (command.image.path.empty()) {
+        drawings.grid = own_grid(command, box_of(drawings.rois));
+        return drawings;
+    }
     DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, drawings.notes);
     drawings.grid = drawn_on.grid;
     drawings.image = std::move(drawn_on.image);

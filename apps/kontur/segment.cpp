@@ -24,6 +24,7 @@
 #include "kontur/report.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
+#include "own_grid.h"
 #include "segment_rois.h"
 
 namespace kontur::app {
@@ -54,18 +55,6 @@ struct Inputs {
     std::vector<std::string> notes;
 };
 
-Grid grid_around_contours(const SegmentCommand& command, const ContourSet& contours) {
-    check_contours(contours);  // their box makes sense only then
-    const std::vector<double>& s = command.spacing_mm;
-    const Grid grid = grid_around(bounding_box(contours), s.size() == 3 ? Vec3{s[0], s[1], s[2]} : Vec3{s[0], s[0], s[0]},
-                                  command.margin_mm);
-    const std::int64_t limit = command.image.options.max_voxels;
-    if (grid.voxel_count() > limit)
-        throw Error(ErrorKind::too_large, fmt::format("a spacing of {:g} mm gives the mask {} voxels; the limit is {}", s[0],
-                                                      grid.voxel_count(), limit));
-    return grid;
-}
-
 /// The fit would refuse it, too, but knows neither file nor structure.
 [[noreturn]] void refuse_empty(const SegmentCommand& command) {
     std::string files;
@@ -82,7 +71,8 @@ Inputs read_inputs(const SegmentCommand& command, const Work& work) {
         inputs.notes.push_back(std::move(note));
     if (!command.name.empty()) inputs.contours.name = command.name;
     if (command.image.path.empty()) {
-        inputs.grid = grid_around_contours(command, inputs.contours);
+        check_contours(inputs.contours);  // their box makes sense only then
+        inputs.grid = own_grid(command, bounding_box(inputs.contours));
     } else if (command.picture.empty()) {
         DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, inputs.notes);
         inputs.grid = drawn_on.grid;

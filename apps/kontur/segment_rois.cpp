@@ -149,7 +149,6 @@ void check_roi_words(const SegmentCommand& command) {
     if (!command.name.empty()) refuse_one("--name");
     if (command.mask.label_value != WriteMaskOptions{}.label_value)
         refuse("--label-value is for one structure; several ROIs become the labels 1, 2, ...");
-    if (command.image.path.empty()) refuse("several ROIs need an --image, whose grid is that of their label map");
     if (command.contours.size() != 1) refuse("several ROIs are chosen from one RTSTRUCT");
     if (command.rois.size() > std::numeric_limits<std::uint16_t>::max())
         throw Error(ErrorKind::too_large,

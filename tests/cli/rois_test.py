@@ -243,6 +243,23 @@ def test_surfaces_of_structures_that_touch_share_their_border(tmp_path, structur
     assert (numpy.isin(sides, pair).all(axis=1)).any()  # triangles known from both sides
 
 
+def test_without_an_image_the_labels_lie_on_a_grid_around_all_that_was_drawn(tmp_path, structures):
+    done = kontur("segment", structures, "--all-rois", "--together", "--spacing-mm", 1, "--margin-mm", 6, "--output", tmp_path / "all.nii.gz")
+    assert done.returncode == 0, done
+    labels = read_nifti(tmp_path / "all.nii.gz")
+    assert set(numpy.unique(labels)) == {0, 1, 2, 3}
+    for axis in range(3):  # 6 mm of room on each side
+        seen = numpy.flatnonzero(labels.any(axis=tuple({0, 1, 2} - {axis})))
+        assert seen[0] >= 1 and seen[-1] <= labels.shape[axis] - 2
+    for number, name in enumerate(BALLS, 1):
+        done = kontur("segment", structures, "--roi", name, "--spacing-mm", 1, "--output", tmp_path / f"{name}.nii", "--report", tmp_path / f"{name}.json")
+        assert done.returncode == 0, done
+        alone = json.loads((tmp_path / f"{name}.json").read_text())["mask"]["volume_ml"]
+        assert (labels == number).sum() * 0.001 == pytest.approx(alone, rel=0.4), name  # the others take what they share
+    done = kontur("segment", structures, "--all-rois", "--spacing-mm", 0.01, "--output", tmp_path / "huge.nii")
+    assert done.returncode == 77 and "a spacing of 0.01 mm gives the mask" in done.stderr and not (tmp_path / "huge.nii").exists(), done
+
+
 @pytest.mark.parametrize("words, code, sentence", [
     (("--together", "--roi", "PTV"), 65, "--together is for several ROIs"),
     (("--all-rois", "--roi", "PTV"), 64, "--roi excludes --all-rois"),

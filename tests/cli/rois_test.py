@@ -8,7 +8,7 @@ import sys
 import numpy
 import pydicom
 import pytest
-from support import circle, kontur, names, read_nifti, write_planes
+from support import circle, kontur, names, read_nifti, real_data, write_planes
 
 SUPPORT = pathlib.Path(__file__).parent.parent / "support"
 BALLS = {"Bladder": ((-15.0, -25.0, 110.0), 3.5), "rectum": ((-15.0, -21.0, 110.0), 3.5), "PTV": ((-9.0, -31.0, 110.0), 2.5)}
@@ -258,6 +258,19 @@ def test_without_an_image_the_labels_lie_on_a_grid_around_all_that_was_drawn(tmp
         assert (labels == number).sum() * 0.001 == pytest.approx(alone, rel=0.4), name  # the others take what they share
     done = kontur("segment", structures, "--all-rois", "--spacing-mm", 0.01, "--output", tmp_path / "huge.nii")
     assert done.returncode == 77 and "a spacing of 0.01 mm gives the mask" in done.stderr and not (tmp_path / "huge.nii").exists(), done
+
+
+def test_together_small_structures_borrow_no_border_from_afar(tmp_path):
+    """A scar at the rim of a tumour's bed and its block: their lines run 20 to 45 mm from what was drawn of it."""
+    structures = real_data("09_rtstruct_breast_dicompyler") / "rtss.dcm"
+    chosen = [word for name in ("Nodes", "Scar", "Tumor Bed", "Tumor Bed Block") for word in ("--roi", name)]
+    done = kontur("segment", structures, *chosen, "--together", "--spacing-mm", 3, "--output", tmp_path / "all.nii", "--report", tmp_path / "all.json")
+    assert done.returncode == 0 and "contradicts" not in done.stderr, done
+    for one in json.loads((tmp_path / "all.json").read_text())["structures"]:
+        done = kontur("segment", structures, "--roi", one["name"], "--spacing-mm", 3, "--output", tmp_path / "one.nii", "--report", tmp_path / "one.json")
+        assert done.returncode == 0, done
+        alone = json.loads((tmp_path / "one.json").read_text())["mask"]["volume_ml"]
+        assert one["mask"]["volume_ml"] == pytest.approx(alone, rel=0.1, abs=0.1), one["name"]
 
 
 @pytest.mark.parametrize("words, code, sentence", [

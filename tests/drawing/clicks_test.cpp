@@ -33,6 +33,20 @@ TEST(ContradictoryClicks, NameThePointTheContourAndTheDistance) {
     EXPECT_EQ(found[1], "exterior point 2 contradicts contour 2: it lies 2.96 mm on its inside") << "a chord, not an arc";
 }
 
+TEST(ContradictoryClicks, ManyAreToldInOneSentenceAfterTheFirstFive) {
+    ContourSet set = test::three_circles();
+    for (int n = 0; n < 200; ++n) set.surface.push_back({set.contours[1].plane.from_uv(30 + 0.1 * n, 0), {}});
+    std::vector<std::string> found = contradictory_clicks(DrawnPlanes(set), 0.5);
+    ASSERT_EQ(found.size(), 6u);
+    for (std::size_t n = 0; n < 5; ++n)
+        EXPECT_TRUE(found[n].starts_with("surface point " + std::to_string(n + 1) + " contradicts contour ")) << found[n];
+    EXPECT_EQ(found[5], "195 more surface points contradict contours");
+    set.surface.resize(6);
+    found = contradictory_clicks(DrawnPlanes(set), 0.5);
+    ASSERT_EQ(found.size(), 6u);
+    EXPECT_EQ(found[5], "1 more surface point contradicts contours");
+}
+
 TEST(ContradictoryClicks, PointsFarFromEveryPlaneContradictNothingButEachOther) {
     ContourSet set = test::three_circles();
     const Plane& plane = set.contours[2].plane;

@@ -18,6 +18,8 @@ struct Conflict {
     std::size_t contour;
 };
 
+constexpr std::size_t kMostTold = 5;  // of a kind of points, so that other sentences are seen, too
+
 enum class Side { interior, exterior, surface };
 
 std::optional<Conflict> conflict(const Vec3& point, Side side, const std::vector<Section>& sections) {
@@ -45,10 +47,17 @@ std::vector<std::string> contradictory_clicks(const DrawnPlanes& planes, double 
     const ContourSet& set = planes.set;
     std::vector<std::string> sentences;
     const auto check = [&](const std::vector<Vec3>& points, Side side, std::string_view kind, std::string_view where) {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            if (const auto found = conflict(points[i], side, planes.sections); found && found->clearance_mm > margin_mm)
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const auto found = conflict(points[i], side, planes.sections);
+            if (!found || found->clearance_mm <= margin_mm) continue;
+            if (++count <= kMostTold)
                 sentences.push_back(fmt::format("{} point {} contradicts contour {}: it lies {:.3g} mm {}", kind, i + 1,
                                                 found->contour + 1, found->clearance_mm, where));
+        }
+        if (count == kMostTold + 1) sentences.push_back(fmt::format("1 more {} point contradicts contours", kind));
+        if (count > kMostTold + 1)
+            sentences.push_back(fmt::format("{} more {} points contradict contours", count - kMostTold, kind));
     };
     check(set.interior, Side::interior, "interior", "on its outside");
     check(set.exterior, Side::exterior, "exterior", "on its inside");

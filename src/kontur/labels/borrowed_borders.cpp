@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/labels/borrowed_borders.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "kontur/labels/filled_map.h"
@@ -10,17 +12,48 @@
 namespace kontur {
 namespace {
 
+// Of the distance to what was drawn of a structure: where its surface is farther away than that, it is not known to be
+// there.
+constexpr double kClose = 0.5;
+
+/// How far places are from where f is 0, without the fall far away, by which they would seem to be a third as far.
+std::vector<double> distances_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, const Work& work) {
+    constexpr double kLeastSlope = 1e-3;  // where f has a ridge
+    std::vector<double> values(places_mm.size()), falls(places_mm.size());
+    std::vector<Vec3> gradients(places_mm.size());
+    function.values_and_gradients(places_mm, values, gradients, work);
+    const PointArrays places(function.frame().to_unit(places_mm));
+    function.add_fall(places, falls);
+    for (std::size_t n = 0; n < values.size(); ++n) {
+        const Vec3 slope = gradients[n] - function.fall_gradient_at(places[n]) / function.frame().scale;
+        values[n] = std::abs(values[n] - falls[n]) / std::max(norm(slope), kLeastSlope);
+    }
+    return values;
+}
+
+bool is_close(const Vec3& point, double distance_mm, const ContourSet& drawn) {
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Contour& contour : drawn.contours)
+        for (const Vec3& p : contour.points) squared = std::min(squared, dot(p - point, p - point));
+    return distance_mm < kClose * std::sqrt(squared);
+}
+
+struct Beside {
+    std::size_t structure;
+    double distance_mm;  ///< to its surface
+};
+
 /// What borders on the points of a contour of `owner`: for each the other structure whose surface is nearest, if that is
 /// nearer than the union's.
-std::vector<std::optional<std::size_t>> neighbours_at(const std::vector<Vec3>& points, std::size_t owner,
-                                                      const Neighbours& neighbours, const Work& work) {
+std::vector<std::optional<Beside>> neighbours_at(const std::vector<Vec3>& points, std::size_t owner,
+                                                 const Neighbours& neighbours, const Work& work) {
     std::vector<double> nearest = depths_mm(*neighbours.all, points, work);
-    std::vector<std::optional<std::size_t>> found(points.size());
+    std::vector<std::optional<Beside>> found(points.size());
     for (std::size_t other = 0; other < neighbours.functions.size(); ++other) {
         if (other == owner) continue;
-        const std::vector<double> depths = depths_mm(*neighbours.functions[other], points, work);
+        const std::vector<double> distances = distances_mm(*neighbours.functions[other], points, work);
         for (std::size_t n = 0; n < points.size(); ++n)
-            if (std::abs(depths[n]) < nearest[n]) nearest[n] = std::abs(depths[n]), found[n] = other;
+            if (distances[n] < nearest[n]) nearest[n] = distances[n], found[n] = {other, distances[n]};
     }
     return found;
 }
@@ -39,7 +72,9 @@ std::vector<std::vector<SurfacePoint>> borrowed_borders(const Neighbours& neighb
             if (!is_any_silent) continue;
             const auto beside = neighbours_at(contour.points, owner, neighbours, work);
             for (std::size_t n = 0; n < beside.size(); ++n)
-                if (beside[n] && is_silent(*beside[n])) borrowed[*beside[n]].push_back({contour.points[n], {}});
+                if (beside[n] && is_silent(beside[n]->structure) &&
+                    is_close(contour.points[n], beside[n]->distance_mm, *neighbours.drawn[beside[n]->structure]))
+                    borrowed[beside[n]->structure].push_back({contour.points[n], {}});
         }
     return borrowed;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-const CELLS = 96; // along the surface's longest side
+const CELLS = 64; // along the surface's longest side
 
 /** The triangles that remain when all points in a cube of a grid count as one of them: a rough surface over the same points. */
 export function coarseTriangles(positions: Float32Array, triangles: Uint32Array): Uint32Array {

@@ -7,7 +7,8 @@ import { add, distance, scale, type Vec3 } from "../geometry/vec";
 import type { Scheme } from "../model/theme";
 import { tinted } from "../view/palette";
 import { coarseTriangles } from "./coarse";
-import { isSoftwareRenderer, Pace } from "./pace";
+import { drawsInSoftware, Materials, type SurfaceMaterial } from "./materials";
+import { Pace } from "./pace";
 
 export interface MeshData {
   positions: Float32Array;
@@ -26,7 +27,7 @@ export interface ScenePoint {
 
 /** A surface, and the same with fewer triangles for when it must be drawn fast. */
 interface Shown {
-  mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
+  mesh: THREE.Mesh<THREE.BufferGeometry, SurfaceMaterial>;
   fine: THREE.BufferGeometry;
   coarse: THREE.BufferGeometry | null;
   style: string;
@@ -34,6 +35,7 @@ interface Shown {
 
 const MARK_PIXELS = 4.5; // their radius
 const LOOK_MS = 3; // how often to look whether a frame is finished
+const ROUGH_PIXELS = 0.5; // along each side, of the screen's
 
 const vector = (p: Vec3): THREE.Vector3 => new THREE.Vector3(p[0], p[1], p[2]);
 
@@ -45,7 +47,6 @@ export class Scene {
   private readonly controls: TrackballControls;
   private readonly light = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly surfaces = new Map<number, Shown>();
-  private readonly materials = new Map<string, THREE.Material>();
   private readonly lines = new THREE.Group();
   private readonly planes = new THREE.Group();
   private readonly marks = new THREE.Group();
@@ -54,6 +55,8 @@ export class Scene {
   private readonly extent_mm: number;
   private readonly center: Vec3;
   private readonly pace: Pace;
+  private readonly isSoftware = drawsInSoftware();
+  private readonly materials = new Materials(this.isSoftware);
   private aspect = 1;
   private ground: Scheme = "dark"; // what lies behind all
   private touched = false; // the user has turned, zoomed or shifted the view: it stays as he wants it
@@ -65,7 +68,7 @@ export class Scene {
     private readonly begin: () => () => void,
   ) {
     // Without a graphics processor smooth edges more than double a frame's time, and slices wait for it, too.
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware(), alpha: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.isSoftware, alpha: true, powerPreference: "high-performance" });
     let isHeld = false;
     for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel"] as const)
       window.addEventListener(type, (event) => void (isHeld = event.buttons !== 0), { capture: true });
@@ -92,8 +95,8 @@ export class Scene {
 
   resize(width: number, height: number): void {
     if (width < 2 || height < 2) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setSize(width, height, false);
+    this.setPixels(true);
     this.aspect = width / height;
     this.setFrustum();
     this.controls.handleResize();
@@ -116,15 +119,7 @@ export class Scene {
   }
 
   private addMesh(structure: number): Shown {
-    const material = new THREE.MeshStandardMaterial({
-      roughness: 0.62,
-      metalness: 0,
-      side: THREE.DoubleSide,
-      polygonOffset: true, // contours lie on the surface and must win
-      polygonOffsetFactor: 4,
-      polygonOffsetUnits: 8,
-    });
-    const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    const mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.materials.surface());
     const shown = { mesh, fine: mesh.geometry, coarse: null, style: "" };
     this.surfaces.set(structure, shown);
     this.scene.add(mesh);
@@ -150,12 +145,7 @@ export class Scene {
     if (shown.style === wanted) return;
     shown.style = wanted;
     const { mesh } = shown;
-    mesh.material.color.set(hasColors ? "#ffffff" : color);
-    if (mesh.material.vertexColors !== hasColors) mesh.material.needsUpdate = true;
-    mesh.material.vertexColors = hasColors;
-    mesh.material.transparent = opacity < 1;
-    mesh.material.opacity = opacity;
-    mesh.material.depthWrite = opacity >= 1;
+    this.materials.look(mesh.material, color, opacity, hasColors);
     mesh.visible = visible;
     this.pace.changed();
   }
@@ -168,7 +158,7 @@ export class Scene {
   /** What lines that are set from now on are seen before. */
   setGround(ground: Scheme): void {
     this.ground = ground;
-    this.box.material = this.lineMaterial(ground === "light" ? "#6d7a88" : "#56606c", 0.5);
+    this.box.material = this.materials.line(ground === "light" ? "#6d7a88" : "#56606c", 0.5);
     this.pace.changed();
   }
 
@@ -181,7 +171,7 @@ export class Scene {
     this.clear(this.lines);
     for (const { points, color, selected } of contours) {
       const geometry = new THREE.BufferGeometry().setFromPoints(points.map(vector));
-      this.lines.add(new THREE.LineLoop(geometry, this.lineMaterial(this.stands(color, selected ? 0.95 : 0.6), 1)));
+      this.lines.add(new THREE.LineLoop(geometry, this.materials.line(this.stands(color, selected ? 0.95 : 0.6), 1)));
     }
     this.pace.changed(true);
   }
@@ -196,8 +186,8 @@ export class Scene {
       const sheet = new THREE.BufferGeometry().setFromPoints(points).setIndex(fan);
       const rim = new THREE.BufferGeometry().setFromPoints(points);
       this.planes.add(
-        new THREE.Mesh(sheet, this.glassMaterial(color)),
-        new THREE.LineLoop(rim, this.ground === "light" ? this.lineMaterial(tinted(color, -0.25), 0.7) : this.lineMaterial(color, 0.4)),
+        new THREE.Mesh(sheet, this.materials.glass(color)),
+        new THREE.LineLoop(rim, this.ground === "light" ? this.materials.line(tinted(color, -0.25), 0.7) : this.materials.line(color, 0.4)),
       );
     }
     this.pace.changed(true);
@@ -206,7 +196,7 @@ export class Scene {
   setMarks(places: readonly Vec3[]): void {
     if (places.length === 0 && this.marks.children.length === 0) return;
     this.clear(this.marks);
-    for (const place of places) this.marks.add(ball(place, this.markMaterial()));
+    for (const place of places) this.marks.add(ball(place, this.materials.mark()));
     this.pace.changed(true);
   }
 
@@ -215,7 +205,7 @@ export class Scene {
     if (points.length === 0 && this.points.children.length === 0) return;
     this.clear(this.points);
     for (const { at, color, selected, isOnSurface } of points)
-      this.points.add(ball(at, this.pointMaterial(selected ? "#ffffff" : tinted(color, 0.6), isOnSurface)));
+      this.points.add(ball(at, this.materials.point(selected ? "#ffffff" : tinted(color, 0.6), isOnSurface)));
     this.pace.changed(true);
   }
 
@@ -297,8 +287,17 @@ export class Scene {
     this.camera.updateProjectionMatrix();
   }
 
+  /** Without a graphics processor a rough frame has a quarter of the pixels: each one costs. */
+  private setPixels(fine: boolean): void {
+    const share = fine || !this.isSoftware ? 1 : ROUGH_PIXELS;
+    const ratio = share * Math.min(window.devicePixelRatio || 1, 2);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    this.materials.drawOn(share);
+  }
+
   private async render(fine: boolean): Promise<boolean> {
     if (this.canvas.clientWidth === 0) return false; // another view is shown alone; resize() draws when this one comes back
+    this.setPixels(fine);
     for (const shown of this.surfaces.values()) shown.mesh.geometry = fine ? shown.fine : (shown.coarse ??= coarse(shown.fine));
     this.light.position.copy(this.camera.position).add(new THREE.Vector3(0, 0, this.extent_mm));
     this.light.target.position.copy(this.controls.target);
@@ -390,33 +389,10 @@ export class Scene {
     group.clear();
   }
 
-  /** Materials are kept: with the last one of its kind a shader goes, and compiling it anew takes longer than a frame. */
-  private material<Kept extends THREE.Material>(key: string, make: () => Kept): Kept {
-    if (!this.materials.has(key)) this.materials.set(key, make());
-    return this.materials.get(key) as Kept;
-  }
-
-  private lineMaterial(color: string, opacity: number): THREE.LineBasicMaterial {
-    return this.material(`line ${color} ${opacity}`, () => new THREE.LineBasicMaterial({ color, transparent: opacity < 1, opacity }));
-  }
-
-  private glassMaterial(color: string): THREE.MeshBasicMaterial {
-    const options = { color, transparent: true, opacity: 0.035, side: THREE.DoubleSide, depthWrite: false };
-    return this.material(`glass ${color}`, () => new THREE.MeshBasicMaterial(options));
-  }
-
-  private markMaterial(): THREE.MeshBasicMaterial {
-    return this.material("mark", () => new THREE.MeshBasicMaterial({ color: 0xff8f3f, depthTest: false, transparent: true, opacity: 0.85 }));
-  }
-
-  private pointMaterial(color: string, isOnSurface: boolean): THREE.MeshBasicMaterial {
-    return this.material(`point ${color} ${isOnSurface}`, () => new THREE.MeshBasicMaterial({ color, depthTest: isOnSurface, transparent: !isOnSurface }));
-  }
-
   private imageBox(): THREE.LineSegments {
     const ends: THREE.Vector3[] = [];
     for (let a = 0; a < 8; ++a) for (const bit of [1, 2, 4]) if (!(a & bit)) ends.push(vector(this.corners[a]!), vector(this.corners[a | bit]!));
-    return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.lineMaterial("#56606c", 0.5));
+    return new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.materials.line("#56606c", 0.5));
   }
 }
 
@@ -436,12 +412,4 @@ function coarse(fine: THREE.BufferGeometry): THREE.BufferGeometry {
   if (fine.hasAttribute("color")) geometry.setAttribute("color", fine.getAttribute("color"));
   geometry.setIndex(new THREE.BufferAttribute(coarseTriangles(positions.array as Float32Array, triangles.array as Uint32Array), 1));
   return geometry;
-}
-
-function drawsInSoftware(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const named = gl?.getExtension("WEBGL_debug_renderer_info");
-  const renderer = String(gl?.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return isSoftwareRenderer(renderer);
 }

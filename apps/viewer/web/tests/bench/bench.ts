@@ -54,22 +54,45 @@ interface Waits {
   refined: number;
 }
 
+/** What `watchEdit` sees. */
+interface Seen {
+  start: number;
+  shown: Record<string, number>;
+  fitted: number;
+  refined: number;
+  /** Settle when something new is shown everywhere, and when the image has been asked. */
+  everywhere: Promise<void>;
+  done: Promise<void>;
+}
+type Watched = Window & { edit: Seen };
+
 /** Notes in the page when each pane shows a newer surface than the one it showed at `from`, the next event of that type. */
 async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise<void> {
   await page.evaluate((type) => {
-    const state = { start: 0, shown: {} as Record<string, number>, fitted: 0, refined: 0 };
+    const is = { everywhere: () => {}, done: () => {} };
+    const state: Seen = {
+      start: 0,
+      shown: {},
+      fitted: 0,
+      refined: 0,
+      everywhere: new Promise((resolve) => (is.everywhere = resolve)),
+      done: new Promise((resolve) => (is.done = resolve)),
+    };
     const panes = [...document.querySelectorAll<HTMLElement>(".pane")];
     const before = new Map(panes.map((pane) => [pane, pane.dataset["revisions"]]));
     const panel = document.querySelector<HTMLElement>(".panel")!;
     const observer = new MutationObserver(() => {
       if (state.start === 0) return;
       for (const pane of panes) if (pane.dataset["revisions"] !== before.get(pane)) state.shown[pane.dataset["view"]!] ??= performance.now() - state.start;
+      if (Object.keys(state.shown).length === panes.length) is.everywhere();
       const last = `:${panel.dataset["revision"]}`;
       const { stage } = panel.dataset;
       const isEverywhere = Object.keys(state.shown).length === panes.length && panes.every((pane) => pane.dataset["revisions"]?.endsWith(last));
       if (!isEverywhere || (stage !== "asking" && stage !== "refined")) return;
       state.fitted ||= performance.now() - state.start;
-      if (stage === "refined") state.refined ||= performance.now() - state.start;
+      if (stage !== "refined") return;
+      state.refined ||= performance.now() - state.start;
+      is.done();
     });
     for (const element of [...panes, panel]) observer.observe(element, { attributes: true });
     window.addEventListener(type, (event) => (state.start = event.timeStamp), { capture: true, once: true });
@@ -77,12 +100,13 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
   }, from);
 }
 
+/** Asks nothing meanwhile: a page that is asked in every frame draws every frame. */
 async function editWaits(page: Page, untilRefined: boolean): Promise<Waits> {
-  const done = await page.waitForFunction((refined) => {
-    const { edit } = window as unknown as { edit: { shown: Record<string, number>; refined: number } };
-    return Object.keys(edit.shown).length === 5 && (!refined || edit.refined > 0) ? edit : false;
+  const { shown, fitted, refined } = await page.evaluate(async (isAll) => {
+    const { edit } = window as unknown as Watched;
+    await (isAll ? edit.done : edit.everywhere);
+    return { shown: edit.shown, fitted: edit.fitted, refined: edit.refined };
   }, untilRefined);
-  const { shown, fitted, refined } = (await done.jsonValue()) as { shown: Record<string, number>; fitted: number; refined: number };
   const { surface, ...slices } = shown;
   return { outlines: Math.max(...Object.values(slices)), surface: surface!, fitted, refined };
 }

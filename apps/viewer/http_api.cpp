@@ -46,6 +46,9 @@ int status_of(ErrorKind kind) {
     return 500;
 }
 
+/// To a page that asks to show what has been closed, and will hear of it. Of an error its browser would complain.
+HttpReply nothing() { return {204, "", "", {}}; }
+
 HttpReply not_found() { return error_reply(404, "not_found", "there is nothing at this address"); }
 
 HttpReply binary(std::string bytes) { return {200, "application/octet-stream", std::move(bytes), {}}; }
@@ -166,13 +169,15 @@ std::function<HttpReply(const std::stop_token&)> HttpApi::prepare(HttpRequest re
 }
 
 HttpReply HttpApi::slice(const HttpRequest& request, std::uint64_t ticket, const View& view) {
-    return guarded([&] {
+    return guarded([&]() -> HttpReply {
         {
             const std::scoped_lock lock(mutex_);
             if (const auto newest = newest_slice_.find(view); newest != newest_slice_.end() && newest->second > ticket)
                 throw Error(ErrorKind::cancelled, "a later slice of this view was asked for");
         }
-        std::string bytes = workspace_.session(request.opening)->slice(request.body);
+        const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
+        if (!session) return nothing();
+        std::string bytes = session->slice(request.body);
         return wants_compressed(request.body) ? compressed(bytes) : binary(std::move(bytes));
     });
 }
@@ -188,15 +193,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     const Target& target = request.target;
     const bool get = request.method == "GET";
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
-    if (get && below("/api/mesh/")) {
-        const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
-        if (!id) return not_found();
-        if (!target.parameter("coded")) return binary(workspace_.session(request.opening)->mesh(*id));
-        const auto other = target.parameter("far_from");
-        const std::optional<Id> far_from = other ? whole_number(*other) : std::nullopt;
-        if (other && !far_from) throw Error(ErrorKind::invalid_input, "'far_from' is not a whole number");
-        return compressed(workspace_.session(request.opening)->mesh(*id, true, far_from));
-    }
+    if (get && below("/api/mesh/")) return mesh(request);
     if (get && target.path == "/api/statistics")
         return {200, "application/json", workspace_.session(request.opening)->statistics(stop), {}};
     if (get && target.path == "/api/compare") return compared(request, stop);
@@ -206,6 +203,19 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
         return {200, std::move(reply->content_type), std::move(reply->body), {}};
     return not_found();
+}
+
+HttpReply HttpApi::mesh(const HttpRequest& request) {
+    const Target& target = request.target;
+    const auto id = whole_number(target.path.substr(std::string_view("/api/mesh/").size()));
+    if (!id) return not_found();
+    const auto other = target.parameter("far_from");
+    const std::optional<Id> far_from = other ? whole_number(*other) : std::nullopt;
+    if (other && !far_from) throw Error(ErrorKind::invalid_input, "'far_from' is not a whole number");
+    const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
+    if (!session) return nothing();
+    if (!target.parameter("coded")) return binary(session->mesh(*id));
+    return compressed(session->mesh(*id, true, far_from));
 }
 
 HttpReply HttpApi::put_image(const HttpRequest& request, const std::stop_token& stop) {

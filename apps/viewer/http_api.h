@@ -55,6 +55,7 @@ private:
     static View view_of(const std::string& slice);
 
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
+    HttpReply mesh(const HttpRequest& request);
     HttpReply put_image(const HttpRequest& request, const std::stop_token& stop);
     HttpReply compared(const HttpRequest& request, const std::stop_token& stop);
     HttpReply exported(const HttpRequest& request, const std::stop_token& stop);

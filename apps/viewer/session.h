@@ -188,7 +188,7 @@ private:
     /// Null while there is none.
     std::shared_ptr<const FurtherImage> second_image() const;
     nlohmann::json further_images() const;
-    /// 0: the project's own. Throws Error(invalid_input) for a number that none has.
+    /// 0: the project's own. Null: it is not there. Throws Error(invalid_input) for a number that none can have.
     std::shared_ptr<const Image> image_numbered(int number, std::optional<int> time);
     /// The project's own image at another time; unset: at its own.
     std::shared_ptr<const Image> image_at(std::optional<int> time) { return times_.image(time.value_or(times_.own())); }

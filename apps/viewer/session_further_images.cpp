@@ -18,6 +18,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kLastImage = 1;
+
 json value_json(const Image& image, const Affine3& mm_to_index, const Vec3& at) {
     const double value = interpolate(image, mm_to_index, at, std::numeric_limits<double>::quiet_NaN());
     return std::isfinite(value) ? json(value) : json(nullptr);
@@ -78,11 +80,12 @@ json Session::further_images() const {
 }
 
 std::shared_ptr<const Image> Session::image_numbered(int number, std::optional<int> time) {
-    const auto second = second_image();
     if (number == 0) return image_at(time);
-    if (number == 1 && second) return second->times->image(time.value_or(second->times->own()));
-    throw Error(ErrorKind::invalid_input,
-                fmt::format("there is no image {}: the last one is image {}", number, second ? 1 : 0));
+    if (number > kLastImage)
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("there is no image {}: the last one is image {}", number, kLastImage));
+    const auto second = second_image();
+    return second ? second->times->image(time.value_or(second->times->own())) : nullptr;
 }
 
 json Session::value(const Members& m) {
@@ -91,7 +94,7 @@ json Session::value(const Members& m) {
     json values{value_json(*image, image->grid.index_to_mm.inverse(), at)};
     if (const auto second = second_image()) {
         const bool moves = second->times->count() == times_.count() && second->times->own() == times_.own();
-        const auto shown = image_numbered(1, moves ? m.time() : std::nullopt);
+        const auto shown = second->times->image(moves ? m.time().value_or(second->times->own()) : second->times->own());
         values.push_back(value_json(*shown, second->mm_to_index, at));
     }
     return {{"values", std::move(values)}};

@@ -224,7 +224,8 @@ std::string Session::slice(std::string_view text) {
     if (request.outlines)
         add_outlines(state(), surfaces_.all(), request.raster, slice_step_mm(image_->grid, request.raster.plane.normal),
                      head, lines, dots);
-    const SentPixels sent = sent_pixels(image->grid, request);
+    if (!image) head["gone"] = true;
+    const SentPixels sent = image ? sent_pixels(image->grid, request) : SentPixels{};
     CodedValues coded;
     if (sent.samples) {
         coded = coded_values(*image, sent.samples->raster);

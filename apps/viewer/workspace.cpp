@@ -140,9 +140,21 @@ void Workspace::left(PageId page) {
 
 std::shared_ptr<Session> Workspace::session(const std::optional<std::string>& opening) const {
     const std::scoped_lock lock(mutex_);
+    return session_locked(opening);
+}
+
+std::shared_ptr<Session> Workspace::session_locked(const std::optional<std::string>& opening) const {
     if (!session_) throw Error(ErrorKind::invalid_input, kNothingOpen);
     if (opening && *opening != std::to_string(opened_)) throw Error(ErrorKind::invalid_input, kAnotherOpen);
     return session_;
+}
+
+std::shared_ptr<Session> Workspace::session_unless_closed(const std::optional<std::string>& opening) const {
+    const std::scoped_lock lock(mutex_);
+    const std::uint64_t closed = session_ ? opened_ - 1 : opened_;
+    for (std::uint64_t number = 1; opening && number <= closed; ++number)
+        if (*opening == std::to_string(number)) return nullptr;
+    return session_locked(opening);
 }
 
 void Workspace::begin(const std::string& title, Open open, std::function<void(std::exception_ptr)> done) {

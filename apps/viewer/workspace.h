@@ -72,6 +72,9 @@ public:
     /// where there is none, or another.
     std::shared_ptr<Session> session(const std::optional<std::string>& opening = {}) const;
 
+    /// The same, and null where that one was open and has been closed: a page that has not heard of it yet will.
+    std::shared_ptr<Session> session_unless_closed(const std::optional<std::string>& opening) const;
+
     /// Begins to read in the background; pages are told how far it is, and what came of it. `done`, if given, is called
     /// with the failure, or none, when pages have been told. Throws Error(invalid_input) while something is open or read.
     void begin(const std::string& title, Open open, std::function<void(std::exception_ptr)> done = {});
@@ -106,6 +109,7 @@ private:
         double fraction = 0;
     };
 
+    std::shared_ptr<Session> session_locked(const std::optional<std::string>& opening) const;
     std::string start_event() const;
     nlohmann::json places_json() const;
     void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop);

@@ -66,6 +66,12 @@ json slice_request(int image) {
             {"image", image},  {"pixels", "values"}, {"outlines", false}};
 }
 
+json head_of(const std::string& reply) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, reply.data(), sizeof length);
+    return json::parse(reply.substr(sizeof length, length));
+}
+
 TEST(SecondImage, ItsValuesComeOnAnyPlaneAsTheyAreThere) {
     Visit here;
     here.session.put_second_image(opened_ball());
@@ -73,7 +79,7 @@ TEST(SecondImage, ItsValuesComeOnAnyPlaneAsTheyAreThere) {
     const std::string reply = here.session.slice(request.dump());
     std::uint32_t length = 0;
     std::memcpy(&length, reply.data(), sizeof length);
-    const json head = json::parse(reply.substr(sizeof length, length));
+    const json head = head_of(reply);
     const double first = head["values"]["first"], step = head["values"]["step"];
     const std::size_t begin = sizeof length + length + head["arrays"]["values"]["offset"].get<std::size_t>();
     const auto image = ball();
@@ -175,10 +181,19 @@ TEST(SecondImage, WhatDoesNotFitChangesNothing) {
     EXPECT_EQ(here.session.kept_second_image(), opened_ball().reference);
 }
 
+TEST(SecondImage, OfOneThatHasGoneASliceHasNoPixelsAndIsNoError) {
+    Visit here;
+    here.session.put_second_image(opened_ball());
+    EXPECT_FALSE(head_of(here.session.slice(slice_request(1).dump())).contains("gone"));
+    here.call({{"call", "image.remove"}, {"image", 1}});
+    const json head = head_of(here.session.slice(slice_request(1).dump()));
+    EXPECT_TRUE(head["gone"]);
+    EXPECT_FALSE(head.contains("values"));
+    EXPECT_FALSE(head["arrays"].contains("pixels"));
+}
+
 TEST(SecondImage, OtherNumbersAreRefused) {
     Visit here;
-    EXPECT_KONTUR_ERROR(here.session.slice(slice_request(1).dump()), ErrorKind::invalid_input,
-                        "there is no image 1: the last one is image 0");
     here.session.put_second_image(opened_ball());
     EXPECT_KONTUR_ERROR(here.session.slice(slice_request(2).dump()), ErrorKind::invalid_input,
                         "there is no image 2: the last one is image 1");

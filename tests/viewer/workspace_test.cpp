@@ -106,6 +106,9 @@ TEST(Workspace, NothingOfAnEarlierSessionReachesALaterOne) {
     EXPECT_EQ(refused["error"]["message"], "another image was opened since; load the page again");
     EXPECT_KONTUR_ERROR(desk.workspace.session("1"), ErrorKind::invalid_input, "another image was opened");
     EXPECT_NE(desk.workspace.session("2"), nullptr);
+    EXPECT_EQ(desk.workspace.session_unless_closed("1"), nullptr);
+    EXPECT_EQ(desk.workspace.session_unless_closed("2"), desk.workspace.session());
+    EXPECT_KONTUR_ERROR(desk.workspace.session_unless_closed("3"), ErrorKind::invalid_input, "another image was opened");
     EXPECT_TRUE(desk.call({{"seq", 1}, {"call", "structure.add"}}, 7).contains("error")) << "a page that nobody greeted";
     desk.greeting(7);
     EXPECT_TRUE(desk.call({{"seq", 1}, {"call", "structure.add"}}, 7).contains("result"));

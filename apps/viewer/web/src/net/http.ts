@@ -6,7 +6,8 @@ import type { Comparison, Folder, ImportReply, OpenRequest, SavedArrangement, Sl
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
- * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came.
+ * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came. "gone" is what slices and meshes
+ * are of that has been closed meanwhile: an event tells of it, so users need not be.
  */
 export class ServerError extends Error {
   constructor(
@@ -137,6 +138,7 @@ export class Http {
       throw new ServerError("io", "kontur does not answer.");
     }
     if (!reply.ok) throw await errorOf(reply);
+    if (reply.status === 204) throw new ServerError("gone", "The image was closed.");
     return reply;
   }
 }

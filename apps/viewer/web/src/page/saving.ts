@@ -57,8 +57,9 @@ export class Saving {
     this.tell();
   }
 
-  /** While there is no connection only lost work is worth a word: that there is none has been said. */
+  /** While there is no connection only lost work is worth a word: that there is none has been said. Nor is what the page will be told anyway. */
   failed(error: unknown): void {
+    if (error instanceof ServerError && error.kind === "gone") return;
     const isEdit = error instanceof ServerError && error.edits;
     if (isEdit && !REFUSALS.has(error.kind)) this.editWasLost = true;
     const isKnown = error instanceof ServerError && this.connection !== "open" && (!isEdit || error.kind === "lost");

@@ -5,7 +5,7 @@ import { openDialog } from "../ui/dialogs";
 import { buttonPiece, el } from "../ui/dom";
 import { piece, render } from "../ui/pieces";
 import { FolderView } from "./folder_view";
-import { frameChoice } from "./frame_choice";
+import { Problem } from "./problem";
 
 export interface AddImageServices {
   http: Http;
@@ -18,7 +18,7 @@ export interface AddImageServices {
 
 /** Chooses what is seen over the project's own image. It closes when that is there. */
 export class AddImageDialog {
-  private readonly problem = el("p", { class: "start-problem", role: "alert", "data-test": "add-image-problem", hidden: true });
+  private readonly problem = new Problem("add-image-problem");
   private readonly status = el("p", { class: "dialog-status", "aria-live": "polite", "data-test": "add-image-status" });
   private readonly folders: FolderView;
   private readonly dialog: HTMLDialogElement;
@@ -27,9 +27,16 @@ export class AddImageDialog {
   constructor(private readonly services: AddImageServices) {
     const { http, places, folder, present } = services;
     const words = { title: "An image of the same patient, on the same frame of reference", open: "Show this series over the image", onlyImages: true };
-    this.folders = new FolderView(http, { open: (request) => void this.add(request), problem: (sentence) => this.setProblem(sentence) }, words);
+    this.folders = new FolderView(http, { open: (request) => void this.add(request), problem: (sentence) => this.problem.set(sentence) }, words);
     const replaces = present && el("p", { class: "fine" }, `It takes the place of ${present.title}.`);
-    this.dialog = openDialog("Add a second image", "add-image-dialog", ...(replaces ? [replaces] : []), this.problem, this.folders.element, this.status);
+    this.dialog = openDialog(
+      "Add a second image",
+      "add-image-dialog",
+      ...(replaces ? [replaces] : []),
+      this.problem.element,
+      this.folders.element,
+      this.status,
+    );
     this.dialog.classList.add("add-image");
     this.dialog.addEventListener("close", () => {
       this.reading?.abort();
@@ -49,7 +56,7 @@ export class AddImageDialog {
   private async add(request: OpenRequest): Promise<void> {
     this.reading?.abort();
     const own = (this.reading = new AbortController());
-    this.setProblem("");
+    this.problem.set("");
     const cancel = buttonPiece({ label: "Cancel", title: "Do not add it", class: "choice", test: "add-image-cancel", click: () => own.abort() });
     render(this.status, [piece("span", {}, "Reading…"), cancel]);
     try {
@@ -66,24 +73,9 @@ export class AddImageDialog {
   }
 
   private failed(error: unknown, request: OpenRequest): void {
-    const frames = error instanceof ServerError ? error.frames : undefined;
-    if (frames !== undefined) return this.chooseFrame(request, frames);
-    const isCancelled = error instanceof ServerError && error.kind === "cancelled";
-    this.setProblem(isCancelled ? "" : error instanceof Error ? error.message : String(error));
-  }
-
-  private chooseFrame(request: OpenRequest, frames: number): void {
-    const say = (sentence: string) => {
-      this.setProblem(sentence);
-      this.problem.append(choice.element);
-    };
-    const choice = frameChoice(frames, (frame) => void this.add({ ...request, frame }), say);
-    say(`${request.path} has ${frames} frames. Which one is to be shown`);
-    choice.focus();
-  }
-
-  private setProblem(sentence: string): void {
-    this.problem.hidden = sentence === "";
-    this.problem.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/\.?$/, ".");
+    const known = error instanceof ServerError ? error : null;
+    if (known?.frames !== undefined) return this.problem.askFrame(request, known.frames, "to be shown", (chosen) => void this.add(chosen));
+    if (known?.kind === "cancelled") this.problem.set("");
+    else this.problem.tell(error);
   }
 }

@@ -5,7 +5,7 @@ import type { ConnectionState } from "../net/socket";
 import { button, buttonPiece, el } from "../ui/dom";
 import { piece, render, type Piece } from "../ui/pieces";
 import { FolderView } from "./folder_view";
-import { frameChoice } from "./frame_choice";
+import { Problem } from "./problem";
 
 const ENDED = "There is no connection to kontur. If it has ended, start it again and open the address that it prints.";
 
@@ -13,7 +13,7 @@ const ENDED = "There is no connection to kontur. If it has ended, start it again
 export class StartPage {
   readonly element = el("dialog", { class: "start", "aria-label": "Open an image", "data-test": "start" });
   private readonly version = el("span", { class: "fine" });
-  private readonly problem = el("p", { class: "start-problem", role: "alert", "data-test": "start-problem", hidden: true });
+  private readonly problem = new Problem("start-problem");
   private readonly recent = el("ul", { class: "start-list" });
   private readonly folders: FolderView;
   private readonly opening = el("section", { class: "opening", "aria-label": "Opening", "data-test": "opening", hidden: true });
@@ -24,7 +24,7 @@ export class StartPage {
   private asked: OpenRequest | null = null;
 
   constructor(private readonly http: Http) {
-    this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.setProblem(sentence) });
+    this.folders = new FolderView(http, { open: (request) => void this.open(request), problem: (sentence) => this.problem.set(sentence) });
     const cancel = button({
       label: "Cancel",
       title: "Do not open it",
@@ -42,7 +42,7 @@ export class StartPage {
     this.opening.append(this.openingTitle, this.openingStage, this.openingBar, cancel);
     this.element.append(
       el("header", { class: "start-head" }, el("h1", {}, "kontur"), this.version, el("span", { class: "spring" }), example),
-      this.problem,
+      this.problem.element,
       el(
         "div",
         { class: "start-columns" },
@@ -59,7 +59,7 @@ export class StartPage {
     this.version.textContent = start.version;
     this.example = start.example;
     render(this.recent, this.recentRows(start.recent));
-    this.setProblem(start.sentence);
+    this.problem.set(start.sentence);
     this.setOpening(start.opening);
     if (!this.element.open) this.element.showModal();
     (this.recent.querySelector("button") ?? this.folders.path).focus();
@@ -74,7 +74,7 @@ export class StartPage {
   setOpening(state: OpeningState | null): void {
     this.opening.hidden = state === null;
     if (!state) return;
-    this.setProblem("");
+    this.problem.set("");
     this.openingTitle.textContent = `Opening ${state.title}`;
     this.openingStage.textContent = stageText(state);
     if (state.fraction > 0) this.openingBar.value = state.fraction;
@@ -83,8 +83,8 @@ export class StartPage {
 
   failed({ kind, message, frames }: Failed["error"]): void {
     this.setOpening(null);
-    if (frames !== undefined && this.asked) return this.chooseFrame(this.asked, frames);
-    this.setProblem(kind === "cancelled" ? "" : message);
+    if (frames !== undefined && this.asked) return this.problem.askFrame(this.asked, frames, "to be opened", (chosen) => void this.open(chosen));
+    this.problem.set(kind === "cancelled" ? "" : message);
   }
 
   setWork(text: string, fraction: number | null): void {
@@ -94,9 +94,7 @@ export class StartPage {
   connected(state: ConnectionState): void {
     if (state !== "lost" || !this.element.open) return;
     this.setOpening(null);
-    // Why it ended has been said, if it was for the image.
-    if (this.problem.hidden) this.setProblem(ENDED);
-    else if (!this.problem.textContent!.includes(ENDED)) this.setProblem(`${this.problem.textContent} ${ENDED}`);
+    this.problem.add(ENDED); // why has been said, if it was for the image
   }
 
   private recentRows(projects: RecentProject[]): Piece[] {
@@ -119,20 +117,9 @@ export class StartPage {
     });
   }
 
-  /** Of a file with several. */
-  private chooseFrame(request: OpenRequest, frames: number): void {
-    const say = (sentence: string) => {
-      this.setProblem(sentence);
-      this.problem.append(choice.element);
-    };
-    const choice = frameChoice(frames, (frame) => void this.open({ ...request, frame }), say);
-    say(`${request.path} has ${frames} frames. Which one is to be opened`);
-    choice.focus();
-  }
-
   private open(request: OpenRequest): Promise<void> {
     this.asked = request;
-    this.setProblem("");
+    this.problem.set("");
     return this.attempt(() => this.http.open(request));
   }
 
@@ -140,13 +127,8 @@ export class StartPage {
     try {
       await act();
     } catch (error) {
-      this.setProblem(error instanceof Error ? error.message : String(error));
+      this.problem.tell(error);
     }
-  }
-
-  private setProblem(sentence: string): void {
-    this.problem.hidden = sentence === "";
-    this.problem.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/\.?$/, ".");
   }
 }
 

@@ -25,7 +25,7 @@ export class Drafts {
       },
       end: (at) => {
         this.drop();
-        if (isDrag) make(editAt(at));
+        if (isDrag && this.isThere(editAt(at))) make(editAt(at));
       },
       cancel: () => this.giveUp(),
     };
@@ -49,12 +49,17 @@ export class Drafts {
     });
   }
 
+  /** Whether what it edits has not been removed under the hand, by a key or another page. */
+  private isThere({ args }: Edit): boolean {
+    return !("id" in args) || this.project.contours.has(args.id);
+  }
+
   private async ask<Name extends EditName>({ name, args }: { name: Name; args: Arguments<Name> }): Promise<void> {
     try {
       const { contour, carried } = await this.services.call(name, { ...args, draft: true });
       this.project.setDraft(contour, carried);
     } catch (error) {
-      this.services.failed(error);
+      if (this.isThere({ name, args } as Edit)) this.services.failed(error);
     }
   }
 }

@@ -22,6 +22,7 @@ export interface Proposal {
 export class Proposals extends Emitter<"proposal"> {
   shown: Proposal | null = null;
   private asked: Plane | null = null; // what is shown, or on its way
+  private suggestions = 0; // asked for, or of no use any more
   private skipped: { structure: number; planes: Plane[] } = { structure: 0, planes: [] }; // suggested since contours have changed
 
   constructor(
@@ -33,6 +34,7 @@ export class Proposals extends Emitter<"proposal"> {
     super();
     project.on(["contours"], () => {
       this.skipped.planes = [];
+      ++this.suggestions;
       this.drop();
     });
     navigation.on(["planes"], () => this.dropOutOfSight());
@@ -65,8 +67,10 @@ export class Proposals extends Emitter<"proposal"> {
     if (!project.surfaces.get(structure.id)?.uncertainty)
       return (services.tell(`Nothing is suggested before the surface of ${structure.name} is finished.`), null);
     if (this.skipped.structure !== structure.id) this.skipped = { structure: structure.id, planes: [] };
+    const number = ++this.suggestions;
     try {
       const { planes } = await services.call("suggest", { structure: structure.id, skip: this.skipped.planes });
+      if (number !== this.suggestions) return null; // it was asked of other contours, or once more
       const [best] = planes;
       if (!best)
         return (services.tell(`No other plane is suggested for ${structure.name}: it needs a finished surface, and planes that are not drawn yet.`), null);

@@ -63,9 +63,10 @@ export class SecondSlice {
     const time = navigation.isAway && this.movesWith(navigation) ? { time: navigation.time } : {};
     try {
       const reply = await this.http.slice({ ...raster, image: info.image, ...time, pixels: "values", outlines: false }, untilGone);
+      const { values, samples } = reply.header;
+      if (!values || !samples) return null; // it has gone: the page will be told
       return () => {
-        const { values, samples } = reply.header;
-        this.values = { key, codes: reply.u16("values"), coding: values!, samples: samples!, ...raster };
+        this.values = { key, codes: reply.u16("values"), coding: values, samples, ...raster };
         this.recolor();
       };
     } catch (error) {

@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
-import { launch } from "./browsers";
+import { launch, onlyChromium } from "./browsers";
 import { circle, cleanUp, Server, SHEARED, temporaryFolder, Viewer, writeBallImage } from "./support";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -276,4 +276,37 @@ describe("a second image", () => {
     assert.match((await card().textContent())!, /small\.nii/);
     assert.deepEqual(viewer.complaints, []);
   });
+
+  test(
+    "may be removed by another window while this one asks for a slice of it",
+    onlyChromium("Playwright is not told what Firefox's requests hold"),
+    async () => {
+      const { page } = viewer;
+      const other = await Viewer.open(browser, server.address);
+      const [asked, answered] = [gate(), gate()];
+      await page.route("**/api/slice", async (route) => {
+        if ((route.request().postDataJSON() as { image?: number }).image !== 1) return route.continue();
+        asked.open();
+        await answered.opened;
+        await route.continue().catch(() => undefined); // the page has given it up
+      });
+      await page.mouse.move(...(await viewer.at("axial", 5, 5)));
+      await page.mouse.wheel(0, 120);
+      await asked.opened;
+      await other.page.click("[data-test=remove-image]");
+      await card().waitFor({ state: "hidden" });
+      answered.open();
+      await viewer.slicesShown();
+      assert.equal(await page.locator(".notice.error").count(), 0);
+      assert.deepEqual([...viewer.complaints, ...other.complaints], []);
+      await other.page.close();
+      await page.unroute("**/api/slice");
+    },
+  );
 });
+
+function gate(): { opened: Promise<void>; open: () => void } {
+  let open = () => {};
+  const opened = new Promise<void>((resolve) => (open = resolve));
+  return { opened, open };
+}

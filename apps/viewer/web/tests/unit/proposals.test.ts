@@ -153,3 +153,13 @@ test("where to draw next is shown on the oblique view with the expected outline;
     [0, 1, 2],
   );
 });
+
+test("a suggestion that was asked of contours that have changed since is not shown", async () => {
+  const { proposals, project, server } = proposing((z) => [ring(5, z)]);
+  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 10, uncertainty: { known: true, planes: 3, text: "" } });
+  server.planes = [{ plane: { ...AXIAL, origin: [0, 0, 4] }, gain: 1, lines: [ring(5, 4)] }];
+  const asked = proposals.suggest();
+  project.apply({ event: "changed", structures: { removed: [1] }, contours: { removed: [5] }, history: { undo: null, redo: null } });
+  assert.equal(await asked, null);
+  assert.equal(proposals.shown, null);
+});

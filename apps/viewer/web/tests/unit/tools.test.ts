@@ -265,6 +265,20 @@ test("dragging a control point sends drafts, then one edit with the last place",
   assert.deepEqual(edits(), [{ name: "contour.move_point", args: { id: 5, index: 0, to: [-20, -20, 0], mm_per_pixel: 0.5 } }]);
 });
 
+test("a contour that is removed under the hand is not edited any more, and nobody is told of an error", async () => {
+  const { press, project, edits, complaints, server, settled } = editing("edit");
+  const gesture = press([180, 180])!;
+  gesture.move([170, 170]);
+  await settled();
+  server.refusal = new ServerError("invalid_input", "there is no contour 5");
+  gesture.move([165, 165]); // on its way when Del comes
+  project.apply({ event: "changed", contours: { removed: [5] }, history: { undo: null, redo: null } });
+  gesture.end([160, 160]);
+  await settled();
+  assert.deepEqual(edits(), []);
+  assert.deepEqual(complaints, []);
+});
+
 test("dragging the line bends it there, with Shift it moves the contour", async () => {
   const { drag, press, edits, settled } = editing("edit");
   drag([200, 180], [200, 160]);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { OpenRequest } from "../net/protocol";
+import { el } from "../ui/dom";
+import { frameChoice } from "./frame_choice";
+
+/** Where a chooser of images says what stands in the way, and asks for what is missing. */
+export class Problem {
+  readonly element: HTMLElement;
+
+  constructor(test: string) {
+    this.element = el("p", { class: "start-problem", role: "alert", "data-test": test, hidden: true });
+  }
+
+  /** A sentence, whose first letter and full stop may be missing; "": there is nothing to say. */
+  set(sentence: string): void {
+    this.element.hidden = sentence === "";
+    this.element.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/\.?$/, ".");
+  }
+
+  /** What is said already stays. */
+  add(sentence: string): void {
+    const said = this.element.textContent ?? "";
+    if (this.element.hidden) this.set(sentence);
+    else if (!said.includes(sentence)) this.set(`${said} ${sentence}`);
+  }
+
+  tell(error: unknown): void {
+    this.set(error instanceof Error ? error.message : String(error));
+  }
+
+  /** Asks which of a file's frames `is` "to be opened", and goes on with that one. */
+  askFrame(request: OpenRequest, frames: number, is: string, goOn: (request: OpenRequest) => void): void {
+    const say = (sentence: string) => {
+      this.set(sentence);
+      this.element.append(choice.element);
+    };
+    const choice = frameChoice(frames, (frame) => goOn({ ...request, frame }), say);
+    say(`${request.path} has ${frames} frames. Which one is ${is}`);
+    choice.focus();
+  }
+}

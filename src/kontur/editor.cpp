@@ -148,9 +148,23 @@ Editor::KnownTilts Editor::known_tilts(const ContourSet& contours, const Prepare
     return tilts;
 }
 
-void Editor::remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes) {
-    std::vector<TiltedLine> lines = tilted_lines(prepared, slopes, contours.contours.size());
+/// The bounds that lie where the last fit leaned on one, as well as that is known: they move a little with what is drawn.
+std::vector<std::size_t> Editor::held_before(const std::vector<Bound>& bounds) const {
+    std::vector<std::size_t> found;
+    for (const Vec3& place : held_) {
+        const auto squared = [&](const Bound& bound) { return dot(bound.position - place, bound.position - place); };
+        const auto nearest = std::ranges::min_element(bounds, {}, squared);
+        if (nearest != bounds.end() && std::sqrt(squared(*nearest)) <= nearest->noise_mm)
+            found.push_back(static_cast<std::size_t>(nearest - bounds.begin()));
+    }
+    return found;
+}
+
+void Editor::remember(const ContourSet& contours, const PreparedContours& prepared, const FittedFunction& fitted) {
+    std::vector<TiltedLine> lines = tilted_lines(prepared, fitted.slopes, contours.contours.size());
     known_.clear();
+    held_.clear();
+    for (const PointConstraint& one : fitted.held) held_.push_back(one.position);
     for (std::size_t c = 0; c < lines.size(); ++c) known_.push_back({contours.contours[c], std::move(lines[c])});
 }
 
@@ -178,6 +192,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     if (known.any) {  // the last round is enough, or none
         stages.fit.start_smoothing *= std::pow(stages.fit.smoothing_factor, stages.fit.rounds - 1);
         stages.fit.rounds = known.all && reused_ < kMostReuses ? 0 : 1;
+        stages.fit.start_held = held_before(prepared.bounds);
     }
     // f misses a place that the image showed by ever so little, which is no reason for more solves than one that shows what
     // is to be held and one that holds it.
@@ -193,7 +208,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     surface.seconds = std::move(seconds);
     surface.shown_before = shown;
     reused_ = stages.fit.rounds == 0 ? reused_ + 1 : 0;
-    remember(drawing.contours, prepared, fitted.slopes);
+    remember(drawing.contours, prepared, fitted);
     return surface;
 }
 

@@ -99,13 +99,15 @@ private:
     KnownTilts known_tilts(const ContourSet& contours, const PreparedContours& prepared) const;
     static std::vector<TiltedLine> tilted_lines(const PreparedContours& prepared, const std::vector<double>& slopes,
                                                 std::size_t contours);
-    void remember(const ContourSet& contours, const PreparedContours& prepared, const std::vector<double>& slopes);
+    std::vector<std::size_t> held_before(const std::vector<Bound>& bounds) const;
+    void remember(const ContourSet& contours, const PreparedContours& prepared, const FittedFunction& fitted);
     double preview_spacing(const Drawing& drawing) const;
     double refined_spacing(const Drawing& drawing) const;
 
     EditorOptions options_;
     std::vector<Known> known_;
-    int reused_ = 0;  ///< how many previews in a row found no tilts anew
+    std::vector<Vec3> held_;  ///< places of bounds that the last fit leaned on
+    int reused_ = 0;          ///< how many previews in a row found no tilts anew
     std::optional<AskedBefore> asked_;
     std::shared_ptr<KeptFits> fits_ = std::make_shared<KeptFits>();
 };

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <string>
 
+#include "kontur/base/error.h"
 #include "kontur/phantom/cases.h"
 #include "support/contour_sets.h"
 
@@ -71,6 +73,46 @@ TEST(Fit, SettlesItsBoundsBeforeItSolvesForAllPoints) {
     }
     EXPECT_GT(solves_of_a_part, 0);
     EXPECT_LE(solves_of_all, 5) << "without, each takes three and has not ended then";
+}
+
+TEST(Fit, OneSolveWhereItIsToldWhichBoundsItLeansOn) {
+    for (const char* name : {"metastasis_parallel17", "vertebra_parallel11"}) {
+        const PhantomCase c = phantom_case(name);
+        const PreparedContours prepared = prepare(c.contours);
+        FitOptions options = options_for(c);
+        options.most_points = 1000;
+        const FittedFunction settled = fit(prepared, options);
+        options.rounds = 0;
+        options.start_slopes = settled.slopes;
+        const FittedFunction untold = fit(prepared, options);
+        EXPECT_GT(untold.solves, 1) << name;
+        for (const PointConstraint& one : settled.held)
+            for (std::size_t b = 0; b < prepared.bounds.size(); ++b)
+                if (prepared.bounds[b].position == one.position) options.start_held.push_back(b);
+        ASSERT_EQ(options.start_held.size(), settled.held.size()) << name;
+        const FittedFunction told = fit(prepared, options);
+        EXPECT_EQ(told.solves, 1) << name;
+        for (const BoundaryPoint& point : prepared.points) {
+            const Vec3 beside = point.position + 2.0 * point.plane_normal;
+            EXPECT_NEAR(told.function.value(beside), settled.function.value(beside), 0.02) << name;
+        }
+    }
+}
+
+TEST(Fit, RefusesToHoldABoundThatIsNotThere) {
+    const PhantomCase c = phantom_case("metastasis_parallel7");
+    const PreparedContours prepared = prepare(c.contours);
+    FitOptions options = options_for(c);
+    options.rounds = 0;
+    options.start_held = {prepared.bounds.size()};
+    try {
+        static_cast<void>(fit(prepared, options));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::invalid_input);
+        EXPECT_NE(std::string(error.what()).find("is to be held to begin with; there are"), std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(Fit, FewIterationsOnThePapersLargestCase) {

@@ -151,7 +151,7 @@ TEST(Editor, FindsTiltsAnewWhereContoursComeGoOrLieElsewhere) {
     EXPECT_GE(solves_after([&] { set.contours.pop_back(); }), 1);
     EXPECT_GE(solves_after([&] { set.contours.push_back(test::circle(make_plane({0, 0, 9}, {0, 0, 1}), 17, 80)); }), 1);
     EXPECT_GE(solves_after([&] { set.contours[0] = test::circle(make_plane({0, 0, 0}, {0, 1, 1}), 20, 80); }), 1);
-    EXPECT_EQ(solves_after([&] { drag(set, 1); }), 0);
+    EXPECT_LE(solves_after([&] { drag(set, 1); }), 0);
 }
 
 TEST(Editor, IsAheadOfItsMeshWithTheSameSurface) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/fit/active_bounds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
+#include "kontur/base/error.h"
 #include "kontur/base/point_tree.h"
 
 namespace kontur {
@@ -21,6 +25,15 @@ constexpr double kCountsHeld = 0.5;
 ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn)
     : bounds_(bounds), drawn_(drawn), held_(bounds.size(), Held::no) {
     for (const Bound& bound : bounds) positions_.push_back(bound.position);
+}
+
+void ActiveBounds::hold(std::span<const std::size_t> bounds) {
+    for (const std::size_t b : bounds) {
+        if (b >= bounds_.size())
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("bound {} is to be held to begin with; there are {}", b + 1, bounds_.size()));
+        held_[b] = std::isfinite(bounds_[b].most_mm) ? Held::at_most : Held::at_least;
+    }
 }
 
 bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm, const Work& work) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kontur/base/work.h"
@@ -16,6 +18,9 @@ namespace kontur {
 class ActiveBounds {
 public:
     ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn);
+
+    /// Holds f at these to begin with. Throws Error(invalid_input) for one that is not there.
+    void hold(std::span<const std::size_t> bounds);
 
     /// Holds f where it leaves its interval by more than counts, and lets it go where it keeps it by itself; true if another
     /// solve would move f by more than counts: than the tolerance, and than 3 % of the noise of a bound that f leaves, which

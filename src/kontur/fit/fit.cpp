@@ -73,6 +73,8 @@ public:
         if (options_.normals == Normals::surface && options_.rounds > 0) {
             find_slopes();
             settle_bounds(kept.size());
+        } else {
+            bounds_.hold(options_.start_held);
         }
         progress_ = {progress_.end, 1.0};
         for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves; ++result_.full_solves)

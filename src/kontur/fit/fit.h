@@ -26,7 +26,8 @@ struct FitOptions {
     double early_tolerance_factor = 30;  ///< surface normals: the rounds before the last only have to show the tilt
     std::size_t tilt_points = 1000;      ///< surface normals: about how many of the points take part in these rounds
     std::vector<double> start_slopes;    ///< surface normals: known slopes, one per boundary point; empty: all 1
-    std::size_t most_points = 0;         ///< the last fit uses about as many points; 0: all
+    std::vector<std::size_t> start_held;  ///< without rounds: the bounds at which f is held in the first solve
+    std::size_t most_points = 0;          ///< the last fit uses about as many points; 0: all
     int most_solves = 3;  ///< with all points, while other bounds should be held than were; 1: whatever is held
     PlaceOptions place;
     SolveOptions solve;

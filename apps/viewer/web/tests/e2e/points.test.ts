@@ -94,6 +94,10 @@ describe("points inside and outside", () => {
   });
 });
 
+/** Over the 3D view; the browser may tell the page later than the test goes on. */
+const pointerIs = (viewer: Viewer, cursor: string) =>
+  viewer.page.waitForFunction((name) => document.querySelector<HTMLElement>(".surface-canvas")!.style.cursor === name, cursor);
+
 describe("points of the surface", () => {
   test("a click on a slice beyond the outline pulls the surface there; undo, reload and export know the point", async () => {
     const viewer = await opened();
@@ -170,7 +174,7 @@ describe("points of the surface", () => {
     await page.keyboard.press("q");
     const move = async (right: number, down: number) => page.mouse.move(...(await viewer.at("surface", right, down)));
     await move(20, -25);
-    assert.equal(await page.locator(".surface-canvas").evaluate((canvas) => canvas.style.cursor), "crosshair");
+    await pointerIs(viewer, "crosshair");
     await click(20, -25);
     await waitForPoints(viewer, 1);
     await viewer.surfaceShown();
@@ -205,7 +209,7 @@ describe("points of the surface", () => {
     const first = millimetres(await place(viewer, 0));
     await page.keyboard.press("v"); // by Edit as by Point
     await move(20, -25);
-    assert.equal(await page.locator(".surface-canvas").evaluate((canvas) => canvas.style.cursor), "grab");
+    await pointerIs(viewer, "grab");
     const letGo = [-30, 22] as const;
     await page.mouse.down();
     await move(-10, 5);
@@ -227,7 +231,7 @@ describe("points of the surface", () => {
     await viewer.surfaceShown();
     await isDrawn(viewer);
     await move(...letGo);
-    assert.equal(await page.locator(".surface-canvas").evaluate((canvas) => canvas.style.cursor), "grab", "where it was let go: the view has not turned");
+    await pointerIs(viewer, "grab"); // where it was let go: the view has not turned
     await move(20, -25);
     await page.mouse.down();
     await move(-30, -25);

@@ -108,6 +108,9 @@ public:
         if (objects.size() < 2) return;
         const PaintedObject all = united(objects, grid());
         if (all.slices.size() < 2) return;
+        double widest_mm = 0;
+        for (const PaintedObject* object : objects) widest_mm = std::max(widest_mm, largest_gap_mm(*object));
+        if (largest_gap_mm(all) > widest_mm) return;  // painted in turns: each is better known than the union
         const IndexBox range = range_of(all, grid(), options_.ends);
         if (!is_anything_left_out(all, range)) return;
         Segmentation result = segment_object(all, range, nullptr, {});

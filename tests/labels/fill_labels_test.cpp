@@ -194,6 +194,28 @@ TEST(FillLabels, TouchingLabelsLeaveNoGapsBetweenThem) {
     for (const int label : {1, 2, 3}) EXPECT_GT(dice(together.labels, full, label), dice(alone.labels, full, label) - 0.001);
 }
 
+/// A bent body and a ball in its bend: what encloses both is far from either.
+TEST(FillLabels, LabelsThatArePaintedInTurnsAreNotMeltedIntoOne) {
+    const Image full = label_map(index_grid({64, 50, 41}), [](const Index3& at) {
+        const double x = static_cast<double>(at.i), y = static_cast<double>(at.j), z = static_cast<double>(at.k);
+        const double middle = 10 + 24 * std::sin(std::numbers::pi * z / 40);  // of a tube that bows away and comes back
+        if (std::hypot(x - middle, y - 25) < 7) return 1;
+        return std::hypot(x - 18, y - 25) < 8 ? 2 : 0;
+    });
+    std::size_t n = 0;
+    const Image painted = label_map(full.grid, [&](const Index3& at) {
+        const int label = bytes_of_labels(full)[n++];
+        const bool is_end = at.k == 0 || at.k == 40;
+        return is_end || at.k % 4 == (label == 1 ? 0 : 2) ? label : 0;
+    });
+    FillOptions options;
+    const Filling together = fill_labels(painted, options);
+    options.jointly = false;
+    const Filling alone = fill_labels(painted, options);
+    for (const int label : {1, 2})
+        EXPECT_GT(dice(full, together.labels, label), dice(full, alone.labels, label) - 0.005) << label;
+}
+
 TEST(FillLabels, OnlyChosenLabelsAreFilled) {
     const Image sparse = sparse_of(organs(index_grid({44, 43, 42})), [](const Index3& at) { return at.k % 4 == 0; });
     const auto before = count_labels(sparse), after = count_labels(fill_labels(sparse, {.labels = {2}}).labels);

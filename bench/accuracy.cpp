@@ -14,8 +14,6 @@
 
 #include "agreement.h"
 #include "kontur/base/error.h"
-#include "kontur/drawing/prepare.h"
-#include "kontur/extract/track.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/measure/compare.h"
@@ -23,6 +21,7 @@
 #include "kontur/phantom/phantom.h"
 #include "kontur/segment.h"
 #include "kontur/stages.h"
+#include "true_tilts.h"
 
 namespace kontur {
 namespace {
@@ -40,6 +39,8 @@ struct Row {
     std::optional<Comparison> paper;
     std::optional<Comparison> told;              ///< given the true tilts
     std::optional<double> normal_error_degrees;  ///< of kontur's fit
+    std::optional<NormalErrors> normals;         ///< of kontur's fit, where the truth is a mask
+    std::optional<NormalErrors> told_normals;    ///< of the fit that was told
 };
 
 Row segment_both_ways(const ContourSet& contours, const Mask& truth, bool with_paper) {
@@ -53,30 +54,10 @@ Row segment_both_ways(const ContourSet& contours, const Mask& truth, bool with_p
     return row;
 }
 
-/// Cosines of the true surface's tilt, bounded as the fit bounds its own.
-std::vector<double> true_slopes(const Body& body, const std::vector<BoundaryPoint>& points) {
-    std::vector<double> slopes;
-    for (const BoundaryPoint& point : points)
-        slopes.push_back(
-            std::clamp(dot(body.outward_normal(point.position), point.inplane_normal), FitOptions{}.least_slope, 1.0));
-    return slopes;
-}
-
 std::vector<Vec3> drawn_points(const ContourSet& set) {
     std::vector<Vec3> points;
     for (const Contour& contour : set.contours) points.insert(points.end(), contour.points.begin(), contour.points.end());
     return points;
-}
-
-/// What estimating the tilts costs: the default's fit with the true tilts instead.
-Mask segment_told_the_tilts(const PhantomCase& drawn, const Grid& grid) {
-    const Drawing drawing(drawn.contours);
-    StageOptions stages = stage_options({}, drawing.diameter_mm());
-    const PreparedContours prepared = prepare(drawing, stages);
-    stages.fit.rounds = 0;
-    stages.fit.start_slopes = true_slopes(*drawn.body, prepared.points);
-    const FittedFunction told = fit(prepared, stages.fit);
-    return fill(track_surface(told.function, grid, start_points(drawn.contours, prepared, told.function, 0)));
 }
 
 /// Mean angle between the fitted and the true normals at the drawn points.
@@ -100,7 +81,8 @@ std::vector<Row> phantom_rows(bool with_paper) {
         const Grid grid = drawn.body->name() == "liver" ? coarsened(drawn.grid) : drawn.grid;
         const Mask truth = make_truth_mask(*drawn.body, grid);
         Row row = segment_both_ways(drawn.contours, truth, with_paper);
-        row.told = compare(segment_told_the_tilts(drawn, grid), truth);
+        const NormalAt normal = [&](const Vec3& p) { return drawn.body->outward_normal(p); };
+        row.told = compare(segment_told_the_tilts(drawn.contours, grid, normal).mask, truth);
         row.normal_error_degrees = normal_error_degrees(drawn, row.function);
         row.object = "phantom";
         row.drawing = name;
@@ -109,8 +91,17 @@ std::vector<Row> phantom_rows(bool with_paper) {
     return rows;
 }
 
+/// What the tilts of a mask's surface are worth, and how far normals are off.
+void tell_tilts(Row& row, const ContourSet& contours, const Mask& truth) {
+    const Told told = segment_told_the_tilts(contours, truth.grid, blurred_normal(truth, kBlurVoxels));
+    row.told = compare(told.mask, truth);
+    row.normals = normal_errors(contours, truth, row.function);
+    row.told_normals = normal_errors(contours, truth, told.function);
+    row.normal_error_degrees = row.normals->all;
+}
+
 /// A folder of objects, each a folder with `truth.nii.gz` and contour files.
-std::vector<Row> measured_rows(const fs::path& root, bool with_paper) {
+std::vector<Row> measured_rows(const fs::path& root, bool with_paper, bool with_tilts) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.path().extension() == ".json") files.push_back(entry.path());
@@ -120,12 +111,18 @@ std::vector<Row> measured_rows(const fs::path& root, bool with_paper) {
         const std::string object = file.parent_path().filename().string(), drawing = file.stem().string();
         fmt::print(stderr, "{} {}\n", object, drawing);
         const Mask truth = read_mask(file.parent_path() / "truth.nii.gz");
-        Row row = segment_both_ways(read_contours(file).contours, truth, with_paper);
+        const ContourSet contours = read_contours(file).contours;
+        Row row = segment_both_ways(contours, truth, with_paper);
+        if (with_tilts) tell_tilts(row, contours, truth);
         row.object = object;
         row.drawing = drawing;
         rows.push_back(row);
     }
     return rows;
+}
+
+nlohmann::ordered_json to_json(const NormalErrors& errors) {
+    return {{"degrees", errors.all}, {"in_plane_degrees", errors.in_plane}, {"of_truth_degrees", errors.truth}};
 }
 
 void print_json(const std::vector<Row>& rows) {
@@ -139,6 +136,8 @@ void print_json(const std::vector<Row>& rows) {
         if (row.paper) json["paper"] = to_json(*row.paper);
         if (row.told) json["told_tilts"] = to_json(*row.told);
         if (row.normal_error_degrees) json["normal_error_degrees"] = *row.normal_error_degrees;
+        if (row.normals) json["normals"] = to_json(*row.normals);
+        if (row.told_normals) json["told_normals"] = to_json(*row.told_normals);
         list.push_back(json);
     }
     fmt::print("{}\n", list.dump(2));
@@ -183,15 +182,18 @@ int run(const std::vector<std::string>& arguments) {
         return 0;
     }
     const auto is_given = [&](const char* option) { return std::ranges::find(arguments, option) != arguments.end(); };
-    const bool markdown = is_given("--markdown"), with_paper = !is_given("--without-paper");
+    const bool markdown = is_given("--markdown"), with_paper = !is_given("--without-paper"),
+               with_tilts = is_given("--tilts");
     std::vector<Row> rows;
     for (const std::string& argument : arguments) {
         if (argument.starts_with("--")) continue;
-        const std::vector<Row> measured = measured_rows(argument, with_paper);
+        const std::vector<Row> measured = measured_rows(argument, with_paper, with_tilts);
         rows.insert(rows.end(), measured.begin(), measured.end());
     }
-    const std::vector<Row> phantom = phantom_rows(with_paper);
-    rows.insert(rows.end(), phantom.begin(), phantom.end());
+    if (!is_given("--without-phantom")) {
+        const std::vector<Row> phantom = phantom_rows(with_paper);
+        rows.insert(rows.end(), phantom.begin(), phantom.end());
+    }
     if (!markdown) {
         print_json(rows);
         return 0;
@@ -204,8 +206,9 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 }  // namespace kontur
 
-/// accuracy [--markdown] [--without-paper] [FOLDER]...: folders as `measured_rows` takes them, then the phantom. Without the
-/// paper's method it takes a minute instead of many.
+/// accuracy [--markdown] [--without-paper] [--without-phantom] [--tilts] [FOLDER]...: folders as `measured_rows` takes them,
+/// then the phantom. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are
+/// also fitted with the tilts of the true masks, as the phantom's are.
 /// accuracy --counts: the phantom's organs by the number of planes drawn.
 int main(int count, char** arguments) {
     try {

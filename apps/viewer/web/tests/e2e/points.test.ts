@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
+import { PATIENCE_MS } from "./browsers";
 import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
 const visits = new BallVisits();
@@ -94,9 +95,19 @@ describe("points inside and outside", () => {
   });
 });
 
-/** Over the 3D view; the browser may tell the page later than the test goes on. */
-const pointerIs = (viewer: Viewer, cursor: string) =>
-  viewer.page.waitForFunction((name) => document.querySelector<HTMLElement>(".surface-canvas")!.style.cursor === name, cursor);
+/** Moves the pointer about a place of the 3D view until it has this shape: what lies there is told by the last frame, which may come late. */
+async function pointerBecomes(viewer: Viewer, cursor: string, right: number, down: number): Promise<void> {
+  const { page } = viewer;
+  for (let n = 0; ; ++n) {
+    await page.mouse.move(...(await viewer.at("surface", right + (n % 2), down)));
+    const shape = await page
+      .locator(".surface-canvas")
+      .evaluate((canvas) => new Promise((resolve) => requestAnimationFrame(() => resolve(canvas.style.cursor))));
+    if (shape === cursor) return;
+    assert.ok(n < PATIENCE_MS / 100, `the pointer is ${String(shape)}`);
+    await page.waitForTimeout(100);
+  }
+}
 
 describe("points of the surface", () => {
   test("a click on a slice beyond the outline pulls the surface there; undo, reload and export know the point", async () => {
@@ -173,8 +184,7 @@ describe("points of the surface", () => {
     assert.equal(await points(viewer).count(), 0, "with Edit it sets nothing");
     await page.keyboard.press("q");
     const move = async (right: number, down: number) => page.mouse.move(...(await viewer.at("surface", right, down)));
-    await move(20, -25);
-    await pointerIs(viewer, "crosshair");
+    await pointerBecomes(viewer, "crosshair", 20, -25);
     await click(20, -25);
     await waitForPoints(viewer, 1);
     await viewer.surfaceShown();
@@ -208,8 +218,7 @@ describe("points of the surface", () => {
     await isDrawn(viewer);
     const first = millimetres(await place(viewer, 0));
     await page.keyboard.press("v"); // by Edit as by Point
-    await move(20, -25);
-    await pointerIs(viewer, "grab");
+    await pointerBecomes(viewer, "grab", 20, -25);
     const letGo = [-30, 22] as const;
     await page.mouse.down();
     await move(-10, 5);
@@ -230,8 +239,7 @@ describe("points of the surface", () => {
     assert.ok(moved[0]! < first[0]! - 5 && moved[1]! < -10 && moved[2]! < first[2]! - 5, `${moved} is to the right of ${first}, in front and below`);
     await viewer.surfaceShown();
     await isDrawn(viewer);
-    await move(...letGo);
-    await pointerIs(viewer, "grab"); // where it was let go: the view has not turned
+    await pointerBecomes(viewer, "grab", ...letGo); // where it was let go: the view has not turned
     await move(20, -25);
     await page.mouse.down();
     await move(-30, -25);

@@ -8,6 +8,7 @@
 
 #include "kontur/labels/borrowed_borders.h"
 #include "kontur/labels/union_contours.h"
+#include "support/coarse_grid.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
 #include "support/label_maps.h"
@@ -132,6 +133,22 @@ TEST(BorrowedBorders, AreTheSidesThatANeighbourAloneHasDrawn) {
         EXPECT_LT(std::min(std::abs(angle - side), std::abs(angle + side)) * std::hypot(point.position.x, point.position.y),
                   0.1);
     }
+}
+
+/// A straight body and one that bows away from it, drawn on the same planes at their ends and in turns between.
+TEST(SegmentTogether, StructuresDrawnInTurnsAreNotMeltedIntoOne) {
+    std::vector<ContourSet> sets(2);
+    for (int z = -20; z <= 20; z += 2) {
+        const bool is_end = std::abs(z) == 20;
+        const double bow = 14 * std::cos(std::numbers::pi * z / 40);
+        if (is_end || z % 4 == 0)
+            sets[0].contours.push_back(test::circle(make_plane({-6, -8, static_cast<double>(z)}, {0, 0, 1}), 6, 40));
+        if (is_end || z % 4 != 0)
+            sets[1].contours.push_back(test::circle(make_plane({6, -8 + bow, static_cast<double>(z)}, {0, 0, 1}), 6, 40));
+    }
+    const auto together = masks_of(segment_together(sets, grid_here()));
+    for (std::size_t n = 0; n < 2; ++n)
+        EXPECT_GT(test::dice(together[n].values, segment(sets[n], grid_here()).mask.values), 0.99) << n;
 }
 
 ContourSet ball(const Vec3& center, double radius) { return test::ball_slices(center, radius, 3, 4); }

@@ -155,6 +155,9 @@ private:
         const ContourSet outline =
             union_contours(sets, {.step_mm = least / 2, .spacing_mm = point_spacing_mm(sets), .close_mm = least});
         if (outline.contours.empty()) return;
+        double widest = 0;
+        for (const ContourSet* set : sets) widest = std::max(widest, reach_mm(*set, grid_));
+        if (reach_mm(outline, grid_) > widest + 1e-6) return;  // drawn in turns: each is better known than the union
         const FittedObject all = fit_union_(group, outline);
         std::vector<Index3> gaps = shared_voxels(all.mask, all.mask);
         std::erase_if(gaps, [&](const Index3& at) {

@@ -80,6 +80,19 @@ TEST(Refit, KeepsTheContours) {
     EXPECT_LT(largest, 0.02 * kSpacing);
 }
 
+TEST(Refit, FollowsWhatIsToldFarFromTheContours) {
+    const FittedBody body;
+    const UnitFrame frame = body.fitted.function.frame();
+    std::vector<PointConstraint> told;
+    for (const double radii : {1.3, 1.5, 1.7})
+        for (const double x : {-1.0, 1.0})
+            told.push_back({.position = frame.center + radii * frame.scale * normalized({x, 0.6, 0.9}),
+                            .value = (1.5 - radii) * frame.scale,
+                            .noise_mm = 0.03 * kSpacing});
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(told, {});
+    for (const PointConstraint& one : told) EXPECT_NEAR(refit.function.value(one.position), one.value, 0.3 * kSpacing);
+}
+
 TEST(Refit, ChangesNothingWhereItIsToldWhatIsSo) {
     const FittedBody body;
     std::vector<PointConstraint> told = body.told();

@@ -69,7 +69,8 @@ FittedFunction Refit::with(const std::vector<PointConstraint>& more, const Work&
     std::vector<Vec3> places;
     for (const PointConstraint& one : more) places.push_back(one.position);
     std::vector<double> before(places.size());
-    fitted_.function.values(places, before, work);
+    // Without f's fall: that of the sum begins beyond these places, which are centres of it.
+    fitted_.function.sums_at(PointArrays(fitted_.function.frame().to_unit(places)), before, work);
     for (std::size_t i = 0; i < more.size(); ++i) {
         changes.push_back(more[i]);
         changes.back().value -= before[i];

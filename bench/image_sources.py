@@ -10,6 +10,13 @@ FRESH is a folder of public data:
 - ventricles/: what ventricles.py makes of the Sunnybrook cases in github.com/kwu93/image-segmentation (CC0), hand-drawn;
 - mr_abdomen/example_{mr_sm,seg_mr}.nii.gz, aorta/{ct_cropped,aorta,vertebrae_T12}.nii.gz: tests/reference_files of
   github.com/wasserth/TotalSegmentator (Apache-2.0), a model's labels.
+
+NEW is another such folder, of patients that are in no other set; nothing was chosen on them either:
+- sarcoma/: the patients of the same repository that are left, in CT, MR or PET in turns;
+- pyradiomics/{brain2,breast1}_{image,label}.nrrd: data of github.com/AIM-Harvard/pyradiomics (BSD-3);
+- cord/t1w{,_seg-manual}.nii.gz: t1 of github.com/spinalcordtoolbox/sct_testing_data (MIT), hand-drawn;
+- chest/{ct_cropped,heart,pulmonary_artery}.nii.gz: tests/reference_files/pulmonary_report/models of
+  github.com/wasserth/TotalSegmentator, a model's labels.
 """
 ABDOMEN = "01_ct_abdomen_totalseg_3mm/"
 BRAIN = "06_mr_brain_MRIcrop/"
@@ -22,6 +29,12 @@ PHANTOM = (("liver", "3"), ("kidney", "1.5"), ("metastasis", "1"), ("vertebra", 
 FRESH_SARCOMAS = ("001", "004", "007", "010", "013", "016", "019", "022", "025", "028", "031", "034", "037", "041", "043", "046", "049")
 FRESH_WITHOUT_CT = ("007", "013", "016", "037", "046", "049")
 MODALITIES = ("CT", "MR_T1", "PET")
+# Without an image in every modality that the turn asks for, which is then the next one's.
+NEW_SARCOMAS = {
+    "CT": ("003", "014", "018", "023", "032", "036", "042", "047", "051"),
+    "MR_T1": ("005", "011", "015", "024", "027", "029", "033", "038", "044", "048"),
+    "PET": ("006", "009", "012", "017", "020", "021", "026", "030", "035", "039", "045", "050"),
+}
 # Patient, phase of the end of diastole, of systole.
 FRESH_VENTRICLES = (("SC-HF-I-2", 19, 6), ("SC-HF-I-4", 19, 6), ("SC-HF-I-5", 19, 6), ("SC-HF-I-6", 18, 8))
 FRESH_MR_LABELS = (1, 2, 3, 4, 5, 6, 7, 13, 14, 15, 19, 20, 21, 23, 24, 25, 46, 47)
@@ -67,8 +80,21 @@ def fresh():
     return dict(sorted(found.items()))
 
 
+def new():
+    """The same, files relative to NEW."""
+    found = {f"new_sarcoma{patient}/{modality}": (f"sarcoma/STS_{patient}/{modality}_image.nii.gz",
+                                                  f"sarcoma/STS_{patient}/{modality}_mask.nii.gz", "")
+             for modality, patients in NEW_SARCOMAS.items() for patient in patients}
+    for name in "brain2", "breast1":
+        found[f"new_{name}"] = (f"pyradiomics/{name}_image.nrrd", f"pyradiomics/{name}_label.nrrd", "")
+    found["new_cord"] = ("cord/t1w.nii.gz", "cord/t1w_seg-manual.nii.gz", "")
+    for organ in "heart", "pulmonary_artery":
+        found[f"new_{organ}"] = ("chest/ct_cropped.nii.gz", f"chest/{organ}.nii.gz", "")
+    return dict(sorted(found.items()))
+
+
 def sets():
-    """{structure: "report", "tune" or "fresh"}."""
+    """{structure: "report", "tune", "fresh" or "new"}."""
     objects = sorted({name.split("/")[0] for name in scans()})
     found = {name: ("tune" if objects.index(name.split("/")[0]) % 2 else "report") for name in scans()}
-    return found | {name: "fresh" for name in fresh()}
+    return found | {name: "fresh" for name in fresh()} | {name: "new" for name in new()}

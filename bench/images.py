@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the image between the contours is worth: structures cut by few planes, segmented without and with their image.
 
-Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--set tune|report|fresh]
+Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--new NEW] [--set tune|report|fresh|new]
                        [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1] [--shift-mm 0]
        bench/images.py --csv FILE --tables
 
-SCANS and FRESH are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
+SCANS, FRESH and NEW are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
 orthogonal and oblique planes; 3, 4, 5, 7, 10 of them; exact and by hand) --share 3 takes every third, another third for the next
 structure. --shift-mm moves each image by so much beside what is drawn (along x and y, half of it along z): it should not be used
 then. Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
@@ -59,6 +59,7 @@ def measure(options):
     tasks = []
     sources = [(options.data, item) for item in image_sources.scans().items()]
     sources += [(options.fresh, item) for item in image_sources.fresh().items()]
+    sources += [(options.new, item) for item in image_sources.new().items()]
     for number, (data, (name, words)) in enumerate(sources):
         if (options.set and sets[name] != options.set) or (options.only and name not in options.only):
             continue
@@ -119,9 +120,10 @@ def main():
     parser.add_argument("--program", type=pathlib.Path)
     parser.add_argument("--data", type=pathlib.Path)
     parser.add_argument("--fresh", type=pathlib.Path)
+    parser.add_argument("--new", type=pathlib.Path)
     parser.add_argument("--share", type=int, default=1)
     parser.add_argument("--csv", type=pathlib.Path, required=True)
-    parser.add_argument("--set", choices=["tune", "report", "fresh"])
+    parser.add_argument("--set", choices=["tune", "report", "fresh", "new"])
     parser.add_argument("--only", action="append", default=[])
     parser.add_argument("--drawings", default="")
     parser.add_argument("--methods", default="gated")

@@ -48,6 +48,7 @@ Facts image_facts(const RefineReport& image) {
             {"planes_left_out", image.planes_left_out},
             {"displaced", image.displaced},
             {"walked", image.walked},
+            {"weight", image.weight},
             {"wrong_without", image.wrong_without},
             {"wrong_with", image.wrong_with},
             {"error_without_mm", image.error_without_mm},

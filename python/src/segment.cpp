@@ -77,9 +77,10 @@ void bind_refine_report(py::module_& m) {
         .field("displaced", &RefineReport::displaced,
                "bool: the errors are those of a surface displaced at the contours on purpose, where leaving planes out did "
                "not show that the image helps.")
-        .field(
-            "walked", &RefineReport::walked,
-            "bool: the surface is that of a random walk on the image's voxels, which finds branches that no contour shows.")
+        .field("walked", &RefineReport::walked,
+               "bool: the surface follows a random walk on the image's voxels, which finds branches that no contour shows.")
+        .field("weight", &RefineReport::weight,
+               "float: how far what the image shows is followed, 0 to 1: the walk, or else the movement.")
         .field("wrong_without", &RefineReport::wrong_without,
                "float: voxels of planes left out on the wrong side of the surface through the others, over those inside; 0 "
                "where no walk was used or tried.")

@@ -23,7 +23,7 @@ TEST(Displace, ThreePlanesAreEnoughToTrustAnImageThatShowsTheBorder) {
     EXPECT_EQ(r.refined.report.verdict, ImageVerdict::used);
     EXPECT_TRUE(r.refined.report.displaced);
     EXPECT_EQ(r.refined.report.planes_left_out, 3U);
-    EXPECT_LT(r.refined.report.error_with_mm, (1 - kTakenBack) * r.refined.report.error_without_mm);
+    EXPECT_LT(r.refined.report.error_with_mm, (1 - kTakenBack.from) * r.refined.report.error_without_mm);
     EXPECT_LT(surface_error(r.refined.fitted.function, contours), 0.6 * surface_error(r.plain.function, contours));
     EXPECT_NE(sentence(r.refined.report).find("displaced"), std::string::npos);
 }

@@ -53,15 +53,19 @@ double image_mm(const HeldOutErrors& errors, const Vec3& place, double far_mm = 
 }
 
 TEST(HeldOutErrors, WhatHelpsInOnePlaneOfFourMayBeChance) {
-    EXPECT_TRUE(errors_with_gains({0.5, 0.5, 0.5, 0.5}).image_helps());
-    EXPECT_TRUE(errors_with_gains({0.2, 0.9, 0.6, 0.3}).image_helps());
-    EXPECT_FALSE(errors_with_gains({1.8, 0.2, -0.1, -0.3}).image_helps()) << "the mean is 0.4 mm, give or take 0.48";
+    EXPECT_EQ(errors_with_gains({0.5, 0.5, 0.5, 0.5}).weight(), 1);
+    EXPECT_EQ(errors_with_gains({0.2, 0.9, 0.6, 0.3}).weight(), 1);
+    EXPECT_EQ(errors_with_gains({1.8, 0.2, -0.1, -0.3}).weight(), 0) << "the mean is 0.4 mm, give or take 0.48";
     EXPECT_NEAR(errors_with_gains({1.8, 0.2, -0.1, -0.3}).with_mm(), 1.6, 1e-12);
 }
 
-TEST(HeldOutErrors, AnImageOfFewPercentIsNone) {
-    EXPECT_FALSE(errors_with_gains({0.05, 0.05, 0.05, 0.05}).image_helps());
-    EXPECT_TRUE(errors_with_gains({0.15, 0.15, 0.15, 0.15}).image_helps());
+TEST(HeldOutErrors, AnImageOfFewPercentCountsInPart) {
+    EXPECT_EQ(errors_with_gains({-0.05, -0.05, -0.05, -0.05}).weight(), 0);
+    EXPECT_EQ(errors_with_gains({0, 0, 0, 0}).weight(), 0);
+    EXPECT_NEAR(errors_with_gains({0.05, 0.05, 0.05, 0.05}).weight(), 0.5, 1e-9);
+    EXPECT_NEAR(errors_with_gains({0.09, 0.09, 0.09, 0.09}).weight(), 0.9, 1e-9);
+    EXPECT_EQ(errors_with_gains({0.15, 0.15, 0.15, 0.15}).weight(), 1);
+    EXPECT_EQ(errors_with_gains({0.15, 0.15, 0.15, 0.15}).weight({0.2, 0.3}), 0);
 }
 
 /// The points nearest to a place count as much as all: in the mean over places that comes out right.
@@ -111,10 +115,23 @@ TEST(HeldOutErrors, WhatCouldBeChanceIsNotFollowedAtAll) {
             points.push_back({{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 1.2, 1.2 - moved, 1.2, plane});
         }
     const HeldOutErrors errors = errors_of(points);
-    EXPECT_FALSE(errors.image_helps());
+    EXPECT_EQ(errors.weight(), 0);
     EXPECT_EQ(image_mm(errors, {5, 15, 0}), std::numeric_limits<double>::infinity());
     EXPECT_EQ(image_mm(errors_with_gains({0, 0, 0, 0}), {5, 15, 0}), std::numeric_limits<double>::infinity())
         << "an image that says nothing";
+}
+
+TEST(HeldOutErrors, WhatCountsLessMovesLess) {
+    const HeldOutErrors errors = errors_of(told(1, 1));
+    const MovingPoint point{.position = {50, 0, 100}, .normal = {1, 0, 0}, .distance_mm = kFarMm};
+    double less = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(errors.beliefs(0).image_mm(point), less);
+    for (const double weight : {0.01, 0.1, 0.5, 0.9, 1.0}) {
+        const double image = errors.beliefs(weight).image_mm(point);
+        EXPECT_LT(image, less);
+        less = image;
+    }
+    EXPECT_EQ(less, image_mm(errors, point.position));
 }
 
 TEST(HeldOutErrors, FartherFromContoursThanAnyWasTheImageIsTrustedLess) {

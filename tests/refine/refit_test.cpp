@@ -93,6 +93,18 @@ TEST(Refit, FollowsWhatIsToldFarFromTheContours) {
     for (const PointConstraint& one : told) EXPECT_NEAR(refit.function.value(one.position), one.value, 0.3 * kSpacing);
 }
 
+TEST(Refit, BetweenTwoFunctionsIsTheirMean) {
+    const FittedBody body;
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(body.told(), {});
+    for (const double share : {0.0, 0.3, 1.0}) {
+        const FittedFunction mean = between(body.fitted, refit, share);
+        for (const PointConstraint& one : body.told())
+            EXPECT_NEAR(mean.function.value(one.position),
+                        std::lerp(body.fitted.function.value(one.position), refit.function.value(one.position), share),
+                        1e-9);
+    }
+}
+
 TEST(Refit, ChangesNothingWhereItIsToldWhatIsSo) {
     const FittedBody body;
     std::vector<PointConstraint> told = body.told();

@@ -19,26 +19,47 @@ std::vector<WrongCells> planes(const std::vector<double>& alone, const std::vect
     return wrong;
 }
 
-TEST(WalkHelps, WhereItHasFewerWrongCellsThanChanceMakes) {
-    EXPECT_TRUE(walk_helps(planes({40, 50, 60}, {40, 50, 60}, {20, 28, 40}), false));
-    EXPECT_FALSE(walk_helps(planes({40, 50, 60}, {40, 50, 60}, {18, 51, 61}), false)) << "one plane of three says so";
-    EXPECT_FALSE(walk_helps(planes({40, 50, 60}, {40, 50, 60}, {40, 50, 60}), false)) << "it does nothing";
-    EXPECT_FALSE(walk_helps(planes({40, 50, 60}, {40, 50, 60}, {44, 55, 60}), false));
-    EXPECT_FALSE(walk_helps(planes({40, 50, 60}, {40, 50, 60}, {38, 48, 57}), false)) << "surely, but hardly fewer";
+TEST(WalkWeight, IsMoreThanNothingWhereItHasFewerWrongCellsThanChanceMakes) {
+    EXPECT_EQ(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {20, 28, 40}), 0), 1);
+    EXPECT_LT(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {18, 51, 61}), 0), 0.4) << "one plane of three says so";
+    EXPECT_EQ(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {40, 50, 60}), 0), 0) << "it does nothing";
+    EXPECT_EQ(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {44, 55, 60}), 0), 0);
+    EXPECT_EQ(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {38, 48, 57}), 0), 0) << "surely, but hardly fewer";
 }
 
-TEST(WalkHelps, BesideTheMovedSurfaceWhereThatIsUsed) {
+TEST(WalkWeight, IsThatBesideTheSurfaceAsFarAsItMoves) {
     const std::vector<WrongCells> wrong = planes({40, 50, 60}, {10, 12, 14}, {20, 28, 40});
-    EXPECT_TRUE(walk_helps(wrong, false));
-    EXPECT_FALSE(walk_helps(wrong, true));
-    EXPECT_TRUE(walk_helps(planes({40, 50, 60}, {40, 48, 58}, {38, 47, 57}), true)) << "a little is enough there";
+    EXPECT_EQ(walk_weight(wrong, 0), 1);
+    EXPECT_EQ(walk_weight(wrong, 1), 0);
+    double less = 1;
+    for (const double moving : {0.5, 0.6, 0.7, 0.8}) {
+        const double weight = walk_weight(wrong, moving);
+        EXPECT_LE(weight, less);
+        less = weight;
+    }
+    EXPECT_EQ(walk_weight(planes({40, 50, 60}, {40, 48, 58}, {38, 47, 57}), 1), 1) << "a little is enough there";
+    EXPECT_NEAR(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {45, 45, 60}), 1), 0.5, 1e-9) << "as often more as fewer";
 }
 
-TEST(WalkHelps, OnlyWhereThreePlanesTell) {
+TEST(WalkWeight, FlipsNowhere) {
+    for (const double moving : {0.0, 0.4, 1.0}) {
+        double before = 0;
+        for (double fewer = -60; fewer <= 150; fewer += 1) {
+            const double weight =
+                walk_weight(planes({400, 500, 600}, {400, 500, 600}, {420 - fewer, 475 - fewer, 605 - fewer}), moving);
+            EXPECT_GE(weight, before) << fewer;
+            EXPECT_LT(weight - before, 0.05) << fewer;
+            before = weight;
+        }
+        EXPECT_EQ(before, 1);
+    }
+}
+
+TEST(WalkWeight, IsNothingUnlessThreePlanesTell) {
     std::vector<WrongCells> wrong = planes({40, 50, 60}, {40, 50, 60}, {20, 28, 40});
     wrong[1] = {};
-    EXPECT_FALSE(walk_helps(wrong, false));
-    EXPECT_FALSE(walk_helps({}, false));
+    EXPECT_EQ(walk_weight(wrong, 0), 0);
+    EXPECT_EQ(walk_weight({}, 1), 0);
 }
 
 TEST(CountWrong, IsTheAreaBetweenOutlines) {

@@ -59,6 +59,14 @@ CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function
     return {std::move(depths.depth_mm), std::move(far), std::move(depths.nearest)};
 }
 
+CellDepths between(const CellDepths& first, const CellDepths& second, double share) {
+    CellDepths depths = share < 1 ? first : second;
+    if (share <= 0 || share >= 1) return depths;
+    for (std::size_t n = 0; n < depths.depth_mm.size(); ++n)
+        depths.depth_mm[n] += static_cast<float>(share) * (second.depth_mm[n] - first.depth_mm[n]);
+    return depths;
+}
+
 CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const ImplicitFunction& function,
                         const Movement& movement, const Beliefs& beliefs, const CellSlab& near, const Work& work) {
     if (movement.points.empty()) return depths;

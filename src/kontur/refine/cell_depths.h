@@ -33,6 +33,9 @@ Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cell
 CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
                        const Work& work = {});
 
+/// Depths between those below two surfaces, of which the second counts so much.
+CellDepths between(const CellDepths& first, const CellDepths& second, double share);
+
 /// Cells near a plane.
 struct CellSlab {
     Plane plane{};

@@ -20,8 +20,8 @@ namespace kontur {
 std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image& image, const ImplicitFunction& function,
                                              const Work& work);
 
-/// An image has to take back so much of a displacement to be used for that. Chosen so that images which lie beside the
-/// drawing are not (docs/decisions/0008-image-error.md).
-inline constexpr double kTakenBack = 0.3;
+/// How much of a displacement an image has to take back to be followed for that: not at all, wholly. Chosen so that images
+/// which lie beside the drawing are not (docs/decisions/0008-image-error.md).
+inline constexpr Rise kTakenBack{0.2, 0.3};
 
 }  // namespace kontur

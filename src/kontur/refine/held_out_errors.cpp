@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kLeastPoints = 10;
 constexpr double kMeanOfDeviation = 0.7979;  // the mean of absolute values over the standard deviation, likewise
-constexpr double kSure = 1;                  // standard errors over the planes, of the mean gain and of what is true
+constexpr double kSure = 1;                  // standard errors over the planes, of what is true
+constexpr Rise kSureGain{0, 1};              // and of the mean gain
 constexpr std::size_t kNear = 40;            // held-out points that speak for a place
 constexpr double kLeastImage = 0.25;         // voxels: no image is better known than this
 
@@ -68,13 +69,14 @@ void HeldOutErrors::add(const HeldOut& point, double weight, ToldByImage& sums) 
     sums.add(limited(point.reachable_mm), point.moved_mm(), weight / (expected * expected));
 }
 
-bool HeldOutErrors::image_helps(double most_left) const {
+double HeldOutErrors::weight(const Rise& mended) const {
     const double hand = kMeanOfDeviation * hand_mm_;
-    return without_hand(with_mm_, hand) <= most_left * without_hand(without_mm_, hand) && helps_planes() &&
-           told_.share() > kSure * error_of_share_;
+    const double without = without_hand(without_mm_, hand);
+    if (without == 0 || believed(told_) == 0) return 0;
+    return mended.at(1 - without_hand(with_mm_, hand) / without) * weight_of_planes();
 }
 
-bool HeldOutErrors::helps_planes() const {
+double HeldOutErrors::weight_of_planes() const {
     struct Sum {
         double points = 0, gain_mm = 0;
         double mean() const { return gain_mm / points; }
@@ -88,7 +90,7 @@ bool HeldOutErrors::helps_planes() const {
     double mean = 0, squares = 0;
     for (const auto& [plane, sum] : planes) mean += sum.mean() / count;
     for (const auto& [plane, sum] : planes) squares += std::pow(sum.mean() - mean, 2);
-    return count < 2 || mean >= kSure * std::sqrt(squares / (count - 1) / count);
+    return count < 2 ? 1 : kSureGain.at(in_errors(mean, std::sqrt(squares / (count - 1) / count)));
 }
 
 /// By the jackknife over the planes, since the points of a plane err together.
@@ -110,8 +112,13 @@ double HeldOutErrors::error_of_share() const {
     return std::sqrt(squares * (count - 1) / count);
 }
 
-Beliefs HeldOutErrors::beliefs() const {
-    return {beliefs_.prior_mm, [this](const MovingPoint& point) { return image_sd(point); }};
+/// The share of what the image tells that is true, surely.
+double HeldOutErrors::believed(const ToldByImage& told) const {
+    return std::clamp(told.share() - kSure * error_of_share_, 0.0, 1.0);
+}
+
+Beliefs HeldOutErrors::beliefs(double weight) const {
+    return {beliefs_.prior_mm, [this, weight](const MovingPoint& point) { return image_sd(point, weight); }};
 }
 
 std::vector<const HeldOut*> HeldOutErrors::nearest(const Vec3& place) const {
@@ -124,7 +131,7 @@ std::vector<const HeldOut*> HeldOutErrors::nearest(const Vec3& place) const {
     return nearest;
 }
 
-double HeldOutErrors::image_sd(const MovingPoint& point) const {
+double HeldOutErrors::image_sd(const MovingPoint& point, double weight) const {
     const std::vector<const HeldOut*> near = nearest(point.position);
     std::vector<double> errors;
     ToldByImage told = told_;
@@ -134,7 +141,7 @@ double HeldOutErrors::image_sd(const MovingPoint& point) const {
     }
     const double error = without_hand(kDeviationOfMedian * 0.5 * (median(std::move(errors)) + median_without_), hand_mm_);
     // Of errors u and what an image that is off by e of its own tells, u + e, the share u^2 / (u^2 + e^2) is true.
-    const double share = std::clamp(told.share() - kSure * error_of_share_, 0.0, 1.0);
+    const double share = weight * believed(told);
     if (share == 0) return std::numeric_limits<double>::infinity();
     // Held-out contours are about twice as far from others as what lies between all of them. Of what lies farther than they
     // did, less is known.

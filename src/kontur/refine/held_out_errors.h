@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kontur/refine/movement.h"
+#include "kontur/refine/rise.h"
 
 namespace kontur {
 
@@ -53,16 +54,19 @@ public:
     double with_mm() const { return with_mm_; }
     std::size_t planes() const { return planes_; }
     std::int64_t intensities() const { return intensities_; }  ///< read from the image
-    /// The mean error with the image is at most this share of that without it, and lower by more than chance makes it in so
-    /// few planes.
-    bool image_helps(double most_left = kHelps) const;
-    static constexpr double kHelps = 0.95;
-    Beliefs beliefs() const;
+    /// How far the image is followed: 0 where the mean error with it is not below that without it by the first of these
+    /// shares, or lower in no more planes than chance makes it; 1 where it is by the second, and by a standard error over
+    /// the planes. In between it rises steadily, so that nothing flips with small changes of a fit.
+    double weight(const Rise& mended = kHelps) const;
+    static constexpr Rise kHelps{0, 0.05};
+    /// What is true of the image's offsets counts that much only.
+    Beliefs beliefs(double weight = 1) const;
 
 private:
-    bool helps_planes() const;
+    double weight_of_planes() const;
     double error_of_share() const;
-    double image_sd(const MovingPoint& point) const;
+    double believed(const ToldByImage& told) const;
+    double image_sd(const MovingPoint& point, double weight) const;
     double limited(double error_mm) const;
     void add(const HeldOut& point, double weight, ToldByImage& sums) const;
     std::vector<const HeldOut*> nearest(const Vec3& place) const;

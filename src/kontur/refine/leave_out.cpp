@@ -97,14 +97,14 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
 }
 
 /// Which cells in the plane are on the wrong side: by the fold's surface, by that moved, and by a walk that begins with the
-/// one that would be used.
-WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& cells, const Beliefs& beliefs,
-                bool is_moved_used, const Work& alone) {
+/// surface moved as far as the image is followed.
+WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& cells, const Beliefs& beliefs, double moving,
+                const Work& alone) {
     const CellSlab near{fold.plane.contours.front().plane, kAskedBeside * cells.edge_mm()};
     const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone);
     const CellDepths moved = moved_depths(depths, cells, fold.function, movement, beliefs, near, alone);
     const WalkOptions options{fold.others.walls, beliefs.prior_mm, smallest_ball(fold.rest).diameter(), near};
-    const VoxelWalk walk = walk_voxels(cells, is_moved_used ? moved : depths, options, alone);
+    const VoxelWalk walk = walk_voxels(cells, between(depths, moved, moving), options, alone);
     return count_wrong(fold.plane, cells, depths, moved, walk);
 }
 
@@ -144,11 +144,11 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
     LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
                            image_cells(image, drawn, kMostCells, work), std::vector<WrongCells>(folds.size())};
-    const bool is_moved_used = left_out.errors.image_helps();
+    const double moving = left_out.errors.weight();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
-            if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], left_out.cells, beliefs, is_moved_used, alone);
+            if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], left_out.cells, beliefs, moving, alone);
         }
     });
     return left_out;

@@ -90,7 +90,7 @@ void hold_back(Movement& movement, std::span<const Vec3> places) {
 
 AskedSurface ask_surface(const DrawnOnImage& drawn, const Drawing& drawing, const FittedFunction& fitted,
                          const Beliefs& beliefs, const RefineOptions& options, const Work& work) {
-    AskedSurface asked{{}, kSurfaceSpacing * drawing.diameter_mm(), {}};
+    AskedSurface asked{{}, kSurfaceSpacing * drawing.diameter_mm(), beliefs, {}};
     asked.points = points_of_surface(fitted.function, drawing.contours, asked.spacing_mm, work);
     std::vector<Vec3> points = spread(asked.points, options.samples, frame_of(drawing.contours));
     slide_to_surface(fitted.function, points, {.reach_mm = asked.spacing_mm}, work);
@@ -102,8 +102,8 @@ AskedSurface ask_surface(const DrawnOnImage& drawn, const Drawing& drawing, cons
 /// The image is asked once, as it was where contours were left out: asked again from the moved surface it would be believed
 /// twice.
 RefinedFunction move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawing& drawing,
-                             const PreparedContours& prepared, const FittedFunction& fitted, const Beliefs& beliefs,
-                             const RefineOptions& options, const Work& work) {
+                             const PreparedContours& prepared, const FittedFunction& fitted, const RefineOptions& options,
+                             const Work& work) {
     const double voxel = drawn.image.voxel_mm(), spacing = asked.spacing_mm;
     Movement& movement = asked.movement;
     RefinedFunction result{fitted, {}};
@@ -111,7 +111,7 @@ RefinedFunction move_surface(AskedSurface asked, const DrawnOnImage& drawn, cons
     result.report.verdict = ImageVerdict::used;
     if (movement.points.empty()) return result;
 
-    const SearchedBand band = searched_band(asked.points, drawn, beliefs, spacing);
+    const SearchedBand band = searched_band(asked.points, drawn, asked.beliefs, spacing);
     const std::vector<PointConstraint> held = anchors(movement, drawn, fitted.function, work);
     Refit refit(prepared, fitted, options.fit, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

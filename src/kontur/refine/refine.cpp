@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/refine/refine.h"
 
+#include <cmath>
+
 #include "kontur/refine/displace.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/move_surface.h"
+#include "kontur/refine/refit.h"
 #include "kontur/refine/walk_surface.h"
 
 namespace kontur {
@@ -15,20 +18,29 @@ constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
 /// What speaks for the image and against it.
 struct Trial {
     std::optional<LeftOutPlanes> left_out;
-    std::optional<HeldOutErrors> displaced;  ///< asked where leaving planes out does not show that the image helps
+    std::optional<HeldOutErrors> displaced;  ///< asked as far as leaving planes out does not show that the image helps
+    double left_out_weight = 0, displaced_weight = 0;  ///< how far the surface moves by each; together at most 1
 
-    bool left_out_helps() const { return left_out && left_out->errors.image_helps(); }
-    bool displacing_helps() const { return displaced && displaced->image_helps(1 - kTakenBack); }
-    /// By which the surface is moved; none if it is not.
-    const HeldOutErrors* helping() const {
-        return left_out_helps() ? &left_out->errors : displacing_helps() ? &*displaced : nullptr;
-    }
-    /// By which it was decided whether it is.
+    double moving() const { return left_out_weight + displaced_weight; }
+    double walking() const { return left_out ? walk_weight(left_out->wrong, moving()) : 0; }
+    /// By which it was mostly decided whether the surface moves.
     const HeldOutErrors* deciding() const {
-        if (const HeldOutErrors* errors = helping()) return errors;
-        return left_out ? &left_out->errors : displaced ? &*displaced : nullptr;
+        const bool is_displaced = displaced && (!left_out || displaced_weight > left_out_weight);
+        return is_displaced ? &*displaced : left_out ? &left_out->errors : nullptr;
     }
-    bool walk_helps() const { return left_out && kontur::walk_helps(left_out->wrong, helping() != nullptr); }
+
+    /// By which it does.
+    Beliefs beliefs() const {
+        if (displaced_weight == 0) return left_out->errors.beliefs(left_out_weight);
+        const Beliefs by_displacing = displaced->beliefs(displaced_weight);
+        if (left_out_weight == 0) return by_displacing;
+        const Beliefs by_leaving_out = left_out->errors.beliefs(left_out_weight);
+        const double share = displaced_weight / moving();
+        return {[=](double mm) { return std::lerp(by_leaving_out.prior_mm(mm), by_displacing.prior_mm(mm), share); },
+                [=](const MovingPoint& point) {
+                    return 1 / std::hypot(1 / by_leaving_out.image_mm(point), 1 / by_displacing.image_mm(point));
+                }};
+    }
 };
 
 /// What becomes of a drawing, its fit and an image.
@@ -42,43 +54,55 @@ struct Question {
     const Work& work;
 
     AskedSurface asked(const Beliefs& beliefs) const { return ask_surface(drawn, drawing, fitted, beliefs, options, work); }
-    RefinedFunction moved(AskedSurface surface, const Beliefs& beliefs) const {
-        return move_surface(std::move(surface), drawn, drawing, prepared, fitted, beliefs, options, work);
+    RefinedFunction moved(AskedSurface surface) const {
+        return move_surface(std::move(surface), drawn, drawing, prepared, fitted, options, work);
     }
     std::optional<RefinedFunction> walked(const LeftOutPlanes& left_out, const std::optional<AskedSurface>& begin) const {
         const Beliefs beliefs = left_out.errors.beliefs();
-        return walk_surface({left_out.cells, drawn.walls, beliefs}, drawing, prepared, fitted,
-                            begin ? &begin->movement : nullptr, options, drawn.image.voxel_mm(), work);
+        return walk_surface({left_out.cells, drawn.walls, beliefs}, drawing, prepared, fitted, begin ? &*begin : nullptr,
+                            options, drawn.image.voxel_mm(), work);
     }
     RefinedFunction unchanged(ImageVerdict verdict) const { return {fitted, {.verdict = verdict}}; }
 };
 
 Trial try_image(const Question& asked, const FitContours& fit_contours) {
-    Trial trial{leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work), {}};
-    if (!trial.left_out_helps())
-        trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
+    Trial trial;
+    trial.left_out = leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work);
+    if (trial.left_out) trial.left_out_weight = trial.left_out->errors.weight();
+    if (trial.left_out_weight == 1) return trial;
+    trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
+    if (trial.displaced) trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);
     return trial;
 }
 
-/// By a walk, if that helps most, or else moved, if that helps.
-RefinedFunction follow(const Question& asked, const Trial& trial) {
-    const HeldOutErrors* helping = trial.helping();
+/// As far as the surface follows the walk.
+RefinedFunction towards(const RefinedFunction& walked, const RefinedFunction& from, double share) {
+    if (share == 1) return walked;
+    RefinedFunction result{between(from.fitted, walked.fitted, share), walked.report};
+    result.report.on_contours_mm = std::lerp(from.report.on_contours_mm, walked.report.on_contours_mm, share);
+    result.report.largest_move_mm = std::lerp(from.report.largest_move_mm, walked.report.largest_move_mm, share);
+    return result;
+}
+
+/// Moved as far as that helps, and from there to where a walk leads, as far as that helps more.
+RefinedFunction follow(const Question& asked, const Trial& trial, double walking) {
     std::optional<AskedSurface> surface;
-    if (helping) surface = asked.asked(helping->beliefs());
+    if (trial.moving() > 0) surface = asked.asked(trial.beliefs());
     const std::int64_t intensities = surface ? surface->movement.intensities : 0;
-    if (trial.walk_helps()) {
-        if (std::optional<RefinedFunction> walked = asked.walked(*trial.left_out, surface)) {
-            walked->report.intensities = intensities;
-            return *std::move(walked);
-        }
-        if (!helping) return asked.unchanged(ImageVerdict::astray);
-    }
-    if (helping) return asked.moved(*std::move(surface), helping->beliefs());
-    return asked.unchanged(trial.deciding() ? ImageVerdict::no_help : ImageVerdict::unknown);
+    std::optional<RefinedFunction> walked;
+    if (walking > 0) walked = asked.walked(*trial.left_out, surface);
+    const bool is_astray = walking > 0 && !walked;
+    RefinedFunction result = asked.unchanged(is_astray          ? ImageVerdict::astray
+                                             : trial.deciding() ? ImageVerdict::no_help
+                                                                : ImageVerdict::unknown);
+    if (surface && !(walked && walking == 1)) result = asked.moved(*std::move(surface));
+    if (walked) result = towards(*walked, result, walking);
+    result.report.intensities = intensities;
+    return result;
 }
 
 /// With what it was decided by.
-void tell(const Trial& trial, RefineReport& report) {
+void tell(const Trial& trial, double walking, RefineReport& report) {
     const HeldOutErrors* deciding = trial.deciding();
     if (!deciding) return;
     report.displaced = deciding != (trial.left_out ? &trial.left_out->errors : nullptr);
@@ -86,9 +110,10 @@ void tell(const Trial& trial, RefineReport& report) {
     report.planes_left_out = deciding->planes();
     report.error_without_mm = deciding->without_mm();
     report.error_with_mm = deciding->with_mm();
+    if (report.verdict == ImageVerdict::used) report.weight = report.walked ? walking : trial.moving();
     if (!trial.left_out) return;
     report.intensities += trial.left_out->cells.intensities;
-    if (!trial.walk_helps()) return;
+    if (walking == 0) return;
     const WrongCells wrong = sum(trial.left_out->wrong);
     report.wrong_without = wrong.alone / wrong.drawn;
     report.wrong_with = wrong.walked / wrong.drawn;
@@ -108,11 +133,14 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
         const double voxel = drawn.image.voxel_mm();
         const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
                                [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
-        return asked.moved(asked.asked(cautious), cautious);
+        RefinedFunction moved = asked.moved(asked.asked(cautious));
+        moved.report.weight = 1;
+        return moved;
     }
     const Trial trial = try_image(asked, fit_contours);
-    RefinedFunction result = follow(asked, trial);
-    tell(trial, result.report);
+    const double walking = trial.walking();
+    RefinedFunction result = follow(asked, trial, walking);
+    tell(trial, walking, result.report);
     return result;
 }
 

@@ -49,7 +49,8 @@ struct RefineReport {
     double error_without_mm = 0;  ///< mean distance of contours left out from the surface through the others ...
     double error_with_mm = 0;     ///< ... and the same with the image
     bool displaced = false;       ///< ... or from a surface that was displaced there on purpose (displace.h)
-    bool walked = false;          ///< the surface is that of a random walk on the image's voxels (voxel_walk.h)
+    bool walked = false;          ///< the surface is drawn to that of a random walk on the image's voxels (voxel_walk.h)
+    double weight = 0;            ///< how far what the image shows is followed, 0 to 1: the walk, or else the movement
     double wrong_without = 0;  ///< cells of planes left out on the wrong side, over those inside: by the contours alone ...
     double wrong_with = 0;     ///< ... and by such a walk
     double largest_move_mm = 0;       ///< of the surface, at the points asked

@@ -9,6 +9,8 @@
 namespace kontur {
 namespace {
 
+constexpr double kWholly = 0.95;
+
 std::string no_help(const RefineReport& report) {
     if (report.displaced)
         return fmt::format(
@@ -22,20 +24,24 @@ std::string no_help(const RefineReport& report) {
                        report.error_without_mm, report.error_with_mm);
 }
 
+/// How far it is followed: what is all but wholly needs no figure.
+std::string where_used(const RefineReport& report) {
+    return report.weight < kWholly
+               ? fmt::format("followed {:.0f} % of the way between the contours", std::max(1.0, 100 * report.weight))
+               : "used between the contours";
+}
+
 std::string used(const RefineReport& report) {
     if (report.planes_left_out == 0) return "the image was used between the contours, without knowing whether it helps";
     if (report.walked)
         return fmt::format(
-            "the image lowers what is wrong in left-out planes from {:.2g} to {:.2g} % of the object; used between the "
-            "contours, voxel by voxel",
-            100 * report.wrong_without, 100 * report.wrong_with);
+            "the image lowers what is wrong in left-out planes from {:.2g} to {:.2g} % of the object; {}, voxel by voxel",
+            100 * report.wrong_without, 100 * report.wrong_with, where_used(report));
     if (report.displaced)
-        return fmt::format(
-            "the image takes a surface displaced by {:.2g} mm at the contours back to {:.2g} mm; used between the "
-            "contours",
-            report.error_without_mm, report.error_with_mm);
-    return fmt::format("the image lowers the error at left-out contours from {:.2g} to {:.2g} mm; used between the contours",
-                       report.error_without_mm, report.error_with_mm);
+        return fmt::format("the image takes a surface displaced by {:.2g} mm at the contours back to {:.2g} mm; {}",
+                           report.error_without_mm, report.error_with_mm, where_used(report));
+    return fmt::format("the image lowers the error at left-out contours from {:.2g} to {:.2g} mm; {}",
+                       report.error_without_mm, report.error_with_mm, where_used(report));
 }
 
 }  // namespace
@@ -43,7 +49,7 @@ std::string used(const RefineReport& report) {
 double RefineReport::share_left() const {
     if (verdict != ImageVerdict::used) return 1;
     const double without = walked ? wrong_without : error_without_mm, with = walked ? wrong_with : error_with_mm;
-    return without > 0 ? std::min(1.0, with / without) : 1;
+    return without > 0 ? 1 - weight * (1 - std::min(1.0, with / without)) : 1;
 }
 
 std::string_view name(UseImage use) noexcept { return use == UseImage::off ? "off" : "auto"; }

@@ -23,24 +23,37 @@ double length_mm(const std::vector<BoundaryPoint>& points) {
     return length;
 }
 
+struct Scaled {
+    const ImplicitFunction& function;
+    double factor;
+};
+
 /// Both have the same kernel and frame; a centre that both have is one.
-ImplicitFunction sum(const ImplicitFunction& a, const ImplicitFunction& b) {
+ImplicitFunction sum(const Scaled& first, const Scaled& second) {
     std::vector<Vec3> centers;
     std::vector<double> weights;
+    std::array<double, 4> polynomial{};
     std::map<std::array<double, 3>, std::size_t> number;
-    for (const ImplicitFunction* f : {&a, &b})
-        for (std::size_t i = 0; i < f->weights().size(); ++i) {
-            const Vec3 c = f->centers()[i];
+    for (const Scaled& scaled : {first, second}) {
+        const ImplicitFunction& f = scaled.function;
+        for (std::size_t i = 0; i < f.weights().size(); ++i) {
+            const Vec3 c = f.centers()[i];
             const auto [at, is_new] = number.emplace(std::array{c.x, c.y, c.z}, centers.size());
             if (is_new) {
                 centers.push_back(c);
                 weights.push_back(0);
             }
-            weights[at->second] += f->weights()[i];
+            weights[at->second] += scaled.factor * f.weights()[i];
         }
-    std::array<double, 4> polynomial = a.polynomial();
-    for (std::size_t i = 0; i < polynomial.size(); ++i) polynomial[i] += b.polynomial()[i];
-    return {a.kernel(), a.frame(), PointArrays(centers), std::move(weights), polynomial};
+        for (std::size_t i = 0; i < polynomial.size(); ++i) polynomial[i] += scaled.factor * f.polynomial()[i];
+    }
+    return {first.function.kernel(), first.function.frame(), PointArrays(centers), std::move(weights), polynomial};
+}
+
+FittedFunction with_function(FittedFunction fitted, ImplicitFunction function) {
+    fitted.function = std::move(function);
+    fitted.report.centres = fitted.constraints = fitted.function.weights().size();
+    return fitted;
 }
 
 }  // namespace
@@ -79,12 +92,15 @@ FittedFunction Refit::with(const std::vector<PointConstraint>& more, const Work&
     std::fill_n(placed.constraints.values.begin(), known_, 0.0);
     const Solution change = solve(placed.constraints, options_.solve, work);
     FittedFunction result = fitted_;
-    result.function = sum(fitted_.function, change.function);
     result.report = change.report;
-    result.report.centres = result.constraints = result.function.weights().size();
+    result = with_function(std::move(result), sum({fitted_.function, 1}, {change.function, 1}));
     result.iterations += change.report.iterations;
     ++result.solves;
     return result;
+}
+
+FittedFunction between(const FittedFunction& first, const FittedFunction& second, double share) {
+    return with_function(second, sum({first.function, 1 - share}, {second.function, share}));
 }
 
 double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, const Work& work) {

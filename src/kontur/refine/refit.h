@@ -25,6 +25,9 @@ private:
     std::size_t known_;  ///< constraints of the contours
 };
 
+/// The function between two fits of one drawing, of which the second counts so much.
+FittedFunction between(const FittedFunction& first, const FittedFunction& second, double share);
+
 /// The largest difference of two functions at drawn points, about 500 of them.
 double largest_change(const ImplicitFunction& a, const ImplicitFunction& b, const ContourSet& contours, const Work& work);
 

@@ -59,15 +59,15 @@ Moved moved(const ImplicitFunction& function, const CellDepths& now, const Voxel
 
 std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Drawing& drawing,
                                             const PreparedContours& prepared, const FittedFunction& fitted,
-                                            const Movement* movement, const RefineOptions& options, double voxel_mm,
+                                            const AskedSurface* begin, const RefineOptions& options, double voxel_mm,
                                             const Work& work) {
     const ImageCells& cells = image.cells;
     const Affine3 frame = frame_of(drawing.contours);
     const CellDepths alone = cell_depths(cells, fitted.function, drawing.contours, work);
     const WalkOptions walking{image.walls, image.beliefs.prior_mm, drawing.diameter_mm()};
-    const VoxelWalk walk = walk_voxels(
-        cells, movement ? moved_depths(alone, cells, fitted.function, *movement, image.beliefs, {}, work) : alone, walking,
-        work);
+    const CellDepths first =
+        begin ? moved_depths(alone, cells, fitted.function, begin->movement, begin->beliefs, {}, work) : alone;
+    const VoxelWalk walk = walk_voxels(cells, first, walking, work);
     const std::vector<float> walked = depths_below(walk, cells);
     Refit refit(prepared, fitted, options.fit, cells.edge_mm());
     for (const WalkedDataOptions& attempt : kAttempts) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "kontur/refine/move_surface.h"
 #include "kontur/refine/refine.h"
 #include "kontur/refine/voxel_walk.h"
 
@@ -15,12 +16,12 @@ struct WalkedImage {
     const Beliefs& beliefs;
 };
 
-/// The surface of a random walk about that of `fitted`, moved by `movement` if there is one, as one function that leaves the
+/// The surface of a random walk about that of `fitted`, moved if there is a `begin`, as one function that leaves the
 /// contours where they are: what the walk tells is more data of one more solve. Nothing if no such function follows the
 /// walk.
 std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Drawing& drawing,
                                             const PreparedContours& prepared, const FittedFunction& fitted,
-                                            const Movement* movement, const RefineOptions& options, double voxel_mm,
+                                            const AskedSurface* begin, const RefineOptions& options, double voxel_mm,
                                             const Work& work);
 
 }  // namespace kontur

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
+#include "kontur/refine/rise.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/section.h"
 
@@ -12,19 +14,26 @@ namespace kontur {
 namespace {
 
 constexpr double kBeside = 1e-6;  // edges: a plane between two layers of cells is in both, however they are rounded
-// Standard errors over the planes by which the walk has to be better, where the image has shown that it helps to move the
-// surface and where it has not; there it has to leave out a tenth of what is wrong, too, which images beside the drawing
-// do not (docs/decisions/0008-image-error.md).
-constexpr double kSureBesideMoved = 0.5, kSureAlone = 1;
-constexpr double kMostLeft = 0.9;
+// What shows that an image helps of which moving has not shown it: standard errors over the planes, and the share of wrong
+// cells that it mends, which images beside the drawing do not (docs/decisions/0008-image-error.md).
+constexpr Rise kSureAlone{0.5, 1.5}, kMendedAlone{0.05, 0.15};
+constexpr double kSure = 2;
 constexpr std::size_t kLeastPlanesTelling = 3;
 
-bool is_surely_positive(const std::vector<double>& gains, double standard_errors) {
+/// The mean in its standard errors.
+double sureness(const std::vector<double>& gains) {
     const auto count = static_cast<double>(gains.size());
     double mean = 0, squares = 0;
     for (const double gain : gains) mean += gain / count;
     for (const double gain : gains) squares += (gain - mean) * (gain - mean);
-    return mean > 0 && mean > standard_errors * std::sqrt(squares / (count - 1) / count);
+    return in_errors(mean, std::sqrt(squares / (count - 1) / count));
+}
+
+/// That a normal variable with this mean, in standard deviations, is above 0; what is nearly sure, or nearly impossible, is
+/// wholly, so that no solve is made for it.
+double probability(double mean) {
+    const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
+    return Rise{below(-kSure), below(kSure)}.at(below(mean));
 }
 
 }  // namespace
@@ -64,18 +73,18 @@ WrongCells sum(std::span<const WrongCells> planes) {
     return all;
 }
 
-bool walk_helps(std::span<const WrongCells> planes, bool is_moved_used) {
-    std::vector<double> over_alone, over_moved;
+double walk_weight(std::span<const WrongCells> planes, double moving) {
+    std::vector<double> over_alone, over_base;
     for (const WrongCells& plane : planes) {
         if (plane.drawn == 0) continue;
         over_alone.push_back(plane.alone - plane.walked);
-        over_moved.push_back(plane.moved - plane.walked);
+        over_base.push_back(std::lerp(plane.alone, plane.moved, moving) - plane.walked);
     }
-    if (over_alone.size() < kLeastPlanesTelling) return false;
-    if (is_moved_used)
-        return is_surely_positive(over_alone, kSureBesideMoved) && is_surely_positive(over_moved, kSureBesideMoved);
+    if (over_alone.size() < kLeastPlanesTelling) return 0;
     const WrongCells all = sum(planes);
-    return is_surely_positive(over_alone, kSureAlone) && all.walked <= kMostLeft * all.alone;
+    const double mended = all.alone > 0 ? 1 - all.walked / all.alone : 0;
+    const double shown = std::lerp(kSureAlone.at(sureness(over_alone)) * kMendedAlone.at(mended), 1.0, moving);
+    return shown * probability(sureness(over_base));
 }
 
 }  // namespace kontur

@@ -17,7 +17,7 @@ namespace kontur {
 namespace {
 
 constexpr std::size_t kMostPlanes = 10, kLeastPoints = 10;
-constexpr std::size_t kFewestPlanes = 4;  // two are too few to tell how a surface runs, when one of three is left out
+constexpr std::size_t kFewestPlanes = 3;
 constexpr std::size_t kSamples = 300;
 constexpr double kHeldOutPoints = 500;       // of all planes together
 constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter

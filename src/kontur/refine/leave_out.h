@@ -22,7 +22,7 @@ struct LeftOutPlanes {
 
 /// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and
 /// looks how far it passes from the contours left out; and lets a random walk on the image's cells begin with it, moved as
-/// far as that helps, and looks how much of the plane is on the wrong side. Nothing where fewer than 4 planes were drawn or
+/// far as that helps, and looks how much of the plane is on the wrong side. Nothing where fewer than 3 planes were drawn or
 /// too little of them is left. What contours disagree by where they cross is their own error and not counted.
 std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Image& image, const FitContours& fit,
                                               const Work& work);

@@ -62,6 +62,15 @@ struct Question {
         return walk_surface({left_out.cells, drawn.walls, beliefs}, drawing, prepared, fitted, begin ? &*begin : nullptr,
                             options, drawn.image.voxel_mm(), work);
     }
+    /// From one function to that of a walk, as far as it is followed.
+    RefinedFunction towards(RefinedFunction walked, const RefinedFunction& from, double share) const {
+        if (share == 1) return walked;
+        RefineReport& report = walked.report;
+        walked.fitted = between(from.fitted, walked.fitted, share);
+        report.on_contours_mm = largest_change(fitted.function, walked.fitted.function, drawing.contours, work);
+        report.largest_move_mm = std::lerp(from.report.largest_move_mm, report.largest_move_mm, share);
+        return walked;
+    }
     RefinedFunction unchanged(ImageVerdict verdict) const { return {fitted, {.verdict = verdict}}; }
 };
 
@@ -73,15 +82,6 @@ Trial try_image(const Question& asked, const FitContours& fit_contours) {
     trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
     if (trial.displaced) trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);
     return trial;
-}
-
-/// As far as the surface follows the walk.
-RefinedFunction towards(const RefinedFunction& walked, const RefinedFunction& from, double share) {
-    if (share == 1) return walked;
-    RefinedFunction result{between(from.fitted, walked.fitted, share), walked.report};
-    result.report.on_contours_mm = std::lerp(from.report.on_contours_mm, walked.report.on_contours_mm, share);
-    result.report.largest_move_mm = std::lerp(from.report.largest_move_mm, walked.report.largest_move_mm, share);
-    return result;
 }
 
 /// Moved as far as that helps, and from there to where a walk leads, as far as that helps more.
@@ -96,7 +96,7 @@ RefinedFunction follow(const Question& asked, const Trial& trial, double walking
                                              : trial.deciding() ? ImageVerdict::no_help
                                                                 : ImageVerdict::unknown);
     if (surface && !(walked && walking == 1)) result = asked.moved(*std::move(surface));
-    if (walked) result = towards(*walked, result, walking);
+    if (walked) result = asked.towards(*std::move(walked), result, walking);
     result.report.intensities = intensities;
     return result;
 }

@@ -64,6 +64,24 @@ TEST(FillLabels, ASteepTubeIsWholeThoughItsSlicesDoNotOverlap) {
             << "its middle, slice " << k;
 }
 
+TEST(FillLabels, WhatLiesInBothSectionsIsFilledHoweverThinAndFarApart) {
+    const Image vessel = label_map(index_grid({30, 30, 41}), [](const Index3& at) {
+        return at.i >= 13 && at.i < 17 && at.j >= 13 && at.j < 17 ? 1 : 0;
+    });
+    const Image wall = label_map(index_grid({50, 50, 41}), [](const Index3& at) {
+        const double r = std::hypot(double(at.i) - 25, double(at.j) - 25);
+        return r >= 14 && r < 20 ? 1 : 0;
+    });
+    for (const Image* full : {&vessel, &wall}) {
+        const Filling filled = fill_labels(sparse_of(*full, [](const Index3& at) { return at.k % 20 == 0; }));
+        EXPECT_GT(dice(*full, filled.labels, 1), 0.93);
+        std::int64_t missing = 0;
+        for (std::size_t n = 0; n < bytes_of_labels(*full).size(); ++n)
+            missing += bytes_of_labels(*full)[n] == 1 && bytes_of_labels(filled.labels)[n] == 0;
+        EXPECT_EQ(missing, 0);
+    }
+}
+
 TEST(FillLabels, ABallComesBackFromSlicesAcrossEachAxis) {
     const Image full = ball();
     for (int axis = 0; axis < 3; ++axis) {

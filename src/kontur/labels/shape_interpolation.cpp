@@ -53,6 +53,7 @@ ShapeInterpolation::Depth ShapeInterpolation::depth(const Index3& at) const {
     if (!is_all_strands_) {
         const double low = low_mm_.at(place_u, place_v), high = high_mm_.at(place_u, place_v);
         found.mm = std::lerp(low, high, along) / std::hypot(1.0, (high - low) / gap_mm_);
+        if (low > 0 && high > 0) found.belief = 1;
     }
     for (const Strand& strand : strands_) {
         if (!is_all_strands_ && !strand.is_near(along, place_u, place_v)) continue;

@@ -19,7 +19,7 @@ class ShapeInterpolation {
 public:
     struct Depth {
         double mm = 0;
-        double belief = 0;  ///< the strand's in which the voxel lies: at 1 a fit knows of no way; 0 in none
+        double belief = 0;  ///< 1 in both sections; else the strand's in which the voxel lies: at 1 a fit knows of no way
     };
 
     /// `low` and `high` lie across the same axis, `low` first. Distances are kept in single precision.

@@ -90,13 +90,10 @@ describe("all structures", () => {
     const scale = page.locator("[data-test=band-scale]");
     await scale.filter({ hasText: "50 mm inside Structure 1" }).waitFor(); // 25 mm; scales end at 1, 2 or 5 times a power of ten
     assert.match((await scale.textContent())!, /50 mm outside$/);
-    await page.waitForTimeout(400);
-    const during = await viewer.countPixels("surface", isBlue);
-    assert.ok(during > before + 1000, `${before} blue pixels before, ${during} with the distances`);
+    await viewer.waitForPixels("surface", isBlue, (count) => count > before + 1000);
     await page.click("[data-test=scale-end]");
     await scale.waitFor({ state: "hidden" });
-    await page.waitForTimeout(400);
-    assert.ok((await viewer.countPixels("surface", isBlue)) < before + 200);
+    await viewer.waitForPixels("surface", isBlue, (count) => count < before + 200);
     assert.deepEqual(viewer.complaints, []);
   });
 

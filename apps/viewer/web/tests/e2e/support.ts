@@ -384,6 +384,17 @@ export class Viewer {
     }, picture);
     return colors.filter((color) => isWanted(color & 255, (color >> 8) & 255, (color >> 16) & 255)).length;
   }
+
+  /** Waits until so many are seen: a frame comes when there is time for it, a rough one first. */
+  async waitForPixels(view: string, isWanted: (r: number, g: number, b: number) => boolean, isEnough: (count: number) => boolean): Promise<void> {
+    const counts: number[] = [];
+    for (let n = 0; n < 60; ++n) {
+      counts.push(await this.countPixels(view, isWanted));
+      if (isEnough(counts.at(-1)!)) return;
+      await this.page.waitForTimeout(200);
+    }
+    assert.fail(`the ${view} view has ${counts.join(", ")} such pixels`);
+  }
 }
 
 /** Places on a circle, the last one near the first. */

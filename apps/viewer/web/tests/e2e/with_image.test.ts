@@ -59,7 +59,7 @@ describe("the image between the contours", () => {
   test("makes the surface that kontur segment makes, says so, and shows what contours alone make beside it", async () => {
     assert.match(
       (await sentence())!,
-      /^The image lowers (the error at left-out contours from [0-9.]+ to [0-9.]+ mm; used between the contours|what is wrong in left-out planes from [0-9.]+ to [0-9.]+ % of the object; used between the contours, voxel by voxel)\.$/,
+      /^The image lowers (the error at left-out contours from [0-9.]+ to [0-9.]+ mm|what is wrong in left-out planes from [0-9.]+ to [0-9.]+ % of the object); (used|followed [0-9]+ % of the way) between the contours(, voxel by voxel)?\.$/,
     );
     assert.equal(await withLineOfContours(), 4);
     assert.ok((await exportedMask()).equals(segmented()), "the same voxels");

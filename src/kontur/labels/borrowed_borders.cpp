@@ -14,21 +14,27 @@ namespace {
 
 // Of the distance to what was drawn of a structure: where its surface is farther away than that, it is not known to be
 // there.
-constexpr double kClose = 0.5;
+constexpr double kClose = 0.75;
 
-/// How far places are from where f is 0, without the fall far away, by which they would seem to be a third as far.
+/// How far places are from where f is 0, by Newton's method, without the fall far away, by which they would seem to be near.
 std::vector<double> distances_mm(const ImplicitFunction& function, const std::vector<Vec3>& places_mm, const Work& work) {
+    constexpr int kSteps = 4;
     constexpr double kLeastSlope = 1e-3;  // where f has a ridge
-    std::vector<double> values(places_mm.size()), falls(places_mm.size());
-    std::vector<Vec3> gradients(places_mm.size());
-    function.values_and_gradients(places_mm, values, gradients, work);
-    const PointArrays places(function.frame().to_unit(places_mm));
-    function.add_fall(places, falls);
-    for (std::size_t n = 0; n < values.size(); ++n) {
-        const Vec3 slope = gradients[n] - function.fall_gradient_at(places[n]) / function.frame().scale;
-        values[n] = std::abs(values[n] - falls[n]) / std::max(norm(slope), kLeastSlope);
+    std::vector<Vec3> at = places_mm, gradients(at.size());
+    std::vector<double> values(at.size());
+    for (int step = 0; step < kSteps; ++step) {
+        function.values_and_gradients(at, values, gradients, work);
+        const PointArrays places(function.frame().to_unit(at));
+        std::vector<double> falls(at.size());
+        function.add_fall(places, falls);
+        for (std::size_t n = 0; n < at.size(); ++n) {
+            const Vec3 slope = gradients[n] - function.fall_gradient_at(places[n]) / function.frame().scale;
+            at[n] -= (values[n] - falls[n]) / std::max(dot(slope, slope), kLeastSlope * kLeastSlope) * slope;
+        }
     }
-    return values;
+    std::vector<double> found(at.size());
+    for (std::size_t n = 0; n < at.size(); ++n) found[n] = distance(at[n], places_mm[n]);
+    return found;
 }
 
 bool is_close(const Vec3& point, double distance_mm, const ContourSet& drawn) {

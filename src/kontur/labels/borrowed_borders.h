@@ -20,7 +20,8 @@ struct Neighbours {
 
 /// For each structure the points of borders that a neighbour alone has drawn: points of the neighbour's contours in planes
 /// in which the structure has none, that lie nearer to the structure's surface than to that of the union and than to any
-/// other's, and nearer than three quarters as far as what was drawn of it. There the surface of the one is that of the other.
+/// other's, and nearer than three quarters as far as what was drawn of it. There the surface of the one is that of the
+/// other.
 std::vector<std::vector<SurfacePoint>> borrowed_borders(const Neighbours& neighbours, const Work& work = {});
 
 }  // namespace kontur

@@ -17,6 +17,7 @@ constexpr double kSure = 1;                  // standard errors over the planes,
 constexpr Rise kSureGain{0, 1};              // and of the mean gain
 constexpr std::size_t kNear = 40;            // held-out points that speak for a place
 constexpr double kLeastImage = 0.25;         // voxels: no image is better known than this
+constexpr Rise kSeen{kLeastImage, 2 * kLeastImage};
 
 /// What is left of an error that the hand's own, independent of it, is part of: at least half of it.
 double without_hand(double error, double hand) {
@@ -75,6 +76,8 @@ double HeldOutErrors::weight(const Rise& mended) const {
     if (without == 0 || believed(told_) == 0) return 0;
     return mended.at(1 - without_hand(with_mm_, hand) / without) * weight_of_planes();
 }
+
+double HeldOutErrors::seen() const { return kSeen.at(without_mm_ / voxel_mm_); }
 
 double HeldOutErrors::weight_of_planes() const {
     struct Sum {

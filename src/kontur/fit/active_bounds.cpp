@@ -17,7 +17,7 @@ namespace {
 // a third of it changes nothing but that some drawings take one more solve of all points.
 constexpr double kCounts = 0.03;
 // Of the same, where f would keep a bound that is held and pulls it the wrong way: such bounds lie far from the surface,
-// which moves by a hundredth of a millimetre at most when they are let go of.
+// which moves by about a hundredth of a millimetre at most when they are let go of.
 constexpr double kCountsHeld = 0.5;
 
 }  // namespace

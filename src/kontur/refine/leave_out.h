@@ -18,6 +18,10 @@ struct LeftOutPlanes {
     HeldOutErrors errors;
     ImageCells cells;               ///< around the drawing, on which walks go
     std::vector<WrongCells> wrong;  ///< of each plane
+
+    /// How far the surface is moved, and how far it is drawn to a walk where it is moved so far; both 0 to 1.
+    double moving() const { return errors.seen() * errors.weight(); }
+    double walking(double moving) const { return errors.seen() * walk_weight(wrong, moving); }
 };
 
 /// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and

@@ -22,7 +22,7 @@ struct Trial {
     double left_out_weight = 0, displaced_weight = 0;  ///< how far the surface moves by each; together at most 1
 
     double moving() const { return left_out_weight + displaced_weight; }
-    double walking() const { return left_out ? left_out->errors.seen() * walk_weight(left_out->wrong, moving()) : 0; }
+    double walking() const { return left_out ? left_out->walking(moving()) : 0; }
     /// By which it was mostly decided whether the surface moves.
     const HeldOutErrors* deciding() const {
         const bool is_displaced = displaced && (!left_out || displaced_weight > left_out_weight);
@@ -77,7 +77,7 @@ struct Question {
 Trial try_image(const Question& asked, const FitContours& fit_contours) {
     Trial trial;
     trial.left_out = leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work);
-    if (trial.left_out) trial.left_out_weight = trial.left_out->errors.seen() * trial.left_out->errors.weight();
+    if (trial.left_out) trial.left_out_weight = trial.left_out->moving();
     if (trial.left_out_weight == 1) return trial;
     trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
     if (trial.displaced) trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);

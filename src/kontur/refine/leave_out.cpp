@@ -144,6 +144,7 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
     LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
                            image_cells(image, drawn, kMostCells, work), std::vector<WrongCells>(folds.size())};
+    if (left_out.errors.seen() == 0) return left_out;  // no walk would count
     const double moving = left_out.moving();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {

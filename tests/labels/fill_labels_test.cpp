@@ -82,6 +82,21 @@ TEST(FillLabels, WhatLiesInBothSectionsIsFilledHoweverThinAndFarApart) {
     }
 }
 
+TEST(FillLabels, AThreadOfSingleVoxelsStaysAThread) {
+    const auto thread = [](double slope) {
+        return label_map(index_grid({40, 20, 61}), [slope](const Index3& at) {
+            return at.i == 12 + std::lround(slope * double(at.k)) && at.j == 10 ? 1 : 0;
+        });
+    };
+    for (const double slope : {0.0, 0.1})
+        for (const int step : {3, 6}) {
+            const Image full = thread(slope);
+            const Filling filled = fill_labels(sparse_of(full, [&](const Index3& at) { return at.k % step == 0; }));
+            EXPECT_GT(dice(full, filled.labels, 1), 0.8) << "a slope of " << slope << ", each slice of " << step;
+            EXPECT_LT(filled.report.labels[0].added_voxels, 70) << "a slope of " << slope << ", each slice of " << step;
+        }
+}
+
 TEST(FillLabels, ABallComesBackFromSlicesAcrossEachAxis) {
     const Image full = ball();
     for (int axis = 0; axis < 3; ++axis) {

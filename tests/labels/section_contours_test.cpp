@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 
 #include "kontur/extract/rasterize.h"
 #include "support/label_maps.h"
@@ -68,6 +69,41 @@ TEST(SectionContours, HolesAreMarkedAndPointsLieInTheSlicesPlane) {
             EXPECT_NEAR(p.x, 5, 1e-12);
             EXPECT_NEAR(contour.plane.distance_to(p), 0, 1e-12);
         }
+}
+
+/// The area between a section's outlines, in voxels of 1 mm.
+double area_of(const PaintedSlice& slice, const Grid& grid) {
+    double sum = 0;
+    for (const Contour& contour : section_contours(grid, slice)) {
+        double twice = 0;
+        for (std::size_t n = 0; n < contour.points.size(); ++n) {
+            const Vec3 &a = contour.points[n], &b = contour.points[(n + 1) % contour.points.size()];
+            twice += a.x * b.y - b.x * a.y;
+        }
+        sum += contour.hole ? -std::abs(twice) / 2 : std::abs(twice) / 2;
+    }
+    return sum;
+}
+
+TEST(SectionContours, SmoothingLeavesThinPartsAndHolesTheirWidth) {
+    const Grid grid = index_grid({30, 30, 1});
+    const auto area = [&](const std::function<bool(const Index3&)>& painted) {
+        return area_of(section_where(grid, painted), grid);
+    };
+    const auto is_in = [](const Index3& at, std::int64_t width, std::int64_t height) {
+        return at.i >= 12 && at.i < 12 + width && at.j >= 12 && at.j < 12 + height;
+    };
+    EXPECT_GT(area([&](const Index3& at) { return is_in(at, 1, 1); }), 0.5);
+    EXPECT_GT(area([&](const Index3& at) { return is_in(at, 6, 1); }), 5);
+    EXPECT_GT(area([&](const Index3& at) { return is_in(at, 2, 2); }), 3.4);
+    const auto is_in_square = [](const Index3& at) { return at.i >= 6 && at.i < 26 && at.j >= 6 && at.j < 26; };
+    EXPECT_GT(area(is_in_square) - area([&](const Index3& at) { return is_in_square(at) && !is_in(at, 1, 1); }), 0.5);
+}
+
+TEST(SectionContours, VoxelsOfAThinPartThatTouchAtACornerAreOne) {
+    const Grid grid = index_grid({12, 12, 1});
+    const PaintedSlice slice = section_where(grid, [](const Index3& at) { return at.i == at.j && at.i > 3 && at.i < 8; });
+    EXPECT_EQ(section_contours(grid, slice).size(), 1U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +14,9 @@ namespace {
 
 /// What a voxel beside the outline keeps at least of its side, so that smoothing moves no centre to the other one.
 constexpr double kLeastLevel = 0.05;
+
+/// Above a half, so that voxels of a thin part that touch at a corner are one.
+constexpr double kThinLevel = 0.55;
 
 /// A slice as a lattice of voxel centres. Its axes are the grid's steps, so that (u, v) are voxel indices.
 PlaneLattice lattice_of(const Grid& grid, const PaintedSlice& slice) {
@@ -64,17 +68,45 @@ std::vector<double> smoothed(const std::vector<double>& values, std::int64_t cou
     return result;
 }
 
-/// Above 0 where the section is.
+/// The parts, painted or not, of which no voxel has all four neighbours in it: at most two voxels wide.
+std::vector<std::uint8_t> thin_parts(const std::vector<std::uint8_t>& section, const PlaneLattice& lattice) {
+    std::vector<std::uint8_t> thin(section.size(), 1);
+    std::vector<std::size_t> reached;
+    const auto for_neighbours = [&](std::size_t n, std::int64_t corners, const auto& visit) {
+        const std::int64_t a = static_cast<std::int64_t>(n) % lattice.columns,
+                           b = static_cast<std::int64_t>(n) / lattice.columns;
+        for (std::int64_t v = std::max<std::int64_t>(b - 1, 0); v <= std::min(b + 1, lattice.rows - 1); ++v)
+            for (std::int64_t u = std::max<std::int64_t>(a - 1, 0); u <= std::min(a + 1, lattice.columns - 1); ++u)
+                if (std::abs(u - a) + std::abs(v - b) <= 1 + corners)
+                    visit(static_cast<std::size_t>(u + lattice.columns * v));
+    };
+    for (std::size_t n = 0; n < section.size(); ++n) {
+        bool is_core = true;
+        for_neighbours(n, 0, [&](std::size_t other) { is_core = is_core && section[other] == section[n]; });
+        if (is_core) thin[n] = 0, reached.push_back(n);
+    }
+    for (std::size_t next = 0; next < reached.size(); ++next)
+        for_neighbours(reached[next], 1, [&](std::size_t other) {
+            if (thin[other] && section[other] == section[reached[next]]) thin[other] = 0, reached.push_back(other);
+        });
+    return thin;
+}
+
+/// Above 0 where the section is. Of a single voxel smoothing leaves hardly a point, of a line a thread, at which a fit knows
+/// no inside any more: thin parts are not smoothed.
 std::vector<double> levels_of(const PaintedSlice& slice, const PlaneLattice& lattice, double sigma) {
-    std::vector<double> levels(slice.section.begin(), slice.section.end());
+    const std::vector<std::uint8_t> thin = thin_parts(slice.section, lattice);
+    std::vector<double> levels(slice.section.size());
+    for (std::size_t n = 0; n < levels.size(); ++n) levels[n] = (slice.section[n] != 0) != (thin[n] != 0) ? 1 : 0;
     if (sigma > 0) {
         const std::vector<double> weights = gaussian(sigma);
         levels = smoothed(levels, lattice.columns, 1, weights);
         levels = smoothed(levels, lattice.rows, lattice.columns, weights);
     }
     for (std::size_t n = 0; n < levels.size(); ++n) {
+        const double least = thin[n] ? kThinLevel : kLeastLevel;
         levels[n] -= 0.5;
-        levels[n] = slice.section[n] ? std::max(levels[n], kLeastLevel) : std::min(levels[n], -kLeastLevel);
+        levels[n] = slice.section[n] ? std::max(levels[n], least) : std::min(levels[n], -least);
     }
     return levels;
 }

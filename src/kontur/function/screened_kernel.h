@@ -19,37 +19,36 @@ namespace kontur {
 /// l in the unit frame, in which all that was drawn lies in the unit ball.
 inline constexpr double kScreeningLength = 4;
 
-/// How far phi is computed by polynomials; beyond, k itself has to be summed.
-inline constexpr double kScreenedReach = 4;
+/// How far phi is computed by polynomials; beyond, k itself has to be summed. Distances within what was drawn are 2 at most.
+inline constexpr double kScreenedReach = 3;
 
 /// A polynomial in r on [0, kScreenedReach], lowest power first.
-using ScreenedPolynomial = std::array<double, 11>;
+using ScreenedPolynomial = std::array<double, 9>;
 
-// Interpolated at Chebyshev's nodes. phi(r) / r^3, wrong by 2e-16 at most:
+// Interpolated at Chebyshev's nodes. The matrix and the values are sums of the same polynomial, so its error changes the
+// kernel, not how well f keeps what it was told. phi(r) / r^3, wrong by 3e-14 at most:
 inline constexpr ScreenedPolynomial kScreenedValue = {
-    0.9999999999999999,     -0.09374999999999126,    0.00624999999991248,   -0.00032552083299102077,
-    1.3950892169437119e-05, -5.086254944525408e-07,  1.614627370964609e-08, -4.538497001899607e-10,
-    1.1381777381842787e-11, -2.4613691295991155e-13, 3.620065707727142e-15};
-// v(r) in 1 - exp(-x) = x (1 - x/2 + r^2 v), x = r/l, from which both phi and its slope follow; wrong by 3e-17 of itself.
+    0.9999999999999701,     -0.093749999998389,    0.006249999985651069,    -0.0003255207840387022, 1.3950807822952578e-05,
+    -5.085436131606392e-07, 1.609935369725027e-08, -4.3803479584015824e-10, 8.44371060180062e-12};
+// v(r) in 1 - exp(-x) = x (1 - x/2 + r^2 v), x = r/l, from which both phi and its slope follow; wrong by 6e-17 at most.
 inline constexpr ScreenedPolynomial kScreenedShared = {
-    0.010416666666666666,   -0.0006510416666666523,  3.255208333318913e-05,  -1.356336804991643e-06,
-    4.844059906589327e-08,  -1.5137674268438262e-09, 4.2048156704317946e-11, -1.0507667239571731e-12,
-    2.3750209418128708e-14, -4.704737312069835e-16,  6.49236880370724e-18};
+    0.010416666666666609,    -0.0006510416666635435, 3.255208330552062e-05,   -1.3563367100389468e-06, 4.844043551932889e-08,
+    -1.5136087543698605e-09, 4.1957319847765e-11,    -1.0201984380597375e-12, 1.8088907880553477e-14};
 
 /// The polynomial is even + r odd, two polynomials in r^2: processors compute them while the root of r^2 is on its way, and
 /// half as many of their steps wait for each other. Numbers or vectors of them.
 template <class Number>
 [[gnu::always_inline]] inline void screened_halves(const ScreenedPolynomial& c, const Number& squared, Number& even,
                                                    Number& odd) {
-    odd = c[1] + squared * (c[3] + squared * (c[5] + squared * (c[7] + squared * c[9])));
-    even = c[0] + squared * (c[2] + squared * (c[4] + squared * (c[6] + squared * (c[8] + squared * c[10]))));
+    odd = c[1] + squared * (c[3] + squared * (c[5] + squared * c[7]));
+    even = c[0] + squared * (c[2] + squared * (c[4] + squared * (c[6] + squared * c[8])));
 }
 
 /// phi from r and the halves of kScreenedValue. Numbers or vectors of them.
 template <class Number>
 [[gnu::always_inline]] inline void screened_value(const Number& squared, const Number& r, const Number& even,
                                                   const Number& odd, Number& out) {
-    out = (squared * r) * even + (squared * squared) * odd;
+    out = (squared * r) * (even + r * odd);
 }
 
 /// phi / r^3 and phi' / (3 r^2) at once.

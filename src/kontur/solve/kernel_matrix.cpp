@@ -30,6 +30,25 @@ double DirectKernelMatrix::megabytes() const {
 }
 
 void DirectKernelMatrix::multiply(std::span<const double> weights, std::span<double> out) const {
+    const auto zeros = static_cast<std::size_t>(std::ranges::count(weights, 0.0));
+    if (size_ < 2 * zeros) multiply_few(weights, out);
+    else multiply_all(weights, out);
+}
+
+/// Sums only from the points that have a weight, as the first guess of a fit that was found with a part of them.
+void DirectKernelMatrix::multiply_few(std::span<const double> weights, std::span<double> out) const {
+    std::vector<Vec3> all, few;
+    std::vector<double> few_weights;
+    for (std::size_t i = 0; i < size_; ++i) {
+        all.push_back(points_[i]);
+        if (weights[i] == 0) continue;
+        few.push_back(all.back());
+        few_weights.push_back(weights[i]);
+    }
+    sum_kernel(kernel_, PointArrays(few), few_weights, PointArrays(all), out, work_);
+}
+
+void DirectKernelMatrix::multiply_all(std::span<const double> weights, std::span<double> out) const {
     const std::size_t tiles = (size_ + kTile - 1) / kTile, groups = std::min(kMostGroups, tiles);
     std::vector<double> padded(weights.begin(), weights.end()), sums(groups * size_);
     padded.resize(size_ + kNodePadding);

@@ -25,7 +25,8 @@ public:
     virtual bool is_exact() const = 0;
 };
 
-/// Sums all pairs, each once: n^2 / 2 kernel values per product. Exact to rounding.
+/// Sums all pairs, each once: n^2 / 2 kernel values per product, or n for each weight where most weights are 0. Exact to
+/// rounding.
 class DirectKernelMatrix final : public KernelMatrix {
 public:
     /// Products throw Error(cancelled) if `progress` is asked to stop.
@@ -38,6 +39,9 @@ public:
     bool is_exact() const override { return true; }
 
 private:
+    void multiply_all(std::span<const double> weights, std::span<double> out) const;
+    void multiply_few(std::span<const double> weights, std::span<double> out) const;
+
     Kernel kernel_;
     std::size_t size_;
     PointArrays points_;  ///< with kNodePadding more

@@ -83,14 +83,21 @@ KONTUR_EVERY_INSTRUCTION_SET void fill_local(Kernel kernel, const LocalPoints& p
 }
 
 /// The same of the screened kernel itself.
-void fill_screened(const LocalPoints& p, double* a, int n) {
-    const double scale = 1 / (p.radius * p.radius * p.radius);
-    const auto at = [&](int i) {
-        const auto k = static_cast<std::size_t>(i);
-        return Vec3{p.x[k], p.y[k], p.z[k]};
-    };
-    for (int j = 0; j < n; ++j, a += padded_rows(n))
-        for (int i = j; i < n; ++i) a[i] = scale * screened_kernel(p.radius * distance(at(i), at(j)));
+KONTUR_EVERY_INSTRUCTION_SET void fill_screened(const LocalPoints& p, double* __restrict a, int n) {
+    const double *x = p.x.data(), *y = p.y.data(), *z = p.z.data();
+    const double l = kScreeningLength, radius = p.radius, scale = 1 / (radius * radius * radius);
+    const int lead = padded_rows(n);
+    for (int j = 0; j < n; ++j, a += lead) {
+        const double xj = x[j], yj = y[j], zj = z[j];
+        for (int i = j / 16 * 16; i < lead; ++i) {
+            const double dx = x[i] - xj, dy = y[i] - yj, dz = z[i] - zj;
+            const double r2 = radius * radius * (dx * dx + dy * dy + dz * dz), r = std::sqrt(r2);
+            double even, odd, phi;
+            screened_halves(kScreenedValue, r2, even, odd);
+            screened_value(r2, r, even, odd, phi);
+            a[i] = scale * (3 * l * l * l - 1.5 * l * r2 + phi);
+        }
+    }
 }
 
 /// Adds the points' own diagonal entries.

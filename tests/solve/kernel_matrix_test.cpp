@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/random.h"
 
 namespace kontur {
@@ -36,6 +38,19 @@ TEST(DirectKernelMatrix, MultipliesAsTheFullSumDoes) {
             DirectKernelMatrix(kernel, p.points, {.threads = 2}).multiply(p.weights, product);
             for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << count << " points, " << i;
         }
+}
+
+TEST(DirectKernelMatrix, MultipliesWeightsThatAreMostlyZeroAsTheFullSumDoes) {
+    std::mt19937 random = test::random_of_this_test();
+    for (const std::size_t with_weight : {0, 1, 100, 499, 500, 501}) {
+        Problem p = random_problem(1000, random);
+        std::fill(p.weights.begin(), p.weights.end() - static_cast<std::ptrdiff_t>(with_weight), 0.0);
+        std::shuffle(p.weights.begin(), p.weights.end(), random);
+        std::vector<double> expected(1000), product(1000, -1.0);
+        sum_kernel(Kernel::screened, p.points, p.weights, p.points, expected, {.threads = 1});
+        DirectKernelMatrix(Kernel::screened, p.points, {.threads = 2}).multiply(p.weights, product);
+        for (std::size_t i = 0; i < 1000; ++i) EXPECT_NEAR(product[i], expected[i], 1e-10) << with_weight << ", " << i;
+    }
 }
 
 TEST(DirectKernelMatrix, IsTheSameForAnyNumberOfThreads) {

@@ -47,8 +47,8 @@ public:
                       const SolveOptions& options, const Work& work);
 
     Vector operator()(const Vector& w) const;
-    /// Not projected, and summed over all pairs as far as that does not take longer than a solve: everywhere up to 63,000
-    /// centres, then at evenly chosen ones, from which the others' error is estimated.
+    /// Not projected. What the H2 matrix makes is compared with sums over all pairs, beyond 4,000 centres at 4,000 of them,
+    /// evenly chosen, from which the others' error is estimated.
     CheckedImage checked_image(const Vector& w) const;
 
     /// Multiplies the tolerance.

@@ -48,8 +48,8 @@ struct SolveReport {
     std::size_t centres = 0;            ///< number of weights
     int iterations = 0;                 ///< 0 for direct solvers
     double residual = 0;                ///< largest |f(c_i) + smoothing w_i - h_i| over the constraints, in mm
-    /// Constraints at which the residual was summed over all pairs. If they are not all, which takes more than 63,000
-    /// centres, it is that of the H2 matrix at all constraints plus the matrix's largest error at these.
+    /// Constraints at which the residual was summed over all pairs. If they are not all, as beyond 7,000 centres, it is that
+    /// of the H2 matrix at all constraints plus the matrix's largest error at these.
     std::size_t residual_points = 0;
     double matrix_mb = 0;    ///< size of the factorised matrix or of the preconditioner
     double evaluations = 0;  ///< iterative only: values of phi computed per product with the matrix

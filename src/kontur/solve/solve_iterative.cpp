@@ -17,8 +17,10 @@ namespace {
 
 // Tolerances of the H2 matrix: rounding hides what is finer, and coarser ones, hardly cheaper, could make it indefinite.
 constexpr double kFinest = 1e-14, kCoarsest = 1e-9;
-// The largest error of a product over the tolerance times the norm of the weights; measured: 1 to 7.
-constexpr double kErrorFactor = 5;
+// The largest error of a product over the tolerance times the norm of the weights; measured: 1 to 11.
+constexpr double kErrorFactor = 10;
+// Of the limit, the largest error of the H2 matrix beside which the rest is left to the iteration.
+constexpr double kMostDeviation = 0.7;
 // While the matrix is as exact as the limit demands, the residual may grow for some iterations, but not for so many.
 constexpr int kMostIdle = 40;
 // Of the rounding of one product, how much less than the residual that is asked for it must be for none to be computed
@@ -88,6 +90,7 @@ public:
           options_(options),
           work_(work),
           limit_(options.tolerance_mm),
+          goal_(0.5 * limit_),
           polynomials_(system.kernel, system.centers),
           pattern_(system.pattern ? system.pattern
                                   : times_("neighbours",
@@ -121,7 +124,7 @@ public:
             polynomials_.project_out(weights_);
             check_image(stuck);
             if (residual_ <= limit_) return;
-            const bool to_blame = stuck || image_.deviation > 0.3 * limit_;
+            const bool to_blame = stuck || image_.deviation > kMostDeviation * limit_;
             if (!operator_->matrix().is_exact() && to_blame && operator_->tolerance() > kFinest &&
                 (stuck || image_.deviation < 0.5 * last_deviation))
                 tighten();
@@ -170,7 +173,7 @@ private:
     bool descend() {
         Vector z = precondition(r_), direction = z;
         double rz = inner(r_, z), least = largest(r_);
-        for (int idle = 0; largest(r_) > 0.5 * limit_ && iterations_ < options_.max_iterations && rz > 0; ++iterations_) {
+        for (int idle = 0; largest(r_) > goal_ && iterations_ < options_.max_iterations && rz > 0; ++iterations_) {
             const Vector step = times_("products", [&] { return (*operator_)(direction); });
             const double curvature = inner(direction, step);
             if (!(curvature > 0) || idle == kMostIdle) return false;
@@ -202,6 +205,7 @@ private:
             return;
         }
         image_ = times_("check", [&] { return operator_->checked_image(weights_); });
+        goal_ = std::clamp(0.9 * (limit_ - image_.uncertainty), 0.1 * limit_, 0.5 * limit_);
         update_residual();
     }
 
@@ -226,7 +230,9 @@ private:
     const SolveOptions& options_;
     const Work& work_;
     StageTimes times_;
-    double limit_, start_ = 0;
+    double limit_;
+    double goal_;  ///< for the recurrence's residual: what the matrix's error leaves of the limit
+    double start_ = 0;
     LinearPolynomials polynomials_;
     std::shared_ptr<const PreconditionerPattern> pattern_;
     Preconditioner preconditioner_;

@@ -181,6 +181,16 @@ TEST(ScreenedKernel, IsRCubedNearItsCentreAndEndsFarFromIt) {
     EXPECT_EQ(screened_kernel(0), 3 * std::pow(kScreeningLength, 3));
 }
 
+TEST(ScreenedKernel, TakesNoExponentialToBeSummed) {
+    for (double r = 0; r < 300; r += 0.37) {
+        const double expected = screened_kernel(r);
+        EXPECT_NEAR(screened_kernel_far(r), expected, 1e-13 * expected + 1e-12) << r;
+        if (r > kScreenedReach) continue;
+        const double even_powers = 3 * std::pow(kScreeningLength, 3) - 1.5 * kScreeningLength * r * r;
+        EXPECT_NEAR(even_powers + kernel_value(Kernel::screened, r), expected, 1e-12) << r;
+    }
+}
+
 TEST(ImplicitFunction, DefaultIsZeroEverywhere) {
     EXPECT_EQ(ImplicitFunction().value({1, 2, 3}), 0);
     EXPECT_EQ(ImplicitFunction().gradient({1, 2, 3}), Vec3());

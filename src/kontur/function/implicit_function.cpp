@@ -36,15 +36,8 @@ struct ImplicitFunction::Data {
 
     /// Whether kernel_value does not hold for all centres, so that the screened kernel itself has to be summed.
     bool is_far(const Vec3& point) const { return !(norm(point) <= near_radius); }
-    double far_value(const Vec3& at) const;
     Vec3 far_gradient(const Vec3& at) const;
 };
-
-double ImplicitFunction::Data::far_value(const Vec3& at) const {
-    double sum = 0;
-    for (std::size_t j = 0; j < centers.size(); ++j) sum += weights[j] * screened_kernel(distance(at, centers[j]));
-    return polynomial[0] + sum;
-}
 
 Vec3 ImplicitFunction::Data::far_gradient(const Vec3& at) const {
     Vec3 sum;
@@ -109,12 +102,20 @@ Vec3 ImplicitFunction::gradient(const Vec3& point_mm) const {
 }
 
 /// Adds the smooth part to sums of kernel_value; far points get their value by sums of k instead.
-void ImplicitFunction::finish_values(const PointArrays& points, std::span<double> values) const {
+void ImplicitFunction::finish_values(const PointArrays& points, std::span<double> values, const Work& work) const {
     const Data& d = *data_;
+    std::vector<std::size_t> far;
+    std::vector<Vec3> far_points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec3 at = points[i];
-        values[i] = d.is_far(at) ? d.far_value(at) : values[i] + d.smooth.value(at);
+        values[i] += d.smooth.value(points[i]);
+        if (!d.is_far(points[i])) continue;
+        far.push_back(i);
+        far_points.push_back(points[i]);
     }
+    if (far.empty()) return;
+    std::vector<double> sums(far.size());
+    sum_far_kernel(d.centers, d.weights, PointArrays(far_points), sums, work);
+    for (std::size_t k = 0; k < far.size(); ++k) values[far[k]] = d.polynomial[0] + sums[k];
 }
 
 /// The same for gradients, and goes from the frame's unit to mm.
@@ -140,7 +141,7 @@ Vec3 ImplicitFunction::fall_gradient_at(const Vec3& point) const {
 
 void ImplicitFunction::sums_at(const PointArrays& points, std::span<double> out, const Work& work) const {
     sum_kernel(data_->kernel, data_->centers, data_->weights, points, out, work);
-    finish_values(points, out);
+    finish_values(points, out, work);
 }
 
 void ImplicitFunction::values(std::span<const Vec3> points_mm, std::span<double> out, const Work& work) const {
@@ -165,7 +166,7 @@ void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, work);
-    finish_values(points, values);
+    finish_values(points, values, work);
     add_fall(points, values);
     finish_gradients(points, gradients);
 }

@@ -68,7 +68,7 @@ public:
 
 private:
     struct Data;
-    void finish_values(const PointArrays& points, std::span<double> values) const;
+    void finish_values(const PointArrays& points, std::span<double> values, const Work& work) const;
     void finish_gradients(const PointArrays& points, std::span<Vec3> gradients) const;
 
     std::shared_ptr<const Data> data_;

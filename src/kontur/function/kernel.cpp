@@ -53,6 +53,18 @@ KONTUR_EVERY_INSTRUCTION_SET void sum_screened(const Sources& s, const Lanes& t,
     sum_cubes<true>(s, t, out);
 }
 
+KONTUR_EVERY_INSTRUCTION_SET void sum_screened_far(const Sources& s, const Lanes& t, double* __restrict out) {
+    alignas(64) double sum[kLanes] = {};
+    for (std::size_t j = 0; j < s.count; ++j) {
+        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
+        for (int l = 0; l < kLanes; ++l) {
+            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
+            sum[l] += w * screened_kernel_far(std::sqrt(dx * dx + dy * dy + dz * dz));
+        }
+    }
+    for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
+}
+
 KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
     alignas(64) double sum[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
@@ -153,6 +165,18 @@ void for_each_lane_group(std::size_t target_count, const Work& work, const Body&
         });
 }
 
+/// The sums at all targets by one of the functions above.
+void sum_values(void (*sum)(const Sources&, const Lanes&, double*), const Sources& from, const PointArrays& targets,
+                std::span<double> out, const Work& work) {
+    for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
+        Lanes lanes;
+        alignas(64) std::array<double, kLanes> result;
+        load(targets, begin, count, lanes);
+        sum(from, lanes, result.data());
+        std::copy_n(result.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(begin));
+    });
+}
+
 }  // namespace
 
 PointArrays::PointArrays(std::span<const Vec3> points) {
@@ -185,16 +209,15 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
 
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                 std::span<double> out, const Work& work) {
-    const auto sum = kernel == Kernel::screened      ? sum_screened
-                     : kernel == Kernel::triharmonic ? sum_triharmonic
-                                                     : sum_biharmonic;
-    for_each_lane_group(targets.size(), work, [&](std::size_t begin, std::size_t count) {
-        Lanes lanes;
-        alignas(64) std::array<double, kLanes> result;
-        load(targets, begin, count, lanes);
-        sum(sources(centers, weights), lanes, result.data());
-        std::copy_n(result.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(begin));
-    });
+    sum_values(kernel == Kernel::screened      ? sum_screened
+               : kernel == Kernel::triharmonic ? sum_triharmonic
+                                               : sum_biharmonic,
+               sources(centers, weights), targets, out, work);
+}
+
+void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
+                    std::span<double> out, const Work& work) {
+    sum_values(sum_screened_far, sources(centers, weights), targets, out, work);
 }
 
 void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,

@@ -69,7 +69,12 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                 std::span<double> out, const Work& work);
 
-/// out[t] = gradient at targets[t] of the sum above. At a centre the term of that centre is 0 (for phi = r by convention).
+/// The same sums of the screened kernel k itself, at any distance; three times the work.
+void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
+                    std::span<double> out, const Work& work);
+
+/// out[t] = gradient at targets[t] of sum_kernel's sum. At a centre the term of that centre is 0 (for phi = r by
+/// convention).
 void sum_kernel_gradient(Kernel kernel, const PointArrays& centers, std::span<const double> weights,
                          const PointArrays& targets, std::span<Vec3> out, const Work& work);
 

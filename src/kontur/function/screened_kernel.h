@@ -61,6 +61,18 @@ template <class Number>
     slope = 1 - r / (2 * l) + squared * v;
 }
 
+/// k(r) for any r, by steps that compilers vectorise: exp(-x) is the 256th power of exp(-x/256), a short series. Wrong by
+/// 1e-13 of itself at most; beyond x = 40, where k is 1e-14, it stays what it is there.
+[[gnu::always_inline]] inline double screened_kernel_far(double r) {
+    constexpr double l = kScreeningLength;
+    const double x = r / l < 40 ? r / l : 40, y = x / -256;
+    // Taylor's series to the tenth power by Horner's scheme; |y| < 0.16.
+    double power = 1;
+    for (int n = 10; n > 0; --n) power = 1 + y / n * power;
+    for (int squaring = 0; squaring < 8; ++squaring) power *= power;
+    return 3 * l * l * l * (1 + x) * power;
+}
+
 /// k(r) for any r.
 inline double screened_kernel(double r) {
     constexpr double l = kScreeningLength;

@@ -174,31 +174,47 @@ def tables(rows):
             print(f"| {method} | " + " | ".join(cell(own, step, method) for step in slices.STEPS) + " |")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def parser_of(description):
+    """What every measurement of methods() asks for."""
+    program = lambda path: pathlib.Path(path).resolve()
+    parser = argparse.ArgumentParser(description=description.splitlines()[0])
     parser.add_argument("data", type=pathlib.Path)
     parser.add_argument("output", type=pathlib.Path)
-    parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
-    parser.add_argument("--itk", type=lambda path: pathlib.Path(path).resolve(), metavar="ITK_FILL", help="measure ITK's filter, too")
+    parser.add_argument("--kontur", required=True, type=program)
+    parser.add_argument("--itk", type=program, metavar="ITK_FILL", help="measure ITK's filter, too")
+    parser.add_argument("--words", action="append", metavar="OPTIONS", help="options of `kontur fill` to try; again for more")
+    parser.set_defaults(images=False)
+    return parser
+
+
+def written(path, fields, measurements):
+    """All rows, each written as it comes. A measurement: what it was of, and its rows."""
+    rows = []
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(fields)
+        for name, more in measurements:
+            rows += more
+            table.writerows(more)
+            file.flush()
+            print(f"measured {name}", file=sys.stderr)
+    return rows
+
+
+def main():
+    parser = parser_of(__doc__)
     parser.add_argument("--every", type=int, default=1, metavar="N", help="only every N-th structure of the label maps")
     parser.add_argument("--only", choices=["real", "report", "tune"])
-    parser.add_argument("--words", action="append", metavar="OPTIONS", help="options of `kontur fill` to try; again for more")
     parser.add_argument("--images", action="store_true", help="fill without and with the image, where there is one")
     parser.add_argument("--all-starts", action="store_true", help="begin with each of the slices that can be the first kept one")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
     tasks = [(*found, options) for found in structures_of(options)
              if not options.images or image_of(found[1], options.data) is not None]
-    rows = []
-    with multiprocessing.Pool(options.jobs) as pool, open(options.output / "fill.csv", "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(FIELDS)
-        for number, more in enumerate(pool.imap(measure, tasks), 1):
-            rows += more
-            table.writerows(more)
-            print(f"measured {number} of {len(tasks)}", file=sys.stderr)
-    tables(rows)
+    with multiprocessing.Pool(options.jobs) as pool:
+        names = (f"{task[1]}, {number} of {len(tasks)}" for number, task in enumerate(tasks, 1))
+        tables(written(options.output / "fill.csv", FIELDS, zip(names, pool.imap(measure, tasks))))
 
 
 if __name__ == "__main__":

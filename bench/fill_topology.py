@@ -12,11 +12,7 @@ left ventricle's muscle) whose sections fall into parts, each a twentieth of the
 the last kept slice; what touches by a corner hangs together. Writes OUTPUT/topology.csv and prints a table: mean Dice of what
 lies between these slices, the sum over the structures by how many the parts are off the truth's, and the tunnels.
 """
-import argparse
-import csv
 import os
-import pathlib
-import sys
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy is loaded
 
@@ -138,28 +134,12 @@ def table(rows):
 
 
 def main():
-    program = lambda path: pathlib.Path(path).resolve()
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("data", type=pathlib.Path)
-    parser.add_argument("output", type=pathlib.Path)
-    parser.add_argument("--kontur", required=True, type=program)
-    parser.add_argument("--itk", type=program, metavar="ITK_FILL", help="measure ITK's filter, too")
-    parser.add_argument("--words", action="append", metavar="OPTIONS", help="options of `kontur fill` to try; again for more")
+    parser = fill.parser_of(__doc__)
     parser.add_argument("--kind", choices=["branches", "holes"])
     options = parser.parse_args()
-    options.images = False
-    options.output.mkdir(parents=True, exist_ok=True)
-    rows = []
-    with open(options.output / "topology.csv", "w", newline="", encoding="utf-8") as file:
-        written = csv.writer(file)
-        written.writerow(FIELDS)
-        for case in cases(options.data, options.kontur):
-            if options.kind in (None, case[0]):
-                more = list(measure(case, options))
-                rows += more
-                written.writerows(more)
-                print(f"measured {' '.join(case[:3])}", file=sys.stderr)
-    table(rows)
+    measurements = ((" ".join(case[:3]), list(measure(case, options))) for case in cases(options.data, options.kontur)
+                    if options.kind in (None, case[0]))
+    table(fill.written(options.output / "topology.csv", FIELDS, measurements))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,26 @@ std::vector<Vec3> points_on_ball() {
     return points;
 }
 
+/// Largest first-order distance of the points from where f vanishes, and largest angle of the normals to its gradient.
+std::pair<double, double> worst(const TriangleMesh& mesh, const ImplicitFunction& function) {
+    double mm = 0, radians = 0;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const Vec3 gradient = function.gradient(mesh.points[i]);
+        mm = std::max(mm, std::abs(function.value(mesh.points[i])) / norm(gradient));
+        radians = std::max(radians, std::acos(std::min(1.0, -dot(mesh.normals[i], normalized(gradient)))));
+    }
+    return {mm, radians};
+}
+
+TEST(Preview, PointsLieOnTheSurfaceHoweverCoarseTheLattice) {
+    for (const double spacing : {9.0, 5.0, 2.0}) {
+        const ImplicitFunction ball = test::ball_function(kCenter, kRadius);
+        const auto [mm, radians] = worst(preview_surface(ball, points_on_ball(), {.spacing_mm = spacing}), ball);
+        EXPECT_LT(mm, spacing / 50) << spacing;
+        EXPECT_LT(radians, 0.1) << spacing;
+    }
+}
+
 TEST(Preview, IsAClosedSphereWithOutwardNormalsWhateverTheSpacing) {
     for (const double spacing : {4.0, 2.0, 0.7}) {
         const TriangleMesh mesh =
@@ -32,9 +52,9 @@ TEST(Preview, IsAClosedSphereWithOutwardNormalsWhateverTheSpacing) {
         ASSERT_EQ(mesh.normals.size(), mesh.points.size());
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             const Vec3 radial = mesh.points[i] - kCenter;
-            EXPECT_NEAR(norm(radial), kRadius, spacing * spacing / (4 * kRadius)) << "of linear interpolation";
+            EXPECT_NEAR(norm(radial), kRadius, spacing / 50);
             EXPECT_NEAR(norm(mesh.normals[i]), 1, 1e-12);
-            EXPECT_GT(dot(mesh.normals[i], normalized(radial)), 0.9999);
+            EXPECT_GT(dot(mesh.normals[i], normalized(radial)), 0.9995);
         }
     }
 }

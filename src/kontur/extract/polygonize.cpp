@@ -16,6 +16,7 @@ constexpr std::size_t kEvaluationsPerCell = 3;  // a cell has about one cut edge
 constexpr double kTolerance = 0.02;             // of the fast function's values, in the grid's smallest spacing
 constexpr double kSmallValue = 5e-3;            // in the smallest spacing: a point with less is on the surface
 constexpr int kMostSteps = 8;
+constexpr double kSureStep = 0.1;  // of an edge: after one that is longer the point is looked at again
 
 /// A lattice edge on which f changes its sign.
 struct CutEdge {
@@ -49,6 +50,39 @@ public:
         }
     }
 
+    /// Moves the points by one step of Newton's method along their edges, with values and normals from where linear
+    /// interpolation put them: a step of a tenth of an edge leaves some thousandths of it. Those with longer steps are left
+    /// to `refine`, and get their normals afterwards.
+    void refine_at_once(FastFunction& function, const Work& work) {
+        std::vector<Vec3> places, gradients(edges_.size());
+        std::vector<double> values(edges_.size());
+        for (const CutEdge& edge : edges_) places.push_back(mesh_.points[edge.point]);
+        if (function.is_direct()) {
+            function.exact().values_and_gradients(places, values, gradients, work);
+        } else {
+            function.values(places, values, work);
+            function.gradients(places, gradients, work);
+        }
+        mesh_.normals.resize(mesh_.points.size());
+        std::vector<CutEdge> far;
+        for (std::size_t n = 0; n < edges_.size(); ++n) {
+            const CutEdge& edge = edges_[n];
+            mesh_.normals[edge.point] = gradients[n];
+            const double along = dot(gradients[n], lattice_.grid().index_to_mm.column(edge.axis));
+            const double step = -values[n] / along, at = kept_off_ends(edge.fraction()) + step;
+            if (std::abs(step) <= kSureStep && at == kept_off_ends(at))
+                mesh_.points[edge.point] = place(edge.from, edge.axis, at);
+            else far.push_back(edge);
+        }
+        edges_ = far;
+        refine(function, work);
+        places.clear();
+        for (const CutEdge& edge : far) places.push_back(mesh_.points[edge.point]);
+        gradients.resize(places.size());
+        function.gradients(places, gradients, work);
+        for (std::size_t n = 0; n < far.size(); ++n) mesh_.normals[far[n].point] = gradients[n];
+    }
+
     /// Moves the points from where linear interpolation put them to the function's zeros; all of them step by step, because
     /// the function is cheaper in bulk. Between slices that are far apart the difference is a large part of a voxel.
     void refine(FastFunction& function, const Work& work) {
@@ -72,10 +106,13 @@ public:
         }
     }
 
-    /// Normals are those of `function`, which knows nothing of the cut at the grid's border: there, the border's.
-    TriangleMesh finish(FastFunction& function, const Work& work) {
+    void find_gradients(FastFunction& function, const Work& work) {
         mesh_.normals.resize(mesh_.points.size());
         function.gradients(mesh_.points, mesh_.normals, work);
+    }
+
+    /// Normals are those of the function, which knows nothing of the cut at the grid's border: there, the border's.
+    TriangleMesh finish() {
         for (Vec3& n : mesh_.normals) n = -normalized(n);
         for (const auto& [point, normal] : border_normals_) mesh_.normals[point] = normal;
         return std::move(mesh_);
@@ -129,13 +166,18 @@ private:
 
 }  // namespace
 
-TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work) {
+TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work, MeshAccuracy accuracy) {
     MeshBuilder builder(surface);
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
     work.report("polygonize", 0.3);
+    if (accuracy == MeshAccuracy::of_a_screen) {
+        builder.refine_at_once(function, work);
+        return builder.finish();
+    }
     builder.refine(function, work);
     work.report("polygonize", 0.6);
-    return builder.finish(function, work);
+    builder.find_gradients(function, work);
+    return builder.finish();
 }
 
 TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, const Work& work) {

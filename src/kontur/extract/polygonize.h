@@ -14,7 +14,15 @@ namespace kontur {
 /// gradient within 0.01, and on the faces where the grid's border cuts the object off those of the border.
 TriangleMesh polygonize(const SurfaceLattice& surface, const ImplicitFunction& function, const Work& work = {});
 
+/// How near to where f vanishes points come, and to its gradient normals.
+enum class MeshAccuracy {
+    of_a_file,    ///< as said above
+    of_a_screen,  ///< half the values: within a fiftieth of the spacing, too; normals from up to a tenth of it beside the
+                  ///< point
+};
+
 /// The same with a function that may have been prepared for the surface by evaluating it there.
-TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work = {});
+TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, const Work& work = {},
+                        MeshAccuracy accuracy = MeshAccuracy::of_a_file);
 
 }  // namespace kontur

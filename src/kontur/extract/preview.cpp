@@ -63,7 +63,7 @@ TriangleMesh preview_surface(const ImplicitFunction& function, std::span<const V
     FastFunction fast(function, {.tolerance_mm = kTolerance * options.spacing_mm,
                                  .expected_points = kEvaluationsPerVoxel * expected_surface_voxels(*grid, starts)});
     const SurfaceLattice surface = track_surface_adaptively(fast, *grid, starts, work);
-    return polygonize(surface, fast, work);
+    return polygonize(surface, fast, work, MeshAccuracy::of_a_screen);
 }
 
 }  // namespace kontur

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/base/parallel.h"
 #include "kontur/view/outline.h"
 #include "kontur/view/reslice.h"
 #include "viewer/binary_reply.h"
@@ -201,12 +202,14 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
         watched = watched_;
     }
     json views = json::array();
-    for (const WatchedPlane& plane : watched) {
-        const Reslice& raster = plane.raster;
-        json told{{"view", plane.view}, {"plane", plane.plane}, {"lines", in_pixels(cut.surface(raster.plane), raster)}};
-        if (cut.without_image) told["without_image"] = in_pixels(cut.without_image(raster.plane), raster);
-        views.push_back(std::move(told));
-    }
+    for (const WatchedPlane& plane : watched) views.push_back({{"view", plane.view}, {"plane", plane.plane}});
+    parallel_for(static_cast<std::int64_t>(watched.size()), 1, 0, [&](std::int64_t begin, std::int64_t end) {
+        for (auto view = static_cast<std::size_t>(begin); view < static_cast<std::size_t>(end); ++view) {
+            const Reslice& raster = watched[view].raster;
+            views[view]["lines"] = in_pixels(cut.surface(raster.plane), raster);
+            if (cut.without_image) views[view]["without_image"] = in_pixels(cut.without_image(raster.plane), raster);
+        }
+    });
     tell({{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}});
 }
 

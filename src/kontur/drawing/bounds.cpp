@@ -11,7 +11,7 @@
 namespace kontur {
 
 Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
-    const std::vector<DrawnRegion> regions = drawn_regions(planes);
+    const std::vector<DrawnRegion> regions = drawn_regions(planes, work);
     struct Found {
         std::vector<Bound> bounds[3];
         bool is_guess[2] = {};

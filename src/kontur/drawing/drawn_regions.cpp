@@ -2,6 +2,9 @@
 #include "kontur/drawing/drawn_regions.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "kontur/base/parallel.h"
 
 namespace kontur {
 namespace {
@@ -34,17 +37,21 @@ void append_crossings(const Section& other, DrawnRegion& region) {
 
 }  // namespace
 
-std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes) {
+std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work) {
+    std::vector<std::optional<DrawnRegion>> found(planes.sections.size());
+    parallel_for(static_cast<std::int64_t>(found.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
+            const Section& section = planes.sections[s];
+            std::vector<Probe> inside = probes(section);
+            std::vector<Vec3> places = places_of(section, inside);
+            const Ball3 ball = smallest_ball(places);
+            found[s].emplace(DrawnRegion{section, SectionSearch(section), std::move(inside), std::move(places), ball, {}});
+            for (const Section& other : planes.sections)
+                if (&other != &section) append_crossings(other, *found[s]);
+        }
+    });
     std::vector<DrawnRegion> regions;
-    for (const Section& section : planes.sections) {
-        std::vector<Probe> inside = probes(section);
-        std::vector<Vec3> places = places_of(section, inside);
-        const Ball3 ball = smallest_ball(places);
-        regions.push_back({section, SectionSearch(section), std::move(inside), std::move(places), ball, {}});
-    }
-    for (DrawnRegion& region : regions)
-        for (const Section& other : planes.sections)
-            if (&other != &region.section) append_crossings(other, region);
+    for (std::optional<DrawnRegion>& one : found) regions.push_back(std::move(*one));
     return regions;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kontur/base/work.h"
 #include "kontur/drawing/drawn_planes.h"
 #include "kontur/drawing/section_probes.h"
 #include "kontur/shape/section.h"
@@ -26,7 +27,7 @@ struct DrawnRegion {
 };
 
 /// The regions of all drawn planes. `planes` must outlive them.
-std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes);
+std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work = {});
 
 /// The noise of a bound that fades out as `belief` goes from 1 to 0. By its square: there are very many bounds, and together
 /// they weigh as much as one that is surer.

@@ -77,8 +77,8 @@ public:
             bounds_.hold(options_.start_held);
         }
         progress_ = {progress_.end, 1.0};
-        for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves; ++result_.full_solves)
-            other_bounds = solve_part(kept, 1);
+        for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves;)
+            other_bounds = solve_part(kept, 1, ++result_.full_solves == options_.most_solves);
         return std::move(result_);
     }
 
@@ -100,6 +100,7 @@ private:
             progress_ = {progress_.end, progress_.end + 0.5 / options_.rounds};
             solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
             solve_for(points, slopes, options_.place, solving);
+            bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
             std::vector<double> next = read_slopes(result_.function, points, options_, work_);
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
@@ -115,19 +116,21 @@ private:
         for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance);) ++solve;
     }
 
-    /// The fit with the slopes that were found, from a part of the points; true if other bounds should have been held.
-    bool solve_part(const std::vector<std::size_t>& part, double tolerance_factor) {
+    /// The fit with the slopes that were found, from a part of the points; true if other bounds should have been held, which
+    /// is not asked of the last one: bounds are many.
+    bool solve_part(const std::vector<std::size_t>& part, double tolerance_factor, bool is_last = false) {
         const std::vector<BoundaryPoint> points = pick(all_, part);
         SolveOptions solving = options_.solve;
         solving.smoothing *= share(points);
         solving.tolerance_mm *= tolerance_factor;
         PlaceOptions placing = options_.place;
         placing.slope_noise *= std::sqrt(share(points));
-        return solve_for(points, pick(result_.slopes, part), placing, solving);
+        solve_for(points, pick(result_.slopes, part), placing, solving);
+        return !is_last && bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
     }
 
-    /// Solves for points with these slopes; true if other bounds should have been held.
-    bool solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes, const PlaceOptions& placing,
+    /// Solves for points with these slopes, with the bounds that are held.
+    void solve_for(const std::vector<BoundaryPoint>& points, const std::vector<double>& slopes, const PlaceOptions& placing,
                    const SolveOptions& solving) {
         std::vector<PointConstraint> single_points;
         bounds_.append_to(single_points);
@@ -135,7 +138,6 @@ private:
         result_.held = single_points;
         const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
         solve_placed(placed, solving);
-        return bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
     }
 
     /// With the screened kernel in the ball of what was drawn unless the options have one.

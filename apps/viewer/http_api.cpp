@@ -46,7 +46,7 @@ int status_of(ErrorKind kind) {
     return 500;
 }
 
-/// To a page that asks to show what has been closed, and will hear of it. Of an error its browser would complain.
+/// To a page that asks for what is gone, of which it will hear. Of an error its browser would complain.
 HttpReply nothing() { return {204, "", "", {}}; }
 
 HttpReply not_found() { return error_reply(404, "not_found", "there is nothing at this address"); }
@@ -70,6 +70,8 @@ HttpReply guarded(Make make) {
         reply.body =
             to_text({{"error", {{"kind", name(error.kind())}, {"message", error.what()}, {"frames", error.frames()}}}});
         return reply;
+    } catch (const StructureRemoved&) {
+        return nothing();
     } catch (const Error& error) {
         return error_reply(status_of(error.kind()), std::string(name(error.kind())), error.what());
     } catch (const std::bad_alloc&) {
@@ -194,8 +196,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     const bool get = request.method == "GET";
     const auto below = [&](std::string_view folder) { return target.path.starts_with(folder); };
     if (get && below("/api/mesh/")) return mesh(request);
-    if (get && target.path == "/api/statistics")
-        return {200, "application/json", workspace_.session(request.opening)->statistics(stop), {}};
+    if (get && target.path == "/api/statistics") return measured(request, stop);
     if (get && target.path == "/api/compare") return compared(request, stop);
     if (get && below("/api/export/")) return exported(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
@@ -215,7 +216,14 @@ HttpReply HttpApi::mesh(const HttpRequest& request) {
     const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
     if (!session) return nothing();
     if (!target.parameter("coded")) return binary(session->mesh(*id));
-    return compressed(session->mesh(*id, true, far_from));
+    std::string bytes = session->mesh(*id, true, {target.parameter("widths").has_value(), far_from});
+    return target.parameter("compressed") ? compressed(bytes) : binary(std::move(bytes));
+}
+
+HttpReply HttpApi::measured(const HttpRequest& request, const std::stop_token& stop) {
+    const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
+    if (!session) return nothing();
+    return {200, "application/json", session->statistics(stop), {}};
 }
 
 HttpReply HttpApi::put_image(const HttpRequest& request, const std::stop_token& stop) {
@@ -232,7 +240,9 @@ HttpReply HttpApi::compared(const HttpRequest& request, const std::stop_token& s
         return *number;
     };
     const Id first = id("first"), second = id("second");
-    return {200, "application/json", workspace_.session(request.opening)->compare(first, second, stop), {}};
+    const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
+    if (!session) return nothing();
+    return {200, "application/json", session->compare(first, second, stop), {}};
 }
 
 HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& stop) {
@@ -243,7 +253,9 @@ HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& s
         if (!structure) throw Error(ErrorKind::invalid_input, "'structure' is not a whole number");
     }
     const std::string name = target.path.substr(std::string_view("/api/export/").size());
-    Download download = workspace_.session(request.opening)->exported(name, structure, stop);
+    const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
+    if (!session) return nothing();
+    Download download = session->exported(name, structure, stop);
     return {200,
             download.content_type,
             std::move(download.bytes),

@@ -56,6 +56,7 @@ private:
 
     HttpReply slice(const HttpRequest& request, std::uint64_t ticket, const View& view);
     HttpReply mesh(const HttpRequest& request);
+    HttpReply measured(const HttpRequest& request, const std::stop_token& stop);
     HttpReply put_image(const HttpRequest& request, const std::stop_token& stop);
     HttpReply compared(const HttpRequest& request, const std::stop_token& stop);
     HttpReply exported(const HttpRequest& request, const std::stop_token& stop);

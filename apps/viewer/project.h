@@ -56,6 +56,8 @@ public:
 
     /// An id for the next structure or contour.
     Id new_id() { return next_id_++; }
+    /// Whether one has, or had, this id.
+    bool has_given(Id id) const { return id >= 1 && id < next_id_; }
 
     /// What a new project begins with, before its first step: nobody can undo it. Throws as `commit`.
     void begin_with(const Commit& commit);

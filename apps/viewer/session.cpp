@@ -67,6 +67,13 @@ State Session::state() const {
     return project_.state();
 }
 
+const Structure& Session::structure_asked_for(const State& now, Id id) const {
+    const std::scoped_lock lock(mutex_);
+    if (!now.structures.contains(id) && project_.has_given(id))
+        throw StructureRemoved(ErrorKind::invalid_input, fmt::format("the structure with the id {} has been removed", id));
+    return structure_of(now, id);
+}
+
 void Session::on_event(std::function<void(const std::string&)> listener) {
     const std::scoped_lock lock(listener_mutex_);
     listener_ = std::move(listener);

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kontur/base/error.h"
 #include "kontur/shape/volume.h"
 #include "kontur/view/reslice.h"
 #include "viewer/further_image.h"
@@ -37,6 +38,18 @@ struct ImportReply {
 
 /// Of an open page; 0: of nobody.
 using PageId = std::uint64_t;
+
+/// What is told of a surface's points besides where they are.
+struct MeshExtras {
+    bool widths = false;           ///< of the 90 % band there, which take longer than all the rest
+    std::optional<Id> far_from{};  ///< how far they are from the surface of this structure
+};
+
+/// There was a structure with this id.
+class StructureRemoved : public Error {
+public:
+    using Error::Error;
+};
 
 /// A name and the bytes of a file to download.
 struct Download {
@@ -70,7 +83,8 @@ public:
     std::string slice(std::string_view request);
     /// Without triangles, and at the stage "none", where there is no surface: it may go while it is asked for.
     /// `coded`: in few bytes, which are worth compressing.
-    std::string mesh(Id structure, bool coded = false, std::optional<Id> far_from = std::nullopt);
+    std::string mesh(Id structure, bool coded = false, const MeshExtras& extras = {.widths = true});
+    /// These three throw StructureRemoved for a structure that another page has removed meanwhile.
     Download exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop = {});
     /// Of all structures with contours, as JSON.
     std::string statistics(const std::stop_token& stop = {});
@@ -105,6 +119,8 @@ public:
     /// Something that the user should know.
     void notice(std::string_view level, const std::string& text);
     State state() const;
+    /// The structure; throws StructureRemoved, or as `structure_of` for an id that none can have had.
+    const Structure& structure_asked_for(const State& now, Id id) const;
     /// Waits until all surfaces are refined; for tests.
     void wait_for_surfaces() { surfaces_.wait(); }
 

@@ -18,7 +18,7 @@ std::string Session::compare(Id first, Id second, const std::stop_token& stop) {
     State now = state();
     // Readers are compared by what each has drawn, not by borders that they would share.
     now.borders.shared = false;
-    const Structure a = structure_of(now, first), b = structure_of(now, second);
+    const Structure a = structure_asked_for(now, first), b = structure_asked_for(now, second);
     if (first == second)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} would be compared with itself; 2 structures are needed", a.name));

@@ -92,7 +92,7 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
             const std::scoped_lock lock(mutex_);
             return std::pair(project_.state(), project_.image());
         }();
-        const Structure& chosen = structure_of(now, *structure);
+        const Structure& chosen = structure_asked_for(now, *structure);
         const ContourSet set = contour_set(now, *structure);
         const auto made = [&, &now = now](bool with_mesh) {
             return fit_structure(now, *structure, *image_, with_mesh, line.work(stop));

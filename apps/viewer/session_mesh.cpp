@@ -52,7 +52,7 @@ std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::ve
 
 }  // namespace
 
-std::string Session::mesh(Id structure, bool coded, std::optional<Id> far_from) {
+std::string Session::mesh(Id structure, bool coded, const MeshExtras& extras) {
     const auto surfaces = surfaces_.all();
     const Surface none;
     const TriangleMesh no_mesh;
@@ -65,12 +65,13 @@ std::string Session::mesh(Id structure, bool coded, std::optional<Id> far_from) 
     const Surface& surface = surface_of(structure);
     const TriangleMesh& mesh = mesh_of(surface);
     std::vector<double> widths_mm;
-    if (surface.evidence && is_finished(surface.stage)) widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
+    if (extras.widths && surface.evidence && is_finished(surface.stage))
+        widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
     nlohmann::json head{
         {"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}};
     if (!coded) return as_numbers(std::move(head), mesh, widths_mm);
     std::vector<double> away_mm;
-    if (far_from) away_mm = distances_mm(mesh.points, mesh_of(surface_of(*far_from)));
+    if (extras.far_from) away_mm = distances_mm(mesh.points, mesh_of(surface_of(*extras.far_from)));
     return as_code(std::move(head), mesh, widths_mm, away_mm);
 }
 

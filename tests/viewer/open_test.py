@@ -552,6 +552,32 @@ def test_a_structure_without_a_surface_has_an_empty_mesh(server):
     assert server.request("GET", "/api/mesh/x")[0] == 404
 
 
+def test_nothing_is_told_of_a_structure_that_another_page_has_removed(server):
+    """The page says what that means; of an error the browser would complain in its console."""
+    page = server.page()
+    there = the_structure(page)
+    removed = page.do("structure.add")["structure"]["id"]
+    page.do("structure.remove", id=removed)
+    for target in (f"export/mask.nii.gz?structure={removed}", f"compare?first={there}&second={removed}", f"compare?first={removed}&second={there}"):
+        assert server.request("GET", f"/api/{target}")[::2] == (204, b""), target
+    for target in ("export/mask.nii.gz?structure=987654", f"compare?first={there}&second=987654"):
+        assert server.request("GET", f"/api/{target}")[0] == 400, target
+
+
+def test_a_mesh_tells_how_sure_it_is_where_that_is_asked_for_and_is_compressed_likewise(server):
+    page = server.page()
+    structure = the_structure(page)
+    draw_ball(page, structure)
+    page.wait_for_surface(structure)
+    head, plain = server.binary("GET", f"/api/mesh/{structure}?coded=1")
+    assert plain["half_widths"].size == 0 and head["points"] > 100
+    _, widths = server.binary("GET", f"/api/mesh/{structure}?coded=1&widths=1")
+    assert widths["half_widths"].size == head["points"] and widths["half_widths"].max() > 0
+    _, headers, bytes_ = server.request("GET", f"/api/mesh/{structure}?coded=1&compressed=1")
+    assert headers["Content-Encoding"] == "gzip"
+    assert gzip.decompress(bytes_) == server.request("GET", f"/api/mesh/{structure}?coded=1")[2]
+
+
 def test_where_a_contour_crosses_itself_is_told(server):
     page = server.page()
     plane = {**page.session["views"]["axial"]["plane"]}

@@ -64,7 +64,13 @@ def test_without_words_the_page_chooses(tmp_path, home):
         of_then = {"Kontur-Opening": session["opening"]}
         plane = {"origin": [0, 0, 0], "u": [1, 0, 0], "v": [0, 1, 0], "normal": [0, 0, 1], "mm_per_pixel": 1}
         slice_ = json.dumps({"view": "axial", "plane": plane, "width": 8, "height": 8, "pixels": False}).encode()
-        for method, target, body in (("POST", "/api/slice", slice_), ("GET", "/api/mesh/1?coded=1", None)):
+        for method, target, body in (
+            ("POST", "/api/slice", slice_),
+            ("GET", "/api/mesh/1?coded=1", None),
+            ("GET", "/api/statistics", None),
+            ("GET", "/api/compare?first=1&second=2", None),
+            ("GET", "/api/export/labels.nrrd", None),
+        ):
             status, _, reply = server.request(method, target, body, of_then)
             assert (status, reply) == (204, b""), "a page that has not heard yet that it is closed: nothing, and no error in its console"
             assert server.request(method, target, body)[0] == 400, "who names no session means the one that is open"

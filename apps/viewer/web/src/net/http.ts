@@ -6,8 +6,8 @@ import type { Comparison, Folder, ImportReply, OpenRequest, SavedArrangement, Sl
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
- * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came. "gone" is what slices and meshes
- * are of that has been closed meanwhile: an event tells of it, so users need not be.
+ * kinds: "offline" was not sent, "lost" was, but the connection ended before the reply came. "gone" is what has been
+ * closed or removed meanwhile: an event tells of it, so users need not be told where they did not ask for it themselves.
  */
 export class ServerError extends Error {
   constructor(
@@ -85,21 +85,30 @@ export class Http {
 
   async slice(request: SliceRequest, signal?: AbortSignal): Promise<BinaryReply<SliceHeader>> {
     const body = JSON.stringify({ page: this.page, ...request, ...(this.link.isSlow && { compressed: true }) });
-    const reply = await this.request("slice", { method: "POST", body, signal: signal ?? null });
+    return new BinaryReply(await this.timed(await this.request("slice", { method: "POST", body, signal: signal ?? null })));
+  }
+
+  /** Where that is wanted with how sure it is at its points, and how far they are from the surface of another structure. */
+  async mesh(structure: number, extras: { widths?: boolean; farFrom?: number | undefined } = {}): Promise<BinaryReply<MeshHeader>> {
+    const query = new URLSearchParams({ coded: "1" });
+    if (extras.widths) query.set("widths", "1");
+    if (extras.farFrom !== undefined) query.set("far_from", String(extras.farFrom));
+    if (this.link.isSlow) query.set("compressed", "1");
+    return new BinaryReply(await this.timed(await this.request(`mesh/${structure}?${query}`)));
+  }
+
+  /** The bytes of a reply. */
+  private async timed(reply: Response): Promise<ArrayBuffer> {
     const began = performance.now();
     const bytes = await reply.arrayBuffer();
     this.link.took(Number(reply.headers.get("Content-Length")), performance.now() - began);
-    return new BinaryReply(bytes);
-  }
-
-  /** With how far its points are from the surface of another structure, where that is wanted. */
-  async mesh(structure: number, farFrom?: number): Promise<BinaryReply<MeshHeader>> {
-    return new BinaryReply(await (await this.request(`mesh/${structure}?coded=1` + (farFrom === undefined ? "" : `&far_from=${farFrom}`))).arrayBuffer());
+    return bytes;
   }
 
   /** The file and the name that the server proposes for it. */
   async export(name: string, structure: number | null, signal?: AbortSignal): Promise<{ blob: Blob; name: string }> {
-    const reply = await this.request(`export/${name}` + (structure === null ? "" : `?structure=${structure}`), { signal: signal ?? null });
+    const path = `export/${name}` + (structure === null ? "" : `?structure=${structure}`);
+    const reply = await this.request(path, { signal: signal ?? null }, "The structure has been removed meanwhile: there is nothing to export.");
     const proposed = /filename="([^"]+)"/.exec(reply.headers.get("Content-Disposition") ?? "");
     return { blob: await reply.blob(), name: proposed?.[1] ?? name };
   }
@@ -109,7 +118,8 @@ export class Http {
   }
 
   async compare(first: number, second: number, signal: AbortSignal): Promise<Comparison> {
-    return (await (await this.request(`compare?first=${first}&second=${second}`, { signal })).json()) as Comparison;
+    const gone = "One of the two has been removed meanwhile: they cannot be compared.";
+    return (await (await this.request(`compare?first=${first}&second=${second}`, { signal }, gone)).json()) as Comparison;
   }
 
   async import(what: "contours" | "mask", file: File, options: Record<string, string> = {}, signal?: AbortSignal): Promise<ImportReply> {
@@ -127,7 +137,8 @@ export class Http {
     return this.request(path, { method: "POST", body });
   }
 
-  private async request(path: string, options: RequestInit = {}): Promise<Response> {
+  /** `gone`: what is said where the server has no more of what is asked for. */
+  private async request(path: string, options: RequestInit = {}, gone = "The image was closed."): Promise<Response> {
     const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
     if (this.opening !== null) headers["Kontur-Opening"] = this.opening;
     let reply: Response;
@@ -138,7 +149,7 @@ export class Http {
       throw new ServerError("io", "kontur does not answer.");
     }
     if (!reply.ok) throw await errorOf(reply);
-    if (reply.status === 204) throw new ServerError("gone", "The image was closed.");
+    if (reply.status === 204) throw new ServerError("gone", gone);
     return reply;
   }
 }

@@ -202,7 +202,8 @@ export class SurfaceView {
   private async fetchMesh(structure: number): Promise<void> {
     if (!this.hasSurface(structure)) return; // it went while another mesh was on its way
     try {
-      const reply = await this.services.http.mesh(structure, this.compared?.structure === structure ? this.compared.other : undefined);
+      const farFrom = this.compared?.structure === structure ? this.compared.other : undefined;
+      const reply = await this.services.http.mesh(structure, { widths: this.showsBand, farFrom });
       if (reply.header.stage === "none" || !this.hasSurface(structure)) return; // it went meanwhile
       const { header } = reply;
       const colors = this.compared ? this.distanceColorsOf(reply) : this.bandColorsOf(reply);

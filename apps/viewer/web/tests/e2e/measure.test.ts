@@ -78,6 +78,20 @@ describe("all structures", () => {
     await page.locator(".comparison .dialog-status", { hasText: "Structure 1 would be compared with itself; 2 structures are needed" }).waitFor();
   });
 
+  test("that another window removes meanwhile are neither compared nor exported, and that is said", async () => {
+    const { page } = viewer;
+    await page.click("[data-test=export]");
+    const other = await Viewer.open(visits.browser, visits.server.address);
+    const row = other.page.locator(".structure-row", { hasText: "Structure 2" });
+    await row.hover();
+    await row.locator("[data-part=remove]").click();
+    await row.waitFor({ state: "detached" });
+    await other.page.close();
+    await page.click("[data-test='export-mask.nii.gz']");
+    await page.locator(".dialog-status", { hasText: "The structure has been removed meanwhile: there is nothing to export." }).waitFor();
+    assert.deepEqual(viewer.complaints, []);
+  });
+
   test("are coloured in 3D by how far one is from another", async () => {
     const { page } = viewer;
     const isBlue = (r: number, _: number, b: number) => b - r > 50;

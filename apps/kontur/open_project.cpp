@@ -16,6 +16,7 @@
 #include "kontur/io/dicom_suv.h"
 #include "kontur/io/frame_needed.h"
 #include "kontur/io/image.h"
+#include "kontur/shape/repeated_contours.h"
 #include "viewer/drawable.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
@@ -227,6 +228,7 @@ ReadContours first_contours(const OpenCommand& command, const Words& words, Open
     ReadContours read = read_contours(words.contours, command.read);
     check_contours(read.contours);
     for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
+    for (std::string& note : leave_out_repetitions(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : viewer::leave_out_undrawable(read.contours)) read.notes.push_back(std::move(note));
     viewer::check_is_drawable(read.contours);
     result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());

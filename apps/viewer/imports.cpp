@@ -26,6 +26,7 @@
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/shape/repeated_contours.h"
 #include "viewer/drawable.h"
 #include "viewer/model_json.h"
 #include "viewer/temporary_files.h"
@@ -142,6 +143,7 @@ Imported read_contours_of(const fs::path& path) {
     ReadContours read = read_contours(path);
     check_contours(read.contours);
     for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
+    for (std::string& note : leave_out_repetitions(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : leave_out_undrawable(read.contours)) read.notes.push_back(std::move(note));
     check_is_drawable(read.contours);
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};

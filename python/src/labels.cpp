@@ -141,7 +141,7 @@ True
             if (!is_image && !spacing)
                 throw Error(ErrorKind::invalid_input,
                             "an array has no spacing; give that of its voxels in mm, such as (5, 1, 1)");
-            const py::array array = is_image ? py::array() : py::array::ensure(labels);
+            const py::array array = is_image ? py::array() : array_from(labels);
             if (!array) throw py::error_already_set();
             Image image =
                 is_image

@@ -212,6 +212,7 @@ def test_an_array_with_masked_entries_is_refused(oblique):
         (7, lambda: kontur.Image(holes, oblique)),
         (7, lambda: kontur.Mask(holes, oblique)),
         (7, lambda: kontur.Mask(holes != 0, oblique)),
+        (7, lambda: kontur.fill_labels(holes, (1, 1, 1))),
         (4, lambda: kontur.Contour(square)),
         (1, lambda: kontur.Contour(list(square))),
         (4, lambda: kontur.ContourSet([], interior=square)),

@@ -21,6 +21,7 @@
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/predicates.h"
 #include "kontur/shape/provenance.h"
+#include "kontur/shape/repeated_contours.h"
 #include "kontur/shape/rgb_image.h"
 #include "kontur/shape/section.h"
 #include "kontur/shape/self_contacts.h"

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "kontur/shape/repeated_contours.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
 #include "support/polygons.h"
@@ -35,6 +38,40 @@ TEST(Drawing, LeavesOutContoursThatEncloseNothingAndSaysSo) {
         EXPECT_NE(drawing.notes[0].find("left out"), std::string::npos) << drawing.notes[0];
     }
     EXPECT_TRUE(drawing_of({kLine, kSquare}).notes[0].starts_with("contour 1 has no area: its 4 points lie within"));
+}
+
+TEST(Drawing, AContourDrawnTwiceCountsOnce) {
+    const Contour across =
+        polygon(make_plane(kPlane.origin + 5.0 * kPlane.u + 4.0 * kPlane.v, kPlane.u), {{-3, -4}, {3, -4}, {3, 4}, {-3, 4}});
+    const Drawing once = drawing_of({kSquare, across});
+    ASSERT_FALSE(once.crossings.empty());
+    Contour again = kSquare;
+    std::reverse(again.points.begin(), again.points.end());
+    std::rotate(again.points.begin(), again.points.begin() + 1, again.points.end());
+    again.points.push_back(again.points.back());
+    const Drawing twice = drawing_of({kSquare, across, again, kSquare});
+    EXPECT_EQ(twice.contours.contours.size(), 2u);
+    ASSERT_EQ(twice.crossings.size(), once.crossings.size());
+    for (std::size_t n = 0; n < once.crossings.size(); ++n) EXPECT_EQ(twice.crossings[n].matched, once.crossings[n].matched);
+    EXPECT_EQ(twice.notes.back(), "2 contours that repeat others were left out, the first of them contour 3");
+    EXPECT_EQ(drawing_of({kSquare, across, kSquare}).notes.back(), "contour 3 repeats one before it and was left out");
+}
+
+TEST(Drawing, WhatDiffersIsNoRepetitionHoweverSmallAndFarAwayItIs) {
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        std::vector<Contour> contours;
+        for (const double size : {10.0, 9.99})
+            for (const double place : {0.0, 0.01}) {
+                Contour& contour =
+                    contours.emplace_back(polygon(make_plane(kPlane.origin + place * kPlane.normal, kPlane.normal),
+                                                  {{0, 0}, {size, 0}, {size, size}, {0, size}}));
+                contour.plane.origin = scale * (contour.plane.origin + Vec3{1e6, 0, 0});
+                for (Vec3& p : contour.points) p = scale * (p + Vec3{1e6, 0, 0});
+            }
+        ContourSet set{"", contours, {}, {}};
+        EXPECT_TRUE(leave_out_repetitions(set).empty()) << scale;
+        EXPECT_EQ(set.contours.size(), 4u) << scale;
+    }
 }
 
 TEST(Drawing, RefusesToLeaveOutAll) {

@@ -42,7 +42,10 @@ TEST(IsLabelMap, TellsMasksAndLabelMapsFromIntensities) {
     EXPECT_TRUE(
         is_label_map(image_of(grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? std::floor(p.z / 12) + 9 : 0.0; })));
     EXPECT_FALSE(is_label_map(image_of(grid, body_look)));
-    EXPECT_FALSE(is_label_map(image_of(grid, [](const Vec3&) { return 7.0; }))) << "nothing is drawn in it either";
+    Image empty = image_of(grid, [](const Vec3&) { return 7.0; });
+    EXPECT_TRUE(is_label_map(empty)) << "an empty mask";
+    std::get<std::vector<float>>(empty.samples).back() = 8.5;
+    EXPECT_FALSE(is_label_map(empty));
     const Image noisy = image_of(
         grid, [](const Vec3& p) { return lobed_depth(p) > 0 ? 100.0 : 40.0; }, 8);
     Image whole = noisy;

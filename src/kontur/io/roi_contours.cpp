@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "kontur/io/keyhole.h"
 #include "kontur/io/shared_planes.h"
 #include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/repeated_contours.h"
 
 namespace kontur {
 namespace {
@@ -85,44 +84,11 @@ void add_stored(Interpretation& interpretation, const StoredContour& stored) {
     for (std::vector<Vec3>& ring : rings) add_ring(interpretation, std::move(ring));
 }
 
-using Ring = std::vector<std::array<double, 3>>;
-
-/// Index at which the ring must start to be the first in lexicographical order. Source: Shiloach 1981.
-std::size_t least_rotation(const Ring& ring) {
-    const std::size_t count = ring.size();
-    std::size_t best = 0, other = 1;
-    for (std::size_t same = 0; best < count && other < count && same < count;) {
-        const auto &a = ring[(best + same) % count], &b = ring[(other + same) % count];
-        if (a == b) {
-            ++same;
-            continue;
-        }
-        (a < b ? other : best) += same + 1;
-        if (best == other) ++other;
-        same = 0;
-    }
-    return std::min(best, other);
-}
-
-/// The same for each way to write a ring down: any start, either direction, with or without points that repeat a neighbour.
-Ring canonical(const std::vector<Vec3>& points) {
-    const auto rounded = [](double mm) { return std::round(mm / kChannelToleranceMm); };
-    Ring ring;
-    for (const Vec3& p : points)
-        if (const std::array at{rounded(p.x), rounded(p.y), rounded(p.z)}; ring.empty() || at != ring.back())
-            ring.push_back(at);
-    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-    Ring turned(ring.rbegin(), ring.rend());
-    for (Ring* one : {&ring, &turned})
-        std::rotate(one->begin(), one->begin() + static_cast<std::ptrdiff_t>(least_rotation(*one)), one->end());
-    return std::min(ring, turned);
-}
-
 /// A copy of a contour would cancel it when filled even-odd; nobody means that by storing one twice.
 std::size_t count_repeated(const std::vector<StoredContour>& stored, std::vector<bool>& repeated) {
-    std::set<Ring> seen;
+    SeenRings seen(kChannelToleranceMm);
     for (std::size_t n = 0; n < stored.size(); ++n)
-        if (stored[n].type == "CLOSED_PLANAR") repeated[n] = !seen.insert(canonical(stored[n].points)).second;
+        if (stored[n].type == "CLOSED_PLANAR") repeated[n] = !seen.add(stored[n].points);
     return static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), true));
 }
 

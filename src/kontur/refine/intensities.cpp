@@ -23,6 +23,14 @@ struct Pairs {
     std::int64_t all = 0, alike = 0;
 };
 
+bool is_of_one_value(const Image& image) {
+    return std::visit(
+        [](const auto& samples) {
+            return std::all_of(samples.begin(), samples.end(), [&](auto value) { return value == samples.front(); });
+        },
+        image.samples);
+}
+
 }  // namespace
 
 bool is_label_map(const Image& image) {
@@ -42,7 +50,8 @@ bool is_label_map(const Image& image) {
             if (pairs.size() > (is_whole ? kMostLabels : 2)) return false;
         }
     }
-    if (pairs.size() <= 2) return pairs.size() == 2;
+    if (pairs.size() <= 1) return is_of_one_value(image);
+    if (pairs.size() == 2) return true;
     Pairs total, background;
     for (const auto& [value, known] : pairs) {
         total.all += known.all;

@@ -25,8 +25,8 @@ private:
     double voxel_mm_, step_mm_;
 };
 
-/// Whether this is a mask or a label map: at most two values, or whole numbers, most of which, where they are not the
-/// background's, their neighbours have, too. Looks at some 100,000 voxels, however large the image is.
+/// Whether this is a mask or a label map, or empty: at most two values, or whole numbers, most of which, where they are not
+/// the background's, their neighbours have, too. Looks at some 100,000 voxels, at all only where these have one value.
 bool is_label_map(const Image& image);
 
 /// Maps intensities to [0, 1], as a straight line between the 1st and 99th percentile of some of them and, to equal shares,

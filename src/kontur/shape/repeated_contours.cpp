@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/shape/repeated_contours.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace kontur {
+namespace {
+
+constexpr double kSameOfDiameter = 1e-6;
+
+/// Index at which the ring must start to be the first in lexicographical order. Source: Shiloach 1981.
+template <class Ring>
+std::size_t least_rotation(const Ring& ring) {
+    const std::size_t count = ring.size();
+    std::size_t best = 0, other = 1;
+    for (std::size_t same = 0; best < count && other < count && same < count;) {
+        const auto &a = ring[(best + same) % count], &b = ring[(other + same) % count];
+        if (a == b) {
+            ++same;
+            continue;
+        }
+        (a < b ? other : best) += same + 1;
+        if (best == other) ++other;
+        same = 0;
+    }
+    return std::min(best, other);
+}
+
+}  // namespace
+
+bool SeenRings::add(const std::vector<Vec3>& points) { return seen_.insert(canonical(points)).second; }
+
+SeenRings::Ring SeenRings::canonical(const std::vector<Vec3>& points) const {
+    const auto rounded = [&](double mm) { return std::round(mm / tolerance_mm_); };
+    Ring ring;
+    for (const Vec3& p : points)
+        if (const std::array at{rounded(p.x), rounded(p.y), rounded(p.z)}; ring.empty() || at != ring.back())
+            ring.push_back(at);
+    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+    Ring turned(ring.rbegin(), ring.rend());
+    for (Ring* one : {&ring, &turned})
+        std::rotate(one->begin(), one->begin() + static_cast<std::ptrdiff_t>(least_rotation(*one)), one->end());
+    return std::min(ring, turned);
+}
+
+std::vector<std::string> leave_out_repetitions(ContourSet& set) {
+    const double same_mm = kSameOfDiameter * diameter_mm(set);
+    if (same_mm == 0) return {};
+    std::map<std::pair<bool, ContourEnd>, SeenRings> seen;
+    std::vector<Contour> kept;
+    std::size_t first = 0, left_out = 0;
+    for (std::size_t n = 0; n < set.contours.size(); ++n) {
+        Contour& contour = set.contours[n];
+        SeenRings& rings = seen.try_emplace({contour.hole, contour.end}, same_mm).first->second;
+        if (contour.closed && !rings.add(contour.points)) {
+            if (left_out++ == 0) first = n;
+        } else {
+            kept.push_back(std::move(contour));
+        }
+    }
+    set.contours = std::move(kept);
+    if (left_out == 0) return {};
+    return {left_out == 1 ? fmt::format("contour {} repeats one before it and was left out", first + 1)
+                          : fmt::format("{} contours that repeat others were left out, the first of them contour {}",
+                                        left_out, first + 1)};
+}
+
+}  // namespace kontur

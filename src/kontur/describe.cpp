@@ -135,6 +135,35 @@ void describe_long_edges(const StageResults& results, const Work& work, std::vec
             between.worst_contour + 1, between.max_mm));
 }
 
+/// The method's lengths are shares of the drawing's extent: contours that are small beside it may be too small for them.
+void describe_lost_contours(const StageResults& results, const Work& work, std::vector<std::string>& warnings) {
+    constexpr double kSmall = 0.02;   // of the drawing's diameter
+    constexpr double kMissed = 0.03;  // of the small contours' mean width
+    constexpr double kSeen = 0.25;    // of a voxel
+    const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
+    ContourSet small;
+    std::vector<std::size_t> numbers;
+    double widths_mm = 0;
+    const std::vector<Contour>& contours = drawing.contours.contours;
+    for (std::size_t n = 0; n < contours.size(); ++n) {
+        const double width_mm = bounding_box(contours[n].points).diagonal();
+        if (width_mm > kSmall * drawing.diameter_mm()) continue;
+        small.contours.push_back(contours[n]), numbers.push_back(n + 1), widths_mm += width_mm;
+    }
+    if (small.contours.empty()) return;
+    const Residual missed = residual(fitted.function, small, work);
+    if (missed.rms_mm <= kMissed * widths_mm / static_cast<double>(small.contours.size())) return;
+    const Vec3 voxel_mm = mask.grid.spacing_mm();
+    if (missed.rms_mm <= kSeen * std::min({voxel_mm.x, voxel_mm.y, voxel_mm.z})) return;
+    warnings.push_back(
+        fmt::format("the surface does not follow small contours of this drawing, which is {:.3g} mm wide: it is up to "
+                    "{:.2g} mm off contour "
+                    "{}, of {:.2g} mm; draw what lies far apart as objects of its own, and see that no contour lies where "
+                    "it does not belong",
+                    drawing.diameter_mm(), missed.max_mm, numbers[missed.worst_contour],
+                    bounding_box(small.contours[missed.worst_contour].points).diagonal()));
+}
+
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
@@ -160,6 +189,7 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     describe_fit(prepared, fitted, stages.fit, report);
     report.residual = residual(fitted.function, contours, work);
     describe_long_edges(results, work, report.warnings);
+    describe_lost_contours(results, work, report.warnings);
     describe_crossings(drawing, mask.grid, report);
     describe_thinness(contours, mask.grid, report.warnings);
     describe_mask(surface, mask, report);

@@ -95,6 +95,24 @@ TEST(DrawnOddly, WhatIsThinnerThanAVoxelIsSaid) {
     EXPECT_FALSE(warns(segmented(needle, 0.3, 5).report, "less than a voxel"));
 }
 
+TEST(DrawnOddly, SmallContoursThatAreLostInAWideDrawingAreNamed) {
+    const auto balls = [](double apart) {
+        ContourSet set;
+        for (const double x : {0.0, apart})
+            for (const Vec3& normal : {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+                set.contours.push_back(circle_at({x, 0, 0}, 1.5, 24, normal));
+        return set;
+    };
+    const Grid grid = grid_around({{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}}, {0.25, 0.25, 0.25}, 1);
+    EXPECT_FALSE(warns(segment(balls(100), grid).report, "does not follow small contours"));
+    EXPECT_TRUE(
+        warns(segment(balls(1000), grid).report, "does not follow small contours of this drawing, which is 1e+03 mm"));
+    ContourSet stray = ball({-30, 0, 30});
+    stray.contours.push_back(circle_at({50'000, 0, 0}, 4, 24));
+    const Grid image = grid_around({{-50, -50, -50}, {50, 50, 50}}, {4, 4, 4}, 10);
+    EXPECT_TRUE(warns(segment(stray, image).report, "see that no contour lies where it does not belong"));
+}
+
 TEST(DrawnOddly, WhatMissesAllContoursIsFoundOnEveryGrid) {
     // Two circles round one centre, of which the axial one is far too large for the coronal one: the surface passes between.
     for (const double radius : {4.0, 6.0, 8.0}) {

@@ -80,15 +80,24 @@ describe("all structures", () => {
 
   test("that another window removes meanwhile are neither compared nor exported, and that is said", async () => {
     const { page } = viewer;
-    await page.click("[data-test=export]");
     const other = await Viewer.open(visits.browser, visits.server.address);
-    const row = other.page.locator(".structure-row", { hasText: "Structure 2" });
-    await row.hover();
-    await row.locator("[data-part=remove]").click();
-    await row.waitFor({ state: "detached" });
-    await other.page.close();
+    const remove = async (name: string) => {
+      const row = other.page.locator(".structure-row", { hasText: name });
+      await row.hover();
+      await row.locator("[data-part=remove]").click();
+      await row.waitFor({ state: "detached" });
+    };
+    await page.click("[data-test=statistics-open]");
+    await page.locator("[data-test=compare]").waitFor();
+    await remove("Structure 2");
+    await page.click("[data-test=compare]");
+    await page.locator(".comparison .dialog-status", { hasText: "One of the two has been removed meanwhile: they cannot be compared." }).waitFor();
+    await page.keyboard.press("Escape");
+    await page.click("[data-test=export]");
+    await remove("Structure 1");
     await page.click("[data-test='export-mask.nii.gz']");
     await page.locator(".dialog-status", { hasText: "The structure has been removed meanwhile: there is nothing to export." }).waitFor();
+    await other.page.close();
     assert.deepEqual(viewer.complaints, []);
   });
 

@@ -122,6 +122,7 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
     const Drawing drawing = read_drawing(thinned(part, kCoarseLines * kCoarsePoints), FillRule::declared);
     StageOptions coarse = options;
     coarse.fit.most_points = coarse.fit.tilt_points = kCoarsePoints;
+    coarse.fit.rounds = std::min(options.fit.rounds, 1);
     coarse.fit.most_solves = 1;
     coarse.fit.solve.tolerance_mm *= coarse.fit.early_tolerance_factor;
     return fit(prepare(drawing, coarse, work), coarse.fit, work).function;

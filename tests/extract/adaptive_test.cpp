@@ -253,6 +253,25 @@ TEST(Adaptive, ValuesGrowWithTheSurfaceAndAreAFractionOfTracking) {
     EXPECT_LT(compare(crossing_function(), test::grid_about(kCenter, {240, 240, 240}, 0.25), starts).evaluations, 0.3);
 }
 
+TEST(Adaptive, LeavesDoubtsCloseToTheSurfaceOnly) {
+    const std::vector<Vec3> starts = points_of(crossing_contours(60));
+    const Grid grid = test::grid_about(kCenter, {110, 112, 108}, 0.5);
+    FastFunction function(crossing_function(), {.tolerance_mm = 0.01, .expected_points = 1'000'000});
+    const SurfaceLattice resolved = track_surface_adaptively(function, grid, starts);
+    const SurfaceLattice rough = track_surface_adaptively(function, grid, starts, {}, Doubts::left);
+    EXPECT_LT(rough.evaluations, 0.8 * static_cast<double>(resolved.evaluations));
+    const Mask a = fill(resolved), b = fill(rough);
+    int different = 0;
+    for (std::size_t n = 0; n < a.values.size(); ++n) {
+        if (a.values[n] == b.values[n]) continue;
+        ++different;
+        const auto at = static_cast<std::int64_t>(n);
+        const Vec3 p = grid.center_mm(at % grid.size.i, at / grid.size.i % grid.size.j, at / grid.size.i / grid.size.j);
+        EXPECT_LT(std::abs(crossing_function().value(p)), 0.25) << "half a voxel";
+    }
+    EXPECT_LT(different, 2000) << "of 60,000 on the surface";
+}
+
 TEST(ExpectedSurfaceVoxels, AreAboutThoseThatManySmallBallsPass) {
     constexpr int kSide = 120, kPitch = 12, kPointsOfBall = 60;
     constexpr double kRadius = 3;

@@ -90,9 +90,10 @@ double voxels_about(const Grid& grid, std::span<const Vec3> starts) {
 
 class AdaptiveTracker {
 public:
-    AdaptiveTracker(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, const Work& work)
+    AdaptiveTracker(FastFunction& function, const Grid& grid, std::span<const Vec3> starts, Doubts doubts, const Work& work)
         : grid_(grid),
           starts_(starts),
+          doubts_(doubts),
           work_(work),
           fast_(function),
           coarse_(grid, strides(grid)),
@@ -109,9 +110,11 @@ public:
         find_band();
         interpolate_band();
         work_.report("voxelize", 0.4);
-        doubt_near_centres();
-        doubt_at_starts();
-        for (int pass = 0; pass < kPasses && resolve_doubts(); ++pass) spread_errors();
+        if (doubts_ == Doubts::resolved) {
+            doubt_near_centres();
+            doubt_at_starts();
+            for (int pass = 0; pass < kPasses && resolve_doubts(); ++pass) spread_errors();
+        }
         work_.report("voxelize", 0.8);
         SurfaceLattice surface = track_surface(
             std::move(fine_),
@@ -294,6 +297,7 @@ private:
 
     const Grid& grid_;
     std::span<const Vec3> starts_;
+    Doubts doubts_;
     const Work& work_;
     FastFunction& fast_;
     CoarseLattice coarse_;
@@ -322,11 +326,11 @@ std::int64_t expected_surface_voxels(const Grid& grid, std::span<const Vec3> sta
 }
 
 SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts,
-                                        const Work& work) {
+                                        const Work& work, Doubts doubts) {
     check_grid(grid);
     if (is_small(grid, starts)) return track_surface(function.exact(), grid, starts, work);
     work.report("voxelize", 0);
-    return AdaptiveTracker(function, grid, starts, work).run();
+    return AdaptiveTracker(function, grid, starts, doubts, work).run();
 }
 
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,

@@ -20,9 +20,13 @@ namespace kontur {
 SurfaceLattice track_surface_adaptively(const ImplicitFunction& function, const Grid& grid, std::span<const Vec3> starts,
                                         const Work& work = {});
 
+/// Whether values whose sign interpolation leaves in doubt are computed, which is half of the cost. Without, masks differ in
+/// voxels within a few percent of the coarse spacing of the surface.
+enum class Doubts { resolved, left };
+
 /// The same with a function of the caller's, which keeps what evaluating it has prepared.
 SurfaceLattice track_surface_adaptively(FastFunction& function, const Grid& grid, std::span<const Vec3> starts,
-                                        const Work& work = {});
+                                        const Work& work = {}, Doubts doubts = Doubts::resolved);
 
 /// About how many of the grid's voxels a surface through the starts passes, as if it were an ellipsoid that fills their box
 /// as far as that lies in the grid; more where the starts show that there are many objects.

@@ -3,14 +3,16 @@
 
 #include <cmath>
 
-#include "kontur/extract/find_surface.h"
+#include "kontur/extract/adaptive.h"
+#include "kontur/extract/voxelize.h"
 #include "kontur/refine/nearest_marked.h"
 #include "kontur/refine/spread_points.h"
 
 namespace kontur {
 namespace {
 
-constexpr double kBeside = 1e-6;  // edges: a line between cells is in all of them, however it is rounded
+constexpr double kTolerance = 0.02;  // of f, in edges
+constexpr double kBeside = 1e-6;     // edges: a line between cells is in all of them, however it is rounded
 
 std::vector<std::uint8_t> cells_on(const ContourSet& contours, const ImageCells& cells) {
     std::vector<std::uint8_t> marked(cells.looks.size());
@@ -48,12 +50,15 @@ Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cell
 }
 
 CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
-                       const Work& work) {
+                       const Work& work, Doubts doubts) {
     std::vector<Vec3> starts;
     for (const Contour& contour : contours.contours)
         starts.insert(starts.end(), contour.points.begin(), contour.points.end());
-    Depths depths = depths_of(
-        fill(find_surface(function, cells.grid, std::move(starts), Voxelizer::adaptive, work), work).values, cells);
+    // The lattice reaches beyond all starts. Depths are known to half a cell, to which values in doubt do not matter.
+    FastFunction fast(function, {.tolerance_mm = kTolerance * cells.edge_mm(),
+                                 .expected_points = expected_surface_voxels(cells.grid, starts)});
+    Depths depths =
+        depths_of(fill(track_surface_adaptively(fast, cells.grid, starts, work.untold(), doubts), work).values, cells);
     std::vector<float> far = nearest_marked(cells.grid.size, cells_on(contours, cells)).steps;
     for (float& mm : far) mm *= static_cast<float>(cells.edge_mm());
     return {std::move(depths.depth_mm), std::move(far), std::move(depths.nearest)};
@@ -77,13 +82,14 @@ CellDepths moved_depths(const CellDepths& depths, const ImageCells& cells, const
         below.push_back(n);
         on_surface.push_back(cells.center(n));
     }
-    slide_to_surface(function, on_surface, {.reach_mm = cells.edge_mm()}, work);
+    // The normals half a cell below the surface are about those on it.
+    const std::vector<Vec3> gradients = slide_to_surface(function, on_surface, {.reach_mm = cells.edge_mm()}, work);
     std::vector<float> offsets(depths.nearest.size());
-    std::vector<MovingPoint> at = with_normals(function, on_surface, work);
-    for (std::size_t n = 0; n < at.size(); ++n) {
-        at[n].distance_mm = static_cast<double>(depths.far_mm[below[n]]);
-        at[n].prior_mm = beliefs.prior_mm(at[n].distance_mm);
-        offsets[below[n]] = static_cast<float>(offset_at(at[n], movement.points, movement.prior, movement.offsets));
+    for (std::size_t n = 0; n < below.size(); ++n) {
+        MovingPoint at{on_surface[n], -normalized(gradients[n])};
+        at.distance_mm = static_cast<double>(depths.far_mm[below[n]]);
+        at.prior_mm = beliefs.prior_mm(at.distance_mm);
+        offsets[below[n]] = static_cast<float>(offset_at(at, movement.points, movement.prior, movement.offsets));
     }
     CellDepths moved = depths;
     for (std::size_t n = 0; n < offsets.size(); ++n) moved.depth_mm[n] += offsets[depths.nearest[n]];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/extract/adaptive.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/refine/image_cells.h"
 #include "kontur/refine/movement.h"
@@ -31,7 +32,7 @@ Depths depths_of(const std::vector<std::uint8_t>& inside, const ImageCells& cell
 
 /// Of the surface of f that hangs together with the contours.
 CellDepths cell_depths(const ImageCells& cells, const ImplicitFunction& function, const ContourSet& contours,
-                       const Work& work = {});
+                       const Work& work = {}, Doubts doubts = Doubts::resolved);
 
 /// Depths between those below two surfaces, of which the second counts so much.
 CellDepths between(const CellDepths& first, const CellDepths& second, double share);

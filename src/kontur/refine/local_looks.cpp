@@ -74,7 +74,7 @@ Sides sides_at(const Vec3& place, const std::vector<LookExample>& examples, cons
 
 }  // namespace
 
-LocalLooks::LocalLooks(std::vector<LookExample> examples, double reach_mm, const Grid& around) {
+LocalLooks::LocalLooks(std::vector<LookExample> examples, double reach_mm, const Grid& around, std::span<const Vec3> asked) {
     std::erase_if(examples, [](const LookExample& e) { return !std::isfinite(e.look); });
     Sides all;
     std::size_t inside = 0;
@@ -93,37 +93,48 @@ LocalLooks::LocalLooks(std::vector<LookExample> examples, double reach_mm, const
         node_to_mm.set_column(axis, step * edge);
     }
     mm_to_node_ = node_to_mm.inverse();
-    for (std::int64_t k = 0; k < size_.k; ++k)
-        for (std::int64_t j = 0; j < size_.j; ++j)
-            for (std::int64_t i = 0; i < size_.i; ++i) {
-                const Vec3 place =
-                    node_to_mm.apply({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-                const Sides sides = sides_at(place, examples, all, reach_mm);
-                const Histogram in = probabilities(sides.inside), out = probabilities(sides.outside);
-                LogOdds odds;
-                for (std::size_t b = 0; b < kBins; ++b) odds[b] = std::log(in[b] / out[b]);
-                nodes_.push_back(odds);
-            }
+    nodes_.resize(static_cast<std::size_t>(size_.i * size_.j * size_.k));
+    std::vector<std::uint8_t> is_asked(nodes_.size());
+    for (const Vec3& p : asked)
+        for (int c = 0; c < 8; ++c) is_asked[corner(cell_of(p), c)] = 1;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        if (!is_asked[n]) continue;
+        const auto at = static_cast<std::int64_t>(n);
+        const Vec3 place = node_to_mm.apply({static_cast<double>(at % size_.i), static_cast<double>(at / size_.i % size_.j),
+                                             static_cast<double>(at / size_.i / size_.j)});
+        const Sides sides = sides_at(place, examples, all, reach_mm);
+        const Histogram in = probabilities(sides.inside), out = probabilities(sides.outside);
+        for (std::size_t b = 0; b < kBins; ++b) nodes_[n][b] = std::log(in[b] / out[b]);
+    }
+}
+
+LocalLooks::Cell LocalLooks::cell_of(const Vec3& point_mm) const {
+    const Vec3 at = mm_to_node_.apply(point_mm);
+    Cell cell;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double inside = std::clamp(at[axis], 0.0, static_cast<double>(size_[axis] - 1));
+        const auto a = static_cast<std::size_t>(axis);
+        cell.first[a] = std::min(static_cast<std::int64_t>(inside), size_[axis] - 2);
+        cell.part[a] = inside - static_cast<double>(cell.first[a]);
+    }
+    return cell;
+}
+
+std::size_t LocalLooks::corner(const Cell& cell, int corner) const {
+    const std::int64_t di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
+    return static_cast<std::size_t>(cell.first[0] + di + size_.i * (cell.first[1] + dj + size_.j * (cell.first[2] + dk)));
 }
 
 double LocalLooks::log_odds(const Vec3& point_mm, float look) const {
     if (nodes_.empty() || !std::isfinite(look)) return 0;
-    const Vec3 at = mm_to_node_.apply(point_mm);
-    std::array<std::int64_t, 3> first;
-    std::array<double, 3> part;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double inside = std::clamp(at[axis], 0.0, static_cast<double>(size_[axis] - 1));
-        const auto a = static_cast<std::size_t>(axis);
-        first[a] = std::min(static_cast<std::int64_t>(inside), size_[axis] - 2);
-        part[a] = inside - static_cast<double>(first[a]);
-    }
+    const Cell cell = cell_of(point_mm);
+    const std::array<double, 3>& part = cell.part;
     const auto bin = static_cast<std::size_t>(bin_of(look));
     double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const std::int64_t di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
-        const double weight = (di ? part[0] : 1 - part[0]) * (dj ? part[1] : 1 - part[1]) * (dk ? part[2] : 1 - part[2]);
-        const std::int64_t node = first[0] + di + size_.i * (first[1] + dj + size_.j * (first[2] + dk));
-        sum += weight * static_cast<double>(nodes_[static_cast<std::size_t>(node)][bin]);
+    for (int c = 0; c < 8; ++c) {
+        const double weight =
+            (c & 1 ? part[0] : 1 - part[0]) * (c >> 1 & 1 ? part[1] : 1 - part[1]) * (c >> 2 ? part[2] : 1 - part[2]);
+        sum += weight * static_cast<double>(nodes_[corner(cell, c)][bin]);
     }
     return sum;
 }

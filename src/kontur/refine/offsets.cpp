@@ -15,6 +15,7 @@ constexpr double kDamping = 0.7;
 constexpr double kJitter = 1e-6;   // of the mean prior variance
 constexpr double kSharpest = 0.3;  // of a step: the smallest standard deviation that is believed of one point
 constexpr double kLeastCavity = 1e-9;
+constexpr double kFar = 8;  // lengths: points farther apart are hardly correlated, by 1e-5
 
 std::vector<double> correlations(std::span<const MovingPoint> points, const OffsetPrior& prior) {
     const std::size_t n = points.size();
@@ -113,8 +114,12 @@ Offsets find_offsets(std::span<const MovingPoint> points, const OffsetPrior& pri
 
 double offset_at(const MovingPoint& point, std::span<const MovingPoint> points, const OffsetPrior& prior,
                  const Offsets& offsets) {
+    const double far2 = std::pow(kFar * prior.length_mm, 2);
     double sum = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) sum += prior.covariance(point, points[i]) * offsets.weights[i];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 apart = points[i].position - point.position;
+        if (dot(apart, apart) < far2) sum += prior.covariance(point, points[i]) * offsets.weights[i];
+    }
     return sum;
 }
 

@@ -99,8 +99,8 @@ std::vector<Vec3> spread(const std::vector<Vec3>& points, std::size_t count, con
     return some;
 }
 
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, const SlideOptions& options,
-                      const Work& work) {
+std::vector<Vec3> slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, const SlideOptions& options,
+                                   const Work& work) {
     constexpr double kLeastSlope2 = 0.09;
     std::vector<double> values(points.size());
     std::vector<Vec3> gradients(points.size());
@@ -112,6 +112,7 @@ void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& point
             points[i] += (far > options.reach_mm ? options.reach_mm / far : 1.0) * move;
         }
     }
+    return gradients;
 }
 
 std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, const Work& work) {

@@ -29,9 +29,9 @@ struct SlideOptions {
     int steps = 1;        ///< of Newton's method; one is enough from a point of points_of_surface
 };
 
-/// Moves each point towards where f vanishes.
-void slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, const SlideOptions& options,
-                      const Work& work);
+/// Moves each point towards where f vanishes. Returns f's gradients where the last steps began.
+std::vector<Vec3> slide_to_surface(const ImplicitFunction& function, std::vector<Vec3>& points, const SlideOptions& options,
+                                   const Work& work);
 
 /// The points with f's outward normals there; distances and offsets are left as they are.
 std::vector<MovingPoint> with_normals(const ImplicitFunction& function, std::span<const Vec3> points, const Work& work);

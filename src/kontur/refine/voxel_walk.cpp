@@ -64,7 +64,9 @@ private:
         std::vector<LookExample> some;
         const std::size_t step = std::max<std::size_t>(1, examples_.size() / kExamples);
         for (std::size_t n = 0; n < examples_.size(); n += step) some.push_back(examples_[n]);
-        return {std::move(some), kLooks * options_.diameter_mm, cells_.grid};
+        std::vector<Vec3> asked;
+        for (const std::uint32_t cell : walk_.asked) asked.push_back(cells_.center(cell));
+        return {std::move(some), kLooks * options_.diameter_mm, cells_.grid, asked};
     }
 
     float step(std::size_t from, std::size_t to) const {

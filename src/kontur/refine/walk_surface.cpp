@@ -18,19 +18,30 @@ constexpr double kMostInPlanes = 1;       // cells: no farther from the contours
 /// From one attempt to the next less is told near the contours, and less exactly.
 constexpr WalkedDataOptions kAttempts[] = {{}, {.off_contours = 2, .noise = 4}};
 
-/// Whether a surface leaves the walk's, or comes through drawn planes where nothing was drawn.
-bool strays(const CellDepths& depths, const VoxelWalk& walk, const std::vector<float>& walked, const CellDepths& alone,
-            const WalkedImage& image) {
+/// Whether a surface is farther from the walk's than it may be.
+bool leaves(const VoxelWalk& walk, const CellDepths& depths, const std::vector<float>& walked, double edge_mm) {
+    const float most = static_cast<float>(kMostStray * edge_mm);
+    for (std::size_t n = 0; n < walked.size(); ++n)
+        if (depths.is_inside(n) != walk.is_inside(n) && std::abs(walked[n]) > most) return true;
+    return false;
+}
+
+/// Whether a surface comes through drawn planes where nothing was drawn. Depths tell of which cells that may be; the
+/// functions' values there, which are exact, decide.
+bool comes_through_planes(const ImplicitFunction& now, const CellDepths& now_depths, const ImplicitFunction& alone,
+                          const CellDepths& alone_depths, const WalkedImage& image, const Work& work) {
     const std::array<Vec3, 3> half_edges = image.cells.half_edges();
-    const auto edge = static_cast<float>(image.cells.edge_mm());
-    for (std::size_t n = 0; n < walked.size(); ++n) {
-        if (depths.is_inside(n) != walk.is_inside(n) && std::abs(walked[n]) > static_cast<float>(kMostStray) * edge)
-            return true;
-        if (depths.is_inside(n) != alone.is_inside(n) &&
-            std::abs(alone.depth_mm[n]) > static_cast<float>(kMostInPlanes) * edge &&
+    const auto most = static_cast<float>(kMostInPlanes * image.cells.edge_mm());
+    std::vector<Vec3> places;
+    for (std::size_t n = 0; n < now_depths.depth_mm.size(); ++n)
+        if (now_depths.is_inside(n) != alone_depths.is_inside(n) && std::abs(alone_depths.depth_mm[n]) > most &&
             image.walls.is_in_plane(image.cells.center(n), half_edges))
-            return true;
-    }
+            places.push_back(image.cells.center(n));
+    std::vector<double> before(places.size()), after(places.size());
+    alone.values(places, before, work);
+    now.values(places, after, work);
+    for (std::size_t n = 0; n < places.size(); ++n)
+        if ((before[n] > 0) != (after[n] > 0)) return true;
     return false;
 }
 
@@ -74,8 +85,10 @@ std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Draw
         work.check();
         FittedFunction through = refit.with(walked_data(walk, cells, alone, fitted.function, frame, attempt, work), work);
         const double on_contours = largest_change(fitted.function, through.function, drawing.contours, work);
-        const CellDepths now = cell_depths(cells, through.function, drawing.contours, work);
-        if (on_contours > kMostOnContours * voxel_mm || strays(now, walk, walked, alone, image)) continue;
+        const CellDepths now = cell_depths(cells, through.function, drawing.contours, work, Doubts::left);
+        if (on_contours > kMostOnContours * voxel_mm || leaves(walk, now, walked, cells.edge_mm()) ||
+            comes_through_planes(through.function, now, fitted.function, alone, image, work))
+            continue;
         Moved places = moved(through.function, now, walk, alone, cells, frame, options.samples, work);
         RefinedFunction result{std::move(through), {.verdict = ImageVerdict::used}};
         result.report.walked = true;

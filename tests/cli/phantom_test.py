@@ -59,13 +59,14 @@ def test_segmenting_its_contours_gives_its_truth(phantom, tmp_path, case, least_
     assert found["dice"] > least_dice
 
 
-def test_the_demos_liver_is_as_exact_with_its_image_as_without(tmp_path):
-    """14 contours hold it to a twentieth of a voxel: there is nothing that its image knows better."""
+@pytest.mark.parametrize("case, least_dice", [("liver_orthogonal14", 0.9985), ("liver_oblique10", 0.9965)])
+def test_the_livers_are_as_exact_with_their_image_as_contours_make_them(tmp_path, case, least_dice):
+    """14 contours hold it to a twentieth of a voxel: there is nothing that its image knows better. Ten oblique ones hold it to
+    a third of a millimetre (Dice 0.994), which profiles of voxels mend, but no walk on cells of four."""
     succeed("phantom", tmp_path / "demo", "--scan", "liver")
-    succeed("segment", tmp_path / "demo/liver_orthogonal14.json", "--image", tmp_path / "demo/liver_ct.nii.gz", "--output", tmp_path / "liver.nii.gz")
-    compared = succeed("compare", tmp_path / "liver.nii.gz", tmp_path / "demo/liver_truth_liver.nii.gz")
-    dice = float(next(line.split()[1] for line in compared.splitlines() if line.split()[:1] == ["dice"]))
-    assert dice > 0.9985, compared
+    succeed("segment", tmp_path / f"demo/{case}.json", "--image", tmp_path / "demo/liver_ct.nii.gz", "--output", tmp_path / "liver.nii.gz")
+    compared = json.loads(succeed("compare", tmp_path / "liver.nii.gz", tmp_path / "demo/liver_truth_liver.nii.gz", "--json"))
+    assert compared["dice"] > least_dice, compared
 
 
 def test_every_contour_set_can_be_segmented(phantom):

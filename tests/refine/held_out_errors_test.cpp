@@ -68,19 +68,22 @@ TEST(HeldOutErrors, AnImageOfFewPercentCountsInPart) {
     EXPECT_EQ(errors_with_gains({0.15, 0.15, 0.15, 0.15}).weight({0.2, 0.3}), 0);
 }
 
-TEST(HeldOutErrors, BelowAQuarterOfAVoxelThereIsNothingToSee) {
-    const auto seen = [](double voxels) {
+TEST(HeldOutErrors, BelowAQuarterOfAVoxelThereIsNothingToSeeNorOfACellForAWalk) {
+    constexpr double kCellMm = 4 * kVoxelMm;
+    const auto errors = [](double voxels) {
         const double error_mm = voxels * kVoxelMm;
         std::vector<HeldOut> points;
         for (std::size_t plane = 0; plane < 4; ++plane)
             for (int n = 0; n < 20; ++n)
                 points.push_back(
                     {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, error_mm, 0, error_mm, plane});
-        return errors_of(points).seen();
+        return errors_of(points);
     };
-    EXPECT_EQ(seen(0.2), 0);
-    EXPECT_NEAR(seen(0.375), 0.5, 1e-9);
-    EXPECT_EQ(seen(0.6), 1);
+    EXPECT_EQ(errors(0.2).seen(), 0);
+    EXPECT_NEAR(errors(0.375).seen(), 0.5, 1e-9);
+    EXPECT_EQ(errors(0.6).seen(), 1);
+    EXPECT_EQ(errors(0.6).seen(kCellMm), 0) << "the voxels know more than cells that are four of them wide";
+    EXPECT_NEAR(errors(1.5).seen(kCellMm), 0.5, 1e-9);
 }
 
 /// The points nearest to a place count as much as all: in the mean over places that comes out right.

@@ -77,7 +77,7 @@ double HeldOutErrors::weight(const Rise& mended) const {
     return mended.at(1 - without_hand(with_mm_, hand) / without) * weight_of_planes();
 }
 
-double HeldOutErrors::seen() const { return kSeen.at(without_mm_ / voxel_mm_); }
+double HeldOutErrors::seen(double edge_mm) const { return kSeen.at(without_mm_ / edge_mm); }
 
 double HeldOutErrors::weight_of_planes() const {
     struct Sum {

@@ -59,9 +59,10 @@ public:
     /// the planes. In between it rises steadily, so that nothing flips with small changes of a fit.
     double weight(const Rise& mended = kHelps) const;
     static constexpr Rise kHelps{0, 0.05};
-    /// How far the errors without the image are larger than what any image tells: 0 up to a quarter of a voxel, 1 from half
-    /// of one on. Contours that hold the surface better than that have nothing to ask.
-    double seen() const;
+    /// How far the errors without the image are larger than what an image of voxels (or cells) so long tells: 0 up to a
+    /// quarter of one, 1 from half of one on. Contours that hold the surface better than that have nothing to ask.
+    double seen(double edge_mm) const;
+    double seen() const { return seen(voxel_mm_); }
     /// What is true of the image's offsets counts that much only.
     Beliefs beliefs(double weight = 1) const;
 

@@ -101,7 +101,7 @@ PlaneErrors errors_with_image(Fold& fold, std::size_t plane, const Beliefs& beli
 WrongCells walk(const Fold& fold, const Movement& movement, const ImageCells& cells, const Beliefs& beliefs, double moving,
                 const Work& alone) {
     const CellSlab near{fold.plane.contours.front().plane, kAskedBeside * cells.edge_mm()};
-    const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone);
+    const CellDepths depths = cell_depths(cells, fold.function, fold.rest, alone, Doubts::left);
     const CellDepths moved = moved_depths(depths, cells, fold.function, movement, beliefs, near, alone);
     const WalkOptions options{fold.others.walls, beliefs.prior_mm, smallest_ball(fold.rest).diameter(), near};
     const VoxelWalk walk = walk_voxels(cells, between(depths, moved, moving), options, alone);
@@ -144,7 +144,7 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     const double hand = trusted_disagreement_mm(disagreement(drawing.crossings)) / std::numbers::sqrt2;
     LeftOutPlanes left_out{HeldOutErrors(errors, beliefs, plain->limit_mm, voxel, hand),
                            image_cells(image, drawn, kMostCells, work), std::vector<WrongCells>(folds.size())};
-    if (left_out.errors.seen() == 0) return left_out;  // no walk would count
+    if (left_out.walk_seen() == 0) return left_out;  // no walk would count
     const double moving = left_out.moving();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {

@@ -19,9 +19,11 @@ struct LeftOutPlanes {
     ImageCells cells;               ///< around the drawing, on which walks go
     std::vector<WrongCells> wrong;  ///< of each plane
 
-    /// How far the surface is moved, and how far it is drawn to a walk where it is moved so far; both 0 to 1.
+    /// How far the surface is moved, and how far it is drawn to a walk where it is moved so far; both 0 to 1. A walk knows
+    /// its cells only, which are larger than voxels where the drawing has many.
     double moving() const { return errors.seen() * errors.weight(); }
-    double walking(double moving) const { return errors.seen() * walk_weight(wrong, moving); }
+    double walking(double moving) const { return walk_seen() * walk_weight(wrong, moving); }
+    double walk_seen() const { return errors.seen(cells.edge_mm()); }
 };
 
 /// Leaves out one drawn plane after another, at most 10 of them, fits the others, lets the image move that surface, and

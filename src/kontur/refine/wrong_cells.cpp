@@ -18,7 +18,7 @@ constexpr double kBeside = 1e-6;  // edges: a plane between two layers of cells 
 // single plane makes, however many say nothing; and the share of wrong cells that it mends, which images beside the drawing
 // do not (docs/decisions/0008-image-error.md).
 constexpr Rise kSureAlone{1, 2}, kMendedAlone{0.05, 0.15};
-constexpr double kSure = 2;
+constexpr Rise kSure{0.1, 0.9};  // probabilities
 constexpr std::size_t kLeastPlanesTelling = 3;
 
 /// The mean in its standard errors.
@@ -32,10 +32,7 @@ double sureness(const std::vector<double>& gains) {
 
 /// That a normal variable with this mean, in standard deviations, is above 0; what is nearly sure, or nearly impossible, is
 /// wholly, so that no solve is made for it.
-double probability(double mean) {
-    const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
-    return Rise{below(-kSure), below(kSure)}.at(below(mean));
-}
+double probability(double mean) { return kSure.at(0.5 * std::erfc(-mean / std::numbers::sqrt2)); }
 
 }  // namespace
 

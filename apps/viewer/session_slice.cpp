@@ -14,6 +14,7 @@
 #include "viewer/image_samples.h"
 #include "viewer/message_checks.h"
 #include "viewer/model_json.h"
+#include "viewer/proposed_lines.h"
 #include "viewer/session.h"
 
 // What a view shows: the image on its plane, and where surfaces and contours meet it.
@@ -251,7 +252,7 @@ json Session::outline_of(const Members& m) {
     const auto found = surfaces.find(structure);
     json lines = json::array();
     if (found != surfaces.end() && found->second->mesh)
-        for (const Polyline& line : outline(*found->second->mesh, plane)) lines.push_back(to_json(line.points));
+        for (const Polyline& line : proposed_lines(*found->second->mesh, plane)) lines.push_back(to_json(line.points));
     return {{"lines", std::move(lines)}};
 }
 

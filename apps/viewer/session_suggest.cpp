@@ -4,8 +4,8 @@
 
 #include "kontur/base/error.h"
 #include "kontur/refine/suggest_plane.h"
-#include "kontur/view/outline.h"
 #include "viewer/model_json.h"
+#include "viewer/proposed_lines.h"
 #include "viewer/session.h"
 
 // Where to draw next.
@@ -38,7 +38,7 @@ json Session::suggest(const Members& m) {
     const Surface& surface = *found->second;
     for (const SuggestedPlane& one : suggest_planes(evidence_of(surface), *surface.drawn, 1, options).planes) {
         json lines = json::array();
-        for (const Polyline& line : outline(*surface.mesh, one.plane)) lines.push_back(to_json(line.points));
+        for (const Polyline& line : proposed_lines(*surface.mesh, one.plane)) lines.push_back(to_json(line.points));
         json told{{"plane", to_json(one.plane)}, {"gain", one.gain}, {"lines", std::move(lines)}};
         if (one.slice) told["slice"] = {{"axis", one.slice->axis}, {"index", one.slice->index}};
         if (one.after.value > 0) told["expected_dice"] = to_json(one.after);

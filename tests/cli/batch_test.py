@@ -233,7 +233,7 @@ def test_every_column_is_an_option_of_segment(cohort):
         ['"ball, drawn.json;more.json",image.nii.gz,out/m.nii.gz,7,biharmonic,out/m.stl,out/m.json'],
         "contours,image,output,label_value,kernel,mesh,report",
     )
-    write_planes(cohort / "more.json", ball_planes()[:2])
+    write_planes(cohort / "more.json", [circle("x", 2.5), circle("y", 2.5)])
     assert batch(cohort).returncode == 0
     assert set(numpy.unique(read_nifti(cohort / "out" / "m.nii.gz"))) == {0, 7}
     report = json.loads((cohort / "out" / "m.json").read_text())

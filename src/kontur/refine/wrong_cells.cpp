@@ -18,7 +18,7 @@ constexpr double kBeside = 1e-6;  // edges: a plane between two layers of cells 
 // single plane makes, however many say nothing; and the share of wrong cells that it mends, which images beside the drawing
 // do not (docs/decisions/0008-image-error.md).
 constexpr Rise kSureAlone{1, 2}, kMendedAlone{0.05, 0.15};
-constexpr Rise kSure{0.1, 0.9};  // probabilities
+constexpr Rise kSure{0.0228, 0.9772};  // probabilities: two standard deviations
 constexpr std::size_t kLeastPlanesTelling = 3;
 
 /// The mean in its standard errors.

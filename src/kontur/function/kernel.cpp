@@ -23,58 +23,53 @@ struct Sources {
     std::size_t count;
 };
 
-/// r^3, or the screened kernel. Inlined into one function for each, so that either is compiled for every instruction set.
-template <bool kScreened>
-[[gnu::always_inline]] inline void sum_cubes(const Sources& s, const Lanes& t, double* __restrict out) {
+/// The sums of phi(r^2, r). Inlined into one function for each kernel, so that each is compiled for every instruction set.
+template <class Phi>
+[[gnu::always_inline]] inline void sum_terms(const Sources& s, const Lanes& t, double* __restrict out) {
     alignas(64) double sum[kLanes] = {};
     for (std::size_t j = 0; j < s.count; ++j) {
         const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
         for (int l = 0; l < kLanes; ++l) {
             const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
-            const double r2 = dx * dx + dy * dy + dz * dz, r = std::sqrt(r2);
-            if constexpr (kScreened) {
-                double even, odd, value;
-                screened_halves(kScreenedValue, r2, even, odd);
-                screened_value(r2, r, even, odd, value);
-                sum[l] += w * value;
-            } else {
-                sum[l] += w * (r2 * r);
-            }
+            const double r2 = dx * dx + dy * dy + dz * dz;
+            sum[l] += w * Phi::at(r2, std::sqrt(r2));
         }
     }
     for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
 }
 
+struct Triharmonic {
+    [[gnu::always_inline]] static double at(double r2, double r) { return r2 * r; }
+};
+struct Biharmonic {
+    [[gnu::always_inline]] static double at(double, double r) { return r; }
+};
+struct Screened {
+    [[gnu::always_inline]] static double at(double r2, double r) {
+        double even, odd, value;
+        screened_halves(kScreenedValue, r2, even, odd);
+        screened_value(r2, r, even, odd, value);
+        return value;
+    }
+};
+struct ScreenedFar {
+    [[gnu::always_inline]] static double at(double, double r) { return screened_kernel_far(r); }
+};
+
 KONTUR_EVERY_INSTRUCTION_SET void sum_triharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
-    sum_cubes<false>(s, t, out);
+    sum_terms<Triharmonic>(s, t, out);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_screened(const Sources& s, const Lanes& t, double* __restrict out) {
-    sum_cubes<true>(s, t, out);
+    sum_terms<Screened>(s, t, out);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_screened_far(const Sources& s, const Lanes& t, double* __restrict out) {
-    alignas(64) double sum[kLanes] = {};
-    for (std::size_t j = 0; j < s.count; ++j) {
-        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
-        for (int l = 0; l < kLanes; ++l) {
-            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
-            sum[l] += w * screened_kernel_far(std::sqrt(dx * dx + dy * dy + dz * dz));
-        }
-    }
-    for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
+    sum_terms<ScreenedFar>(s, t, out);
 }
 
 KONTUR_EVERY_INSTRUCTION_SET void sum_biharmonic(const Sources& s, const Lanes& t, double* __restrict out) {
-    alignas(64) double sum[kLanes] = {};
-    for (std::size_t j = 0; j < s.count; ++j) {
-        const double sx = s.x[j], sy = s.y[j], sz = s.z[j], w = s.w[j];
-        for (int l = 0; l < kLanes; ++l) {
-            const double dx = t.x[l] - sx, dy = t.y[l] - sy, dz = t.z[l] - sz;
-            sum[l] += w * std::sqrt(dx * dx + dy * dy + dz * dz);
-        }
-    }
-    for (int l = 0; l < kLanes; ++l) out[l] = sum[l];
+    sum_terms<Biharmonic>(s, t, out);
 }
 
 // phi'(r) / r is 3 r for r^3 and 1 / r for r.

@@ -69,7 +69,7 @@ EvenPowers even_powers(const PointArrays& centers, std::span<const double> weigh
 void sum_kernel(Kernel kernel, const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                 std::span<double> out, const Work& work);
 
-/// The same sums of the screened kernel k itself, at any distance; three times the work.
+/// The same sums of the screened kernel k itself, at any distance; slower.
 void sum_far_kernel(const PointArrays& centers, std::span<const double> weights, const PointArrays& targets,
                     std::span<double> out, const Work& work);
 

@@ -19,6 +19,7 @@ struct Bound {
     double least_mm = -std::numeric_limits<double>::infinity();
     double most_mm = std::numeric_limits<double>::infinity();
     double noise_mm = 0;  ///< standard deviation
+    double extent = 1;    ///< in (0, 1], of the part of the drawing that it belongs to, over that of the whole (Extents)
 };
 
 struct Bounds {

@@ -65,9 +65,10 @@ private:
 
     Outside outside_of(const Vec3& place, double clear) const {
         double nearest = clear, shown_before = 0, shown_behind = 0;
-        for (const DrawnRegion& other : regions_) {
-            if (&other == &own_ || distance(other.ball.center, place) >= clear + other.ball.radius) continue;
+        for (const auto& [apart_mm, index] : nearest_first(place, clear)) {
+            const DrawnRegion& other = regions_[index];
             const double share = outside_per_mm(normal_, other.section.plane.normal);
+            if (share * apart_mm >= nearest && surely(apart_mm / clear) <= std::min(shown_before, shown_behind)) continue;
             for (const Vec3& shown : other.places) {
                 const double squared = dot(shown - place, shown - place);
                 if (!(squared > 0 && squared < clear * clear)) continue;
@@ -75,11 +76,28 @@ private:
                 nearest = std::min(nearest, share * apart);
                 const double ahead = dot(shown - place, normal_) / apart;
                 double& side = ahead > 0 ? shown_before : shown_behind;
-                side =
-                    std::max(side, (1 - smooth_step(kSurelyNear, 1, apart / clear)) * smooth_step(0, 0.5, std::abs(ahead)));
+                side = std::max(side, surely(apart / clear) * smooth_step(0, 0.5, std::abs(ahead)));
             }
         }
         return {nearest, 1 - shown_before * shown_behind};
+    }
+
+    static double surely(double share_of_clear) { return 1 - smooth_step(kSurelyNear, 1, share_of_clear); }
+
+    struct Near {
+        double apart_mm;  ///< no place of it is nearer
+        std::size_t region;
+    };
+
+    /// The other regions that may have places within a distance.
+    std::vector<Near> nearest_first(const Vec3& place, double within_mm) const {
+        std::vector<Near> near;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            const double apart = distance(regions_[r].ball.center, place) - regions_[r].ball.radius;
+            if (&regions_[r] != &own_ && apart < within_mm) near.push_back({std::max(apart, 0.0), r});
+        }
+        std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.apart_mm < b.apart_mm; });
+        return near;
     }
 
     const Ball3& ball_;

@@ -10,10 +10,12 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/base/parallel.h"
 #include "kontur/drawing/clicks.h"
 #include "kontur/drawing/drawn_planes.h"
 #include "kontur/drawing/empty_planes.h"
 #include "kontur/drawing/ends.h"
+#include "kontur/drawing/extents.h"
 #include "kontur/drawing/far_bounds.h"
 #include "kontur/drawing/gaps.h"
 #include "kontur/drawing/orient.h"
@@ -126,6 +128,20 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, con
     prepared.notes.insert(prepared.notes.end(), doubts.begin(), doubts.end());
 }
 
+/// What lies far away, at the edge of all, keeps the extent of all.
+void find_extents(const Extents& extents, const Work& work, PreparedContours& prepared) {
+    if (extents.is_one_part()) return;
+    const auto find = [&](auto& places) {
+        parallel_for(static_cast<std::int64_t>(places.size()), 256, work.threads,
+                     [&](std::int64_t begin, std::int64_t end) {
+                         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                             places[i].extent = extents.at(places[i].position);
+                     });
+    };
+    find(prepared.points);
+    find(prepared.bounds);
+}
+
 /// Of one contour among so many: each of them gets fewer where they are very many, so that they share what can be solved.
 int least_segments(const PrepareOptions& options, std::size_t contours) {
     constexpr std::size_t kAllContours = 4800;
@@ -185,6 +201,7 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
     append_boundary(fitted, set.contours.size(), corners, prepared);
     if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, work);
     append_limits(planes, options, work, prepared);
+    find_extents(Extents(set, drawing.ball), work, prepared);
     return prepared;
 }
 

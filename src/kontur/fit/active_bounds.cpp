@@ -88,7 +88,8 @@ void ActiveBounds::append_to(std::vector<PointConstraint>& points) const {
         if (held_[i] == Held::no) continue;
         points.push_back({.position = bound.position,
                           .value = held_[i] == Held::at_most ? bound.most_mm : bound.least_mm,
-                          .noise_mm = bound.noise_mm});
+                          .noise_mm = bound.noise_mm,
+                          .extent = bound.extent});
     }
 }
 

@@ -16,19 +16,20 @@
 namespace kontur {
 namespace {
 
-/// Accepts points that keep a distance from all those accepted before. Cells of several times that distance, so that most
-/// points need a look into their own only.
+/// Accepts points that keep a distance from all those accepted before. Cells of several times the largest distance, so that
+/// most points need a look into their own only.
 class SpacingFilter {
 public:
-    explicit SpacingFilter(double distance) : distance_(distance), cell_(distance > 0 ? 8 * distance : 1.0) {}
+    explicit SpacingFilter(double most) : most_(most), cell_(most > 0 ? 8 * most : 1.0) {}
 
-    bool accept(const Vec3& p) {
-        const Vec3 reach{distance_, distance_, distance_};
+    bool accept(const Vec3& p, double share) {
+        const double apart = share * most_;
+        const Vec3 reach{apart, apart, apart};
         const Index3 low = cell_at(p - reach), high = cell_at(p + reach);
         for (std::int64_t k = low.k; k <= high.k; ++k)
             for (std::int64_t j = low.j; j <= high.j; ++j)
                 for (std::int64_t i = low.i; i <= high.i; ++i)
-                    if (repeats_one_of(cells_.find({i, j, k}), p)) return false;
+                    if (repeats_one_of(cells_.find({i, j, k}), p, apart)) return false;
         cells_[cell_at(p)].push_back(p);
         return true;
     }
@@ -52,14 +53,14 @@ private:
         return {along(p.x), along(p.y), along(p.z)};
     }
 
-    bool repeats_one_of(Cells::const_iterator found, const Vec3& p) const {
+    bool repeats_one_of(Cells::const_iterator found, const Vec3& p, double apart) const {
         if (found == cells_.end()) return false;
         for (const Vec3& q : found->second)
-            if (p == q || distance(p, q) < distance_) return true;
+            if (p == q || distance(p, q) < apart) return true;
         return false;
     }
 
-    double distance_, cell_;
+    double most_, cell_;
     Cells cells_;
 };
 
@@ -75,6 +76,12 @@ void check_trust(double trust, std::string_view kind, std::size_t index) {
                     fmt::format("the trust in {} {} is {:g}; it must be finite and above 0", kind, index + 1, trust));
 }
 
+void check_extent(double extent, std::string_view kind, std::size_t index) {
+    if (!(extent > 0 && extent <= 1))
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("the extent of {} {} is {:g}; it must be in (0, 1]", kind, index + 1, extent));
+}
+
 void check_points(std::span<const BoundaryPoint> points, std::span<const PointConstraint> single_points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const BoundaryPoint& p = points[i];
@@ -86,11 +93,13 @@ void check_points(std::span<const BoundaryPoint> points, std::span<const PointCo
             throw Error(ErrorKind::invalid_input,
                         fmt::format("the depth of point {} is {:g} mm; it must be above 0", i + 1, p.depth_mm));
         check_trust(p.trust, "point", i);
+        check_extent(p.extent, "point", i);
     }
     for (std::size_t i = 0; i < single_points.size(); ++i) {
         const PointConstraint& p = single_points[i];
         check_finite(is_finite(p.position) && std::isfinite(p.value), "single point", i);
         check_trust(p.trust, "single point", i);
+        check_extent(p.extent, "single point", i);
     }
 }
 
@@ -110,7 +119,7 @@ std::vector<Station> choose_stations(std::span<const BoundaryPoint> points, cons
         else since_mm = std::numeric_limits<double>::infinity();
         if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
         if (options.both_sides && with_normal++ % 2 == 1) continue;
-        if (since_mm < options.normal_spacing_mm) {
+        if (since_mm < points[i].extent * options.normal_spacing_mm) {
             ++stations.back().stands_for;
             continue;
         }
@@ -143,31 +152,36 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
     check_points(points, single_points);
     PlacedConstraints result;
     SpacingFilter filter(options.merge_distance_mm);
-    const auto place = [&](const Vec3& at, double value, double trust = 1, double noise_mm = 0) {
-        if (!filter.accept(at)) {
+    const auto place = [&](const PointConstraint& p) {
+        if (!filter.accept(p.position, p.extent)) {
             ++result.merged;
             return false;
         }
-        result.constraints.centers.push_back(at);
-        result.constraints.values.push_back(value);
-        result.constraints.trust.push_back(trust);
-        result.constraints.noise_mm.push_back(noise_mm);
+        result.constraints.centers.push_back(p.position);
+        result.constraints.values.push_back(p.value);
+        result.constraints.trust.push_back(p.trust);
+        result.constraints.noise_mm.push_back(p.noise_mm);
+        result.constraints.extents.push_back(p.extent);
         return true;
     };
 
     std::vector<bool> kept(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) kept[i] = place(points[i].position, 0, points[i].trust);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        kept[i] = place({.position = points[i].position, .value = 0, .trust = points[i].trust, .extent = points[i].extent});
     const auto place_beside = [&](const Station& station, double side, double room_mm) {
-        const std::size_t i = station.point;
-        const double offset = std::min(options.normal_offset_mm, room_mm / 2);
-        place(points[i].position + side * offset * points[i].inplane_normal, -side * offset * slopes[i], points[i].trust,
-              offset * options.slope_noise / std::sqrt(static_cast<double>(station.stands_for)));
+        const BoundaryPoint& point = points[station.point];
+        const double offset = std::min(point.extent * options.normal_offset_mm, room_mm / 2);
+        place({.position = point.position + side * offset * point.inplane_normal,
+               .value = -side * offset * slopes[station.point],
+               .trust = point.trust,
+               .noise_mm = offset * options.slope_noise / std::sqrt(static_cast<double>(station.stands_for)),
+               .extent = point.extent});
     };
     for (const Station& station : choose_stations(points, kept, options)) {
         place_beside(station, 1, points[station.point].gap_mm);
         if (options.both_sides) place_beside(station, -1, points[station.point].depth_mm);
     }
-    for (const PointConstraint& p : single_points) place(p.position, p.value, p.trust, p.noise_mm);
+    for (const PointConstraint& p : single_points) place(p);
     return result;
 }
 

@@ -15,6 +15,7 @@ struct PointConstraint {
     double value;
     double trust = 1;     ///< > 0: how closely f is to follow, against smoothness
     double noise_mm = 0;  ///< >= 0: standard deviation of the value
+    double extent = 1;    ///< in (0, 1], as a boundary point's
 };
 
 struct PlaceOptions {

@@ -15,6 +15,7 @@ struct ConstraintSet {
     std::vector<double> values;
     std::vector<double> trust;     ///< > 0, the smoothing of a constraint is divided by it; empty: all 1
     std::vector<double> noise_mm;  ///< >= 0, standard deviations of the values, beside smoothing; empty: all 0
+    std::vector<double> extents;   ///< in (0, 1]: a constraint is smoothed as one of a drawing so much smaller; empty: all 1
 
     std::size_t size() const { return centers.size(); }
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
@@ -42,6 +43,12 @@ void check(const ConstraintSet& constraints, const SolveOptions& options) {
         check_same_count("degrees of trust", constraints.trust.size(), "constraints", constraints.size());
     if (!constraints.noise_mm.empty())
         check_same_count("noises", constraints.noise_mm.size(), "constraints", constraints.size());
+    if (!constraints.extents.empty())
+        check_same_count("extents", constraints.extents.size(), "constraints", constraints.size());
+    for (std::size_t i = 0; i < constraints.extents.size(); ++i)
+        if (!(constraints.extents[i] > 0 && constraints.extents[i] <= 1))
+            throw Error(ErrorKind::invalid_input, fmt::format("the extent of constraint {} is {:g}; it must be in (0, 1]",
+                                                              i + 1, constraints.extents[i]));
     for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
         if (!(constraints.noise_mm[i] >= 0 && std::isfinite(constraints.noise_mm[i])))
             throw Error(ErrorKind::invalid_input,
@@ -81,8 +88,11 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
 
 std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double radius_mm) {
     std::vector<double> smoothing(constraints.size(), options.smoothing);
+    const auto extent = [&](std::size_t i) { return constraints.extents.empty() ? 1.0 : constraints.extents[i]; };
+    // On the unit coordinates of a part of that extent the kernel is larger by the cube of it.
+    for (std::size_t i = 0; i < constraints.extents.size(); ++i) smoothing[i] *= std::pow(extent(i), 3);
     for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
-        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / radius_mm);
+        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / radius_mm) * extent(i);
     for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
         smoothing[i] /= constraints.trust[i];
         if (!std::isfinite(smoothing[i]))

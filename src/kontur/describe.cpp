@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "kontur/fit/missed_clicks.h"
@@ -135,33 +136,26 @@ void describe_long_edges(const StageResults& results, const Work& work, std::vec
             between.worst_contour + 1, between.max_mm));
 }
 
-/// The method's lengths are shares of the drawing's extent: contours that are small beside it may be too small for them.
-void describe_lost_contours(const StageResults& results, const Work& work, std::vector<std::string>& warnings) {
-    constexpr double kSmall = 0.02;   // of the drawing's diameter
-    constexpr double kMissed = 0.03;  // of the small contours' mean width
-    constexpr double kSeen = 0.25;    // of a voxel
-    const auto& [drawing, stages, prepared, fitted, image, surface, mask] = results;
-    ContourSet small;
-    std::vector<std::size_t> numbers;
-    double widths_mm = 0;
-    const std::vector<Contour>& contours = drawing.contours.contours;
-    for (std::size_t n = 0; n < contours.size(); ++n) {
-        const double width_mm = bounding_box(contours[n].points).diagonal();
-        if (width_mm > kSmall * drawing.diameter_mm()) continue;
-        small.contours.push_back(contours[n]), numbers.push_back(n + 1), widths_mm += width_mm;
+/// No object is as wide as a patient is tall: then a contour mostly lies where nobody meant it to.
+void describe_strays(const Drawing& drawing, std::vector<std::string>& warnings) {
+    constexpr double kMost_mm = 3000;
+    if (drawing.diameter_mm() <= kMost_mm) return;
+    std::vector<Ball3> contours;
+    for (const Contour& contour : drawing.contours.contours) contours.push_back(smallest_ball(contour.points));
+    double loneliest_mm = 0;
+    std::size_t stray = 0;
+    for (std::size_t c = 0; c < contours.size(); ++c) {
+        double nearest_mm = std::numeric_limits<double>::infinity();
+        for (std::size_t other = 0; other < contours.size(); ++other)
+            if (other != c)
+                nearest_mm = std::min(nearest_mm, distance(contours[c].center, contours[other].center) - contours[c].radius -
+                                                      contours[other].radius);
+        if (std::isfinite(nearest_mm) && nearest_mm > loneliest_mm) loneliest_mm = nearest_mm, stray = c;
     }
-    if (small.contours.empty()) return;
-    const Residual missed = residual(fitted.function, small, work);
-    if (missed.rms_mm <= kMissed * widths_mm / static_cast<double>(small.contours.size())) return;
-    const Vec3 voxel_mm = mask.grid.spacing_mm();
-    if (missed.rms_mm <= kSeen * std::min({voxel_mm.x, voxel_mm.y, voxel_mm.z})) return;
     warnings.push_back(
-        fmt::format("the surface does not follow small contours of this drawing, which is {:.3g} mm wide: it is up to "
-                    "{:.2g} mm off contour "
-                    "{}, of {:.2g} mm; draw what lies far apart as objects of its own, and see that no contour lies where "
-                    "it does not belong",
-                    drawing.diameter_mm(), missed.max_mm, numbers[missed.worst_contour],
-                    bounding_box(small.contours[missed.worst_contour].points).diagonal()));
+        fmt::format("what was drawn is {:.0f} mm wide, and contour {} is {:.0f} mm from any other; see that no "
+                    "contour lies where it does not belong",
+                    drawing.diameter_mm(), stray + 1, loneliest_mm));
 }
 
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
@@ -189,7 +183,7 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     describe_fit(prepared, fitted, stages.fit, report);
     report.residual = residual(fitted.function, contours, work);
     describe_long_edges(results, work, report.warnings);
-    describe_lost_contours(results, work, report.warnings);
+    describe_strays(drawing, report.warnings);
     describe_crossings(drawing, mask.grid, report);
     describe_thinness(contours, mask.grid, report.warnings);
     describe_mask(surface, mask, report);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What people and programs draw without meaning anything by it: twice, in planes that show only some of the parts, with any
 // origin of a plane, rounded.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +96,7 @@ TEST(DrawnOddly, WhatIsThinnerThanAVoxelIsSaid) {
     EXPECT_FALSE(warns(segmented(needle, 0.3, 5).report, "less than a voxel"));
 }
 
-TEST(DrawnOddly, SmallContoursThatAreLostInAWideDrawingAreNamed) {
+TEST(DrawnOddly, SmallContoursFarFromEachOtherAreFollowedAsIfDrawnAlone) {
     const auto balls = [](double apart) {
         ContourSet set;
         for (const double x : {0.0, apart})
@@ -104,13 +105,20 @@ TEST(DrawnOddly, SmallContoursThatAreLostInAWideDrawingAreNamed) {
         return set;
     };
     const Grid grid = grid_around({{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}}, {0.25, 0.25, 0.25}, 1);
-    EXPECT_FALSE(warns(segment(balls(100), grid).report, "does not follow small contours"));
-    EXPECT_TRUE(
-        warns(segment(balls(1000), grid).report, "does not follow small contours of this drawing, which is 1e+03 mm"));
+    const double alone_ml = segment(balls(10), grid).report.mask_volume_ml;
+    for (const double apart : {100.0, 300.0, 1000.0, 3000.0}) {
+        const SegmentReport report = segment(balls(apart), grid).report;
+        EXPECT_NEAR(report.mask_volume_ml, alone_ml, 0.03 * alone_ml) << apart << " mm apart";
+        EXPECT_LT(report.residual.max_mm, 0.03) << apart << " mm apart";
+        EXPECT_FALSE(warns(report, "lie in one plane")) << apart << " mm apart";
+    }
     ContourSet stray = ball({-30, 0, 30});
     stray.contours.push_back(circle_at({50'000, 0, 0}, 4, 24));
     const Grid image = grid_around({{-50, -50, -50}, {50, 50, 50}}, {4, 4, 4}, 10);
-    EXPECT_TRUE(warns(segment(stray, image).report, "see that no contour lies where it does not belong"));
+    EXPECT_TRUE(warns(segment(stray, image).report,
+                      fmt::format("contour {} is 49946 mm from any other; see that no contour", stray.contours.size())));
+    stray.contours.pop_back();
+    EXPECT_FALSE(warns(segment(stray, image).report, "from any other"));
 }
 
 TEST(DrawnOddly, WhatMissesAllContoursIsFoundOnEveryGrid) {

@@ -210,6 +210,24 @@ TEST(Solve, TheBallOfWhatWasDrawnSetsTheUnit) {
     EXPECT_LT(largest_error(function, set), 1e-6);
 }
 
+TEST(Solve, AConstraintIsSmoothedAsInADrawingOfItsExtent) {
+    std::mt19937 random = test::random_of_this_test();
+    ConstraintSet part = random_constraints(40, random);
+    part.noise_mm.assign(part.size(), 0.3);
+    const Ball3 alone{{}, 20}, whole{{}, 80};
+    SolveOptions options{.kernel = Kernel::triharmonic, .solver = Solver::cholesky, .smoothing = 1e-4};
+    options.ball = alone;
+    // The kernel without a mean knows no unit, so the same smoothing makes the same function.
+    const Solution smoothed = solve(part, options);
+    part.extents.assign(part.size(), alone.radius / whole.radius);
+    options.ball = whole;
+    const Solution in_wide = solve(part, options);
+    part.extents.clear();
+    const Solution too_smooth = solve(part, options);
+    for (const Vec3& p : part.centers) EXPECT_NEAR(in_wide.function.value(p), smoothed.function.value(p), 1e-6);
+    EXPECT_GT(std::abs(too_smooth.function.value(part.centers[0]) - smoothed.function.value(part.centers[0])), 1e-4);
+}
+
 TEST(Solve, SameBytesForAnyNumberOfThreads) {
     const ConstraintSet set = crossing_contours(70);  // several tiles and supernodes
     ASSERT_GT(set.size(), 1000u);
@@ -289,6 +307,10 @@ TEST(Solve, RefusesUnusableInput) {
     bad.noise_mm.assign(bad.size(), 0);
     bad.noise_mm[4] = -1;
     EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "the noise of constraint 5 is -1 mm");
+    bad.noise_mm.clear();
+    bad.extents.assign(bad.size(), 1);
+    bad.extents[1] = 1.5;
+    EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "the extent of constraint 2 is 1.5; it must be in (0, 1]");
     bad = good;
     bad.centers[6].y = std::nan("");
     EXPECT_KONTUR_ERROR(solve(bad), ErrorKind::invalid_input, "constraint 7 is not finite");

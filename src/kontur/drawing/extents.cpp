@@ -14,8 +14,7 @@ constexpr double kLeast = 1e-4;
 
 Extents::Extents(const ContourSet& drawn, const Ball3& ball) : whole_mm_(ball.radius) {
     for (const Contour& contour : drawn.contours) contours_.push_back(smallest_ball(contour.points));
-    std::stable_sort(contours_.begin(), contours_.end(),
-                     [](const Ball3& a, const Ball3& b) { return a.radius > b.radius; });
+    std::stable_sort(contours_.begin(), contours_.end(), [](const Ball3& a, const Ball3& b) { return a.radius > b.radius; });
     is_one_part_ = std::ranges::all_of(contours_, [&](const Ball3& contour) { return at(contour.center) == 1; });
 }
 

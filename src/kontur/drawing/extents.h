@@ -9,9 +9,9 @@
 namespace kontur {
 
 /// How large the part of a drawing is that a place belongs to, against all that was drawn: no contour is a part of something
-/// more than fifty times as wide as itself and what is near it. So small lesions far from each other are fitted as if each was
-/// drawn alone, and one object as a whole, however small some of its sections. Follows continuously when contours move, and
-/// turns and scales with them.
+/// more than fifty times as wide as itself and what is near it. So small lesions far from each other are fitted as if each
+/// was drawn alone, and one object as a whole, however small some of its sections. Follows continuously when contours move,
+/// and turns and scales with them.
 class Extents {
 public:
     /// `ball` is the smallest one around all that was drawn.

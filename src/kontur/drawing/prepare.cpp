@@ -24,9 +24,11 @@
 namespace kontur {
 namespace {
 
-bool is_coplanar(const DrawnPlanes& planes) {
+bool is_coplanar(const DrawnPlanes& planes, const Extents& extents) {
     const Plane& plane = planes.set.contours.front().plane;
-    const auto off_plane = [&](const Vec3& p) { return std::abs(plane.distance_to(p)) > planes.tolerance_mm; };
+    const auto off_plane = [&](const Vec3& p) {
+        return std::abs(plane.distance_to(p)) > planes.tolerance_mm * extents.at(p);
+    };
     for (const Contour& contour : planes.set.contours)
         if (std::any_of(contour.points.begin(), contour.points.end(), off_plane)) return false;
     return std::none_of(planes.set.surface.begin(), planes.set.surface.end(),
@@ -132,11 +134,10 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, con
 void find_extents(const Extents& extents, const Work& work, PreparedContours& prepared) {
     if (extents.is_one_part()) return;
     const auto find = [&](auto& places) {
-        parallel_for(static_cast<std::int64_t>(places.size()), 256, work.threads,
-                     [&](std::int64_t begin, std::int64_t end) {
-                         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-                             places[i].extent = extents.at(places[i].position);
-                     });
+        parallel_for(static_cast<std::int64_t>(places.size()), 256, work.threads, [&](std::int64_t begin, std::int64_t end) {
+            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                places[i].extent = extents.at(places[i].position);
+        });
     };
     find(prepared.points);
     find(prepared.bounds);
@@ -185,7 +186,8 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
     const ContourSet& set = drawing.tidied;
     const DrawnPlanes planes(set, drawing.ball);
     prepared.ball = drawing.ball;
-    prepared.coplanar = is_coplanar(planes);
+    const Extents extents(set, drawing.ball);
+    prepared.coplanar = is_coplanar(planes, extents);
 
     ContourSet reduced = set;
     const DrawnCorners corners(set, options.corners);
@@ -201,7 +203,7 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
     append_boundary(fitted, set.contours.size(), corners, prepared);
     if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, work);
     append_limits(planes, options, work, prepared);
-    find_extents(Extents(set, drawing.ball), work, prepared);
+    find_extents(extents, work, prepared);
     return prepared;
 }
 

@@ -46,7 +46,8 @@ void check_slopes(std::span<const double> slopes, std::size_t points);
 /// A normal constraint on the outside alone pulls the surface inwards wherever f does not reach it exactly. With
 /// `both_sides` every second point has two, f = +d s at the distance d inside (no more than half of the depth) as well:
 /// what they miss cancels at the line, and the constraints are as many. Of points with normal constraints that are nearer to
-/// each other than the spacing one stands for all, with the less noise.
+/// each other than the spacing one stands for all, with the less noise. Offset, spacing and merge distance are as much
+/// smaller as a point's extent.
 ///
 /// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
 /// distance of an earlier one is dropped; boundary constraints come first and win. Throws Error(invalid_input) as the two

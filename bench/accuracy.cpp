@@ -181,6 +181,10 @@ int run(const std::vector<std::string>& arguments) {
         fmt::print("{}\n", agreement_by_count().dump(1));
         return 0;
     }
+    if (arguments == std::vector<std::string>{"--phases"}) {
+        fmt::print("{}\n", agreement_by_phase().dump(1));
+        return 0;
+    }
     const auto is_given = [&](const char* option) { return std::ranges::find(arguments, option) != arguments.end(); };
     const bool markdown = is_given("--markdown"), with_paper = !is_given("--without-paper"),
                with_tilts = is_given("--tilts");
@@ -209,7 +213,8 @@ int run(const std::vector<std::string>& arguments) {
 /// accuracy [--markdown] [--without-paper] [--without-phantom] [--tilts] [FOLDER]...: folders as `measured_rows` takes them,
 /// then the phantom. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are
 /// also fitted with the tilts of the true masks, as the phantom's are.
-/// accuracy --counts: the phantom's organs by the number of planes drawn.
+/// accuracy --counts: the phantom's organs by the number of planes drawn. accuracy --phases: by where a stack of planes
+/// begins.
 int main(int count, char** arguments) {
     try {
         return kontur::run({arguments + 1, arguments + count});

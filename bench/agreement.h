@@ -42,4 +42,9 @@ inline Grid coarsened(const Grid& grid) {
 /// planes, each by kontur's defaults and by the paper's method. A list of rows, as `accuracy --counts` prints it.
 nlohmann::ordered_json agreement_by_count();
 
+/// What where a stack of parallel planes begins does: the phantom's organs across each axis in about 6 and 12 gaps, the
+/// first plane .1, .3, .5, .7 and .9 of a gap above the organ's lowest point. A list of rows, as `accuracy --phases` prints
+/// it.
+nlohmann::ordered_json agreement_by_phase();
+
 }  // namespace kontur

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "agreement.h"
-#include "kontur/phantom/cases.h"
 #include "kontur/phantom/drawing.h"
-#include "kontur/phantom/phantom.h"
+#include "organs.h"
 
 namespace kontur {
 namespace {
@@ -16,20 +14,6 @@ namespace {
 constexpr int kCounts[] = {3, 4, 5, 6, 7, 8, 10, 12, 14, 17, 20};
 constexpr int kMostPlanes = 20;
 constexpr std::size_t kPointsPerPlane = 120;
-
-struct Organ {
-    Body body;
-    Mask truth;
-    Box3 box;  ///< of the truth's voxels
-};
-
-Organ organ_of(const std::string& phantom_case_name, bool coarse) {
-    const PhantomCase drawn = phantom_case(phantom_case_name);
-    const Grid grid = coarse ? coarsened(drawn.grid) : drawn.grid;
-    Organ organ{*drawn.body, make_truth_mask(*drawn.body, grid), {}};
-    organ.box = bounding_box(organ.truth);
-    return organ;
-}
 
 /// Evenly spaced across an axis, as far from the ends of the box as it is dense.
 std::vector<Plane> across(const Box3& box, int axis, int count) {
@@ -86,8 +70,7 @@ nlohmann::ordered_json row(const Organ& organ, const std::string& direction, int
 nlohmann::ordered_json agreement_by_count() {
     constexpr int kSeries = 3;
     auto rows = nlohmann::ordered_json::array();
-    for (const char* name : {"liver_orthogonal14", "kidney_radial6", "metastasis_parallel17", "vertebra_parallel11"}) {
-        const Organ organ = organ_of(name, std::string(name).starts_with("liver"));
+    for (const Organ& organ : organs()) {
         for (const int count : kCounts) {
             fmt::print(stderr, "{}, {} planes\n", organ.body.name(), count);
             rows.push_back(row(organ, "axial", 1, axial(organ.box, count)));

@@ -17,7 +17,7 @@
 #include "kontur/io/frame_needed.h"
 #include "kontur/io/image.h"
 #include "kontur/shape/repeated_contours.h"
-#include "viewer/drawable.h"
+#include "viewer/unkept.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
 #include "viewer/same_space.h"
@@ -229,8 +229,7 @@ ReadContours first_contours(const OpenCommand& command, const Words& words, Open
     check_contours(read.contours);
     for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : leave_out_repetitions(read.contours)) read.notes.push_back(std::move(note));
-    for (std::string& note : viewer::leave_out_undrawable(read.contours)) read.notes.push_back(std::move(note));
-    viewer::check_is_drawable(read.contours);
+    for (std::string& note : viewer::leave_out_unkept(read.contours)) read.notes.push_back(std::move(note));
     result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());
     if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);
     return read;

@@ -18,8 +18,8 @@ public:
 
     /// Null where none is known, or the file cannot be read. "" is a modality, too: that of images that name none.
     nlohmann::json of(const std::string& modality) const;
-    /// Best effort: a file that cannot be written keeps nobody from work. Throws Error(too_large) where `state` has more than
-    /// 4 KiB, Error(invalid_input) where the modality is no code string of DICOM.
+    /// Best effort: a file that cannot be written keeps nobody from work. Throws Error(too_large) where `state` has more
+    /// than 4 KiB, Error(invalid_input) where the modality is no code string of DICOM.
     void keep(const std::string& modality, const nlohmann::json& state);
 
 private:

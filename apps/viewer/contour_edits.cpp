@@ -5,49 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "kontur/base/error.h"
 #include "kontur/shape/self_contacts.h"
+#include "viewer/contour_lines.h"
 
 namespace kontur::viewer {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
 
-/// `contour` with the line of this sketch instead of its own.
-DrawnContour redrawn(const DrawnContour& contour, const std::vector<SketchPoint>& sketch, SliceEdges& edges,
-                     const SketchOptions& options = {}) {
-    DrawnContour result = draw_contour(sketch, contour.plane, edges, options);
-    result.id = contour.id;
-    result.structure = contour.structure;
-    result.hole = contour.hole;
-    result.visible = contour.visible;
-    return result;
-}
-
 void check_index(const DrawnContour& contour, std::size_t index) {
     if (index >= contour.control.size())
         refuse(fmt::format("the contour has {} control points; number {} is none of them", contour.control.size(), index));
-}
-
-/// The control point whose stretch the line's point belongs to.
-std::size_t stretch_of(const DrawnContour& contour, std::size_t point) {
-    const auto after = std::upper_bound(contour.control.begin(), contour.control.end(), point,
-                                        [](std::size_t p, const ControlPoint& c) { return p < c.index; });
-    return static_cast<std::size_t>(after - contour.control.begin()) - 1;
-}
-
-/// A sketch's stretches that the curve or the image decides are made anew where a control point next to them changed: a
-/// spline's from two before to one after, a wire's or a line's on both sides.
-void forget_paths_at(std::vector<SketchPoint>& sketch, std::size_t index) {
-    const auto count = static_cast<std::ptrdiff_t>(sketch.size());
-    for (const std::ptrdiff_t step : {-2, -1, 0, 1}) {
-        const auto at = (static_cast<std::ptrdiff_t>(index) + step + 2 * count) % count;
-        SketchPoint& point = sketch[static_cast<std::size_t>(at)];
-        const bool touches = step == -1 || step == 0;
-        if (point.kind == Stretch::spline || (touches && point.kind != Stretch::free)) point.path.reset();
-    }
 }
 
 /// Moves a free stretch's end by `by`, and its other points with it, less and less towards the other end.
@@ -57,23 +28,6 @@ void bend(std::vector<Vec3>& path, const Vec3& by, bool at_start) {
         const double along = static_cast<double>(i + 1) / count;
         path[i] += (at_start ? 1 - along : along) * by;
     }
-}
-
-/// Length of the closed line from its first point to each point; one more entry for the whole.
-std::vector<double> arc_lengths(const std::vector<Vec3>& points) {
-    std::vector<double> lengths{0};
-    for (std::size_t i = 0; i < points.size(); ++i)
-        lengths.push_back(lengths.back() + distance(points[i], points[(i + 1) % points.size()]));
-    return lengths;
-}
-
-/// The contour with a control point at the line's point `point`; nothing else changes. Returns its number.
-std::size_t split_at(DrawnContour& contour, std::size_t point) {
-    const std::size_t stretch = stretch_of(contour, point);
-    if (contour.control[stretch].index == point) return stretch;
-    contour.control.insert(contour.control.begin() + static_cast<std::ptrdiff_t>(stretch) + 1,
-                           {contour.points[point], contour.control[stretch].kind, point, contour.control[stretch].image});
-    return stretch + 1;
 }
 
 /// The same line with further points: within `reach_mm` of a place no two are farther apart than `step_mm`. Straight parts
@@ -86,7 +40,7 @@ DrawnContour finer(const DrawnContour& contour, const Vec3& place, double reach_
         for (std::size_t c = 0; c < contour.control.size(); ++c)
             if (contour.control[c].index == n) line.control[c].index = line.points.size();
         line.points.push_back(from);
-        if (distance_to_segment(place, from, to) > reach_mm) continue;
+        if (n == edge_count(contour) || distance_to_segment(place, from, to) > reach_mm) continue;
         const double steps = std::ceil(distance(from, to) / step_mm);
         for (double step = 1; step < steps; ++step) line.points.push_back(from + (step / steps) * (to - from));
     }
@@ -108,7 +62,10 @@ DrawnContour draw_contour(const std::vector<SketchPoint>& sketch, const Plane& p
     contour.plane = plane;
     contour.control = std::move(drawing.control);
     contour.points = std::move(drawing.points);
-    if (contour.points.size() < 3 || !(width_mm(contour.points) > ContourCheckOptions{}.line_tolerance_mm))
+    contour.closed = options.closed;
+    if (!contour.closed && contour.points.size() < 2) refuse("an open line needs at least two points");
+    if (contour.closed &&
+        (contour.points.size() < 3 || !(width_mm(contour.points) > ContourCheckOptions{}.line_tolerance_mm)))
         refuse("a contour needs at least three points that do not lie on one line");
     return contour;
 }
@@ -118,14 +75,17 @@ DrawnContour move_point(const DrawnContour& contour, std::size_t index, const Ve
     check_index(contour, index);
     std::vector<SketchPoint> sketch = sketch_of(contour);
     const std::size_t count = sketch.size();
-    if (count == 1) return pull(contour, contour.control[0].at, to, {}, edges);
+    // What a hand drew in one go bends near the point alone.
+    if (count == 1 || (!contour.closed && count == 2 && kind_name(contour) == "freehand"))
+        return pull(contour, contour.control[index].at, to, {}, edges);
     SketchPoint& point = sketch[index];
     const Vec3 by = to - point.at;
     point.at = to;
-    SketchPoint& before = sketch[(index + count - 1) % count];
     if (point.kind == Stretch::free) bend(*point.path, by, true);
-    if (before.kind == Stretch::free) bend(*before.path, by, false);
-    forget_paths_at(sketch, index);
+    // Before an open line's first point there is nothing.
+    SketchPoint& before = sketch[neighbor(count, contour.closed, index, -1).value_or(index)];
+    if (&before != &point && before.kind == Stretch::free) bend(*before.path, by, false);
+    forget_paths_at(sketch, contour.closed, index);
     SketchOptions snapping = options;
     snapping.snap = options.snap && (point.kind == Stretch::wire || before.kind == Stretch::wire);
     // Only the moved point may jump to an edge; its neighbours lie where the user left them.
@@ -143,17 +103,23 @@ DrawnContour insert_point(const DrawnContour& contour, const Vec3& at, SliceEdge
     std::vector<SketchPoint> sketch = sketch_of(split);
     if (sketch[index].kind == Stretch::free) return split;
     sketch[index].at = at;
-    forget_paths_at(sketch, index);
-    return redrawn(contour, sketch, edges, {.snap = false});
+    forget_paths_at(sketch, contour.closed, index);
+    return redrawn(contour, sketch, edges);
 }
 
 DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceEdges& edges) {
     check_index(contour, index);
     std::vector<SketchPoint> sketch = sketch_of(contour);
-    const bool is_free = kind_name(contour) == "freehand";
-    if (sketch.size() <= (is_free ? 1u : 3u))
+    const std::size_t least = !contour.closed ? 2 : kind_name(contour) == "freehand" ? 1 : 3;
+    if (sketch.size() <= least)
         refuse(fmt::format("the contour has {} control points, which it needs; delete the contour instead", sketch.size()));
     const std::size_t count = sketch.size(), before = (index + count - 1) % count;
+    if (!contour.closed && (index == 0 || index + 1 == count)) {  // the line ends at the next one
+        if (index > 0) sketch[before].path.reset();
+        forget_paths_at(sketch, false, index);
+        sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(index));
+        return redrawn(contour, sketch, edges);
+    }
     if (sketch[before].kind == Stretch::free || sketch[index].kind == Stretch::free) {
         // A free stretch is kept as it was drawn, so the point only stops being one to drag.
         sketch[before].kind = Stretch::free;
@@ -162,20 +128,20 @@ DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceE
         sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(index));
     } else {
         sketch[before].path.reset();
-        forget_paths_at(sketch, index);
+        forget_paths_at(sketch, contour.closed, index);
         sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(index));
     }
-    return redrawn(contour, sketch, edges, {.snap = false});
+    return redrawn(contour, sketch, edges);
 }
 
 DrawnContour pull(const DrawnContour& drawn, const Vec3& from, const Vec3& to, std::optional<double> radius_mm,
                   SliceEdges& edges) {
     constexpr double kSteps = 8;  // within the radius
-    const double radius = radius_mm.value_or(arc_lengths(drawn.points).back() / 8);
+    const double radius = radius_mm.value_or(arc_lengths(drawn).back() / 8);
     if (!(radius > 0)) refuse(fmt::format("the radius of a pull is {:g} mm; more than 0 is needed", radius));
     const DrawnContour contour = finer(drawn, from, radius, radius / kSteps);
-    const std::vector<double> at = arc_lengths(contour.points);
-    const double whole = at.back();
+    const std::vector<double> at = arc_lengths(contour);
+    const double whole = contour.closed ? at.back() : std::numeric_limits<double>::infinity();
     const std::size_t grabbed = nearest_point(contour.points, from);
     const Vec3 by = to - from;
     DrawnContour bent = contour;
@@ -187,7 +153,7 @@ DrawnContour pull(const DrawnContour& drawn, const Vec3& from, const Vec3& to, s
         bent.control[stretch_of(contour, i)].kind = Stretch::free;
     }
     for (ControlPoint& c : bent.control) c.at = bent.points[c.index];
-    return redrawn(contour, sketch_of(bent), edges, {.snap = false});
+    return redrawn(contour, sketch_of(bent), edges);
 }
 
 std::optional<DrawnContour> bent(const DrawnContour& contour, const std::function<std::optional<Vec3>(const Vec3&)>& goes_to,
@@ -199,7 +165,9 @@ std::optional<DrawnContour> bent(const DrawnContour& contour, const std::functio
     for (std::size_t n = 0; n < count; ++n) {
         const std::size_t own = stretch_of(contour, n);
         if (contour.control[own].index == n) line.control[own].index = line.points.size();
-        const Vec3 &from = contour.points[n], along = contour.points[(n + 1) % count] - from;
+        const Vec3& from = contour.points[n];
+        // Behind an open line's end there is no edge: it alone is asked.
+        const Vec3 along = n == edge_count(contour) ? Vec3{} : contour.points[(n + 1) % count] - from;
         const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(norm(along) / step_mm)));
         std::vector<Vec3> places;
         std::vector<std::optional<Vec3>> gone;
@@ -217,12 +185,13 @@ std::optional<DrawnContour> bent(const DrawnContour& contour, const std::functio
     }
     if (!any) return std::nullopt;
     for (ControlPoint& c : line.control) c.at = line.points[c.index];
-    return redrawn(contour, sketch_of(line), edges, {.snap = false});
+    return redrawn(contour, sketch_of(line), edges);
 }
 
 DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges) {
     if (path.size() < 2) refuse("the new part of a contour has fewer than 2 points");
-    const std::vector<double> at = arc_lengths(contour.points);
+    if (!contour.closed) return redraw_open(contour, path, edges);
+    const std::vector<double> at = arc_lengths(contour);
     std::size_t first = nearest_point(contour.points, path.front()), last = nearest_point(contour.points, path.back());
     if (first == last) refuse("the new part of a contour starts and ends at the same place of it");
     std::vector<Vec3> part = path;
@@ -241,14 +210,15 @@ DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, 
         std::find_if(sketch.begin() + 1, sketch.end(), [&](const SketchPoint& p) { return p.at == contour.points[first]; });
     sketch.erase(std::next(replaced), sketch.end());
     sketch.back().kind = Stretch::free;
-    sketch.back().path = thinned(part, 0.1);
-    return redrawn(contour, sketch, edges, {.snap = false});
+    sketch.back().path = thinned(part, kRedrawnThinning_mm);
+    return redrawn(contour, sketch, edges);
 }
 
 DrawnContour redraw_whole(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges) {
-    if (path.size() < 3) refuse("the new line of a contour has fewer than 3 points");
+    const std::size_t least = contour.closed ? 3 : 2;
+    if (path.size() < least) refuse(fmt::format("the new line of a contour has fewer than {} points", least));
     const std::vector<Vec3> rest(path.begin() + 1, path.end());
-    return redrawn(contour, {{.at = path.front(), .kind = Stretch::free, .path = rest}}, edges, {.snap = false});
+    return redrawn(contour, {{.at = path.front(), .kind = Stretch::free, .path = rest}}, edges);
 }
 
 DrawnContour translate(const DrawnContour& contour, const Vec3& by) {
@@ -268,19 +238,16 @@ std::vector<Vec3> self_crossings(const DrawnContour& contour, std::size_t most) 
         const Point2 at = contour.plane.to_uv(p);
         if (polygon.empty() || polygon.back() != at) polygon.push_back(at);
     }
+    const bool has_last_edge = contour.closed || polygon.front() == polygon.back();
     while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
     std::vector<Vec3> crossings;
     if (polygon.size() < 4) return crossings;  // three points cannot cross
-    for (const SelfContact& contact : find_self_contacts(polygon).contacts)
-        if (contact.kind == SelfContact::Kind::crossing && crossings.size() < most)
+    for (const SelfContact& contact : find_self_contacts(polygon).contacts) {
+        const bool is_drawn = has_last_edge || contact.second + 1 < polygon.size();
+        if (is_drawn && contact.kind == SelfContact::Kind::crossing && crossings.size() < most)
             crossings.push_back(contour.plane.from_uv(contact.position));
+    }
     return crossings;
-}
-
-std::size_t nearest_point(const std::vector<Vec3>& points, const Vec3& p) {
-    const auto nearest = std::min_element(points.begin(), points.end(),
-                                          [&](const Vec3& a, const Vec3& b) { return distance(a, p) < distance(b, p); });
-    return static_cast<std::size_t>(nearest - points.begin());
 }
 
 }  // namespace kontur::viewer

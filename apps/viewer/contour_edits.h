@@ -12,7 +12,7 @@
 
 namespace kontur::viewer {
 
-/// Makes a contour of a closed sketch. It needs three points that do not lie on one line.
+/// Makes a contour of a sketch. A closed one needs three points that do not lie on one line, an open one two points.
 DrawnContour draw_contour(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
                           const SketchOptions& options = {});
 
@@ -23,7 +23,8 @@ DrawnContour move_point(const DrawnContour& contour, std::size_t index, const Ve
 /// A further control point: at `at` on a spline, wire or straight stretch, on the line's nearest point of a free one.
 DrawnContour insert_point(const DrawnContour& contour, const Vec3& at, SliceEdges& edges);
 
-/// Joins the two stretches at a control point. The last three control points cannot be deleted, nor the only one.
+/// Joins the two stretches at a control point; without its last point an open line ends at the one before. The last three
+/// control points cannot be deleted, nor an open line's last two, nor the only one.
 DrawnContour delete_point(const DrawnContour& contour, std::size_t index, SliceEdges& edges);
 
 /// Moves the line's point nearest to `from` by `to - from`, and its neighbours along the line within the radius less and
@@ -36,10 +37,22 @@ DrawnContour pull(const DrawnContour& contour, const Vec3& from, const Vec3& to,
 std::optional<DrawnContour> bent(const DrawnContour& contour, const std::function<std::optional<Vec3>(const Vec3&)>& goes_to,
                                  double step_mm, SliceEdges& edges);
 
-/// Replaces the shorter part of the line between the points nearest to the path's two ends by the path.
+/// Replaces the shorter part of the line between the points nearest to the path's two ends by the path; of an open line the
+/// part between them.
 DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges);
 
-/// Replaces the whole line by the path, whose last point is followed by its first.
+/// The same of an open line. Where the path goes on beyond an end of it, the line leads there from now on. From one end to
+/// the other one it closes the line, if it is shorter than half of it; else it is the line.
+DrawnContour redraw_open(const DrawnContour& line, const std::vector<Vec3>& path, SliceEdges& edges);
+
+/// Leaves out the stretch between control points that is nearest to `at`, or else the last one: an open line. Of a line
+/// without other control points than its first one, only an edge of it.
+DrawnContour opened(const DrawnContour& contour, const std::optional<Vec3>& at, SliceEdges& edges);
+
+/// Leads an open line on from its end to its beginning, as its last control point says.
+DrawnContour closed(const DrawnContour& contour, SliceEdges& edges);
+
+/// Replaces the whole line by the path, whose last point a closed line follows by its first.
 DrawnContour redraw_whole(const DrawnContour& contour, const std::vector<Vec3>& path, SliceEdges& edges);
 
 /// Moves all of it within its plane; what of `by` leads out of it is left out.
@@ -50,8 +63,5 @@ DrawnContour offset(const DrawnContour& contour, double offset_mm);
 
 /// Where the line crosses itself, in mm; where it only touches itself it does not. At most `most` places. O(n log n).
 std::vector<Vec3> self_crossings(const DrawnContour& contour, std::size_t most = 20);
-
-/// The line's point nearest to `p`.
-std::size_t nearest_point(const std::vector<Vec3>& points, const Vec3& p);
 
 }  // namespace kontur::viewer

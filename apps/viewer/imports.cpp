@@ -27,9 +27,9 @@
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/shape/repeated_contours.h"
-#include "viewer/drawable.h"
 #include "viewer/model_json.h"
 #include "viewer/temporary_files.h"
+#include "viewer/unkept.h"
 #include "viewer/views.h"
 
 namespace kontur::viewer {
@@ -125,7 +125,7 @@ Imported read_rtstruct_of(const fs::path& path) {
     for (Roi& roi : set.rois) {
         if (!roi.damage.empty()) imported.notes.push_back("left out: " + roi.damage);
         for (const std::string& note : roi.notes) imported.notes.push_back(roi.name + ": " + note);
-        for (const std::string& note : leave_out_undrawable(roi.contours)) imported.notes.push_back(roi.name + ": " + note);
+        for (const std::string& note : leave_out_unkept(roi.contours)) imported.notes.push_back(roi.name + ": " + note);
         if (roi.contours.contours.empty()) {
             if (!roi.contours.surface.empty()) imported.notes.push_back(roi.name + ": left out: points without a contour");
             continue;
@@ -144,8 +144,7 @@ Imported read_contours_of(const fs::path& path) {
     check_contours(read.contours);
     for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : leave_out_repetitions(read.contours)) read.notes.push_back(std::move(note));
-    for (std::string& note : leave_out_undrawable(read.contours)) read.notes.push_back(std::move(note));
-    check_is_drawable(read.contours);
+    for (std::string& note : leave_out_unkept(read.contours)) read.notes.push_back(std::move(note));
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }
 

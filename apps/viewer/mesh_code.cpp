@@ -101,7 +101,8 @@ WidthCode code_distances(std::span<const double> distances_mm) {
     WidthCode code;
     for (const double distance : distances_mm) code.step_mm = std::max(code.step_mm, std::abs(distance) / kMost);
     for (const double distance : distances_mm)
-        code.steps.push_back(static_cast<std::uint8_t>(kZero + (code.step_mm > 0 ? std::round(distance / code.step_mm) : 0)));
+        code.steps.push_back(
+            static_cast<std::uint8_t>(kZero + (code.step_mm > 0 ? std::round(distance / code.step_mm) : 0)));
     return code;
 }
 

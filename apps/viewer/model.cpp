@@ -12,7 +12,8 @@ namespace kontur::viewer {
 namespace {
 
 bool all_of_kind(const DrawnContour& contour, Stretch kind) {
-    return std::all_of(contour.control.begin(), contour.control.end(),
+    const bool ends_there = !contour.closed && contour.control.size() > 1;  // no stretch leads on from an open line's end
+    return std::all_of(contour.control.begin(), contour.control.end() - (ends_there ? 1 : 0),
                        [&](const ControlPoint& c) { return c.kind == kind; });
 }
 
@@ -44,8 +45,20 @@ DrawnContour as_drawn(const Contour& contour) {
     drawn.plane = contour.plane;
     drawn.points = contour.points;
     drawn.hole = contour.hole;
+    drawn.closed = contour.closed;
+    drawn.inside = contour.inside;
     if (!drawn.points.empty()) drawn.control.push_back({drawn.points.front(), Stretch::free, 0});
+    if (!drawn.closed && drawn.points.size() > 1)
+        drawn.control.push_back({drawn.points.back(), Stretch::free, drawn.points.size() - 1});
     return drawn;
+}
+
+Contour as_contour(const DrawnContour& contour) {
+    return {.plane = contour.plane,
+            .points = contour.points,
+            .closed = contour.closed,
+            .hole = contour.hole,
+            .inside = contour.inside};
 }
 
 ContourSet without_contours(const Structure& s) {
@@ -55,7 +68,7 @@ ContourSet without_contours(const Structure& s) {
 ContourSet contour_set(const State& state, Id structure) {
     ContourSet set = without_contours(structure_of(state, structure));
     for (const auto& [id, contour] : state.contours)
-        if (contour->structure == structure) set.contours.push_back({contour->plane, contour->points, true, contour->hole});
+        if (contour->structure == structure) set.contours.push_back(as_contour(*contour));
     return set;
 }
 

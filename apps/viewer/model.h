@@ -23,7 +23,7 @@ std::string_view name(Stretch kind) noexcept;
 /// A point to drag.
 struct ControlPoint {
     Vec3 at;
-    Stretch kind = Stretch::free;  ///< of the line to the next control point; the last one's leads to the first
+    Stretch kind = Stretch::free;  ///< of the line to the next control point; the last one's leads to the first, or would
     std::size_t index = 0;         ///< where that line starts in the contour's points; `points[index] == at`
     int image = 0;                 ///< number of the image whose edges it follows, where it is a wire
 
@@ -35,9 +35,11 @@ struct DrawnContour {
     Id structure = 0;
     Plane plane;
     std::vector<ControlPoint> control;  ///< at least one, by growing index, the first at index 0
-    std::vector<Vec3> points;           ///< the closed polygon in mm, on the plane
+    std::vector<Vec3> points;           ///< the closed polygon, or the open line, in mm, on the plane
     bool hole = false;
     bool visible = true;
+    bool closed = true;            ///< false: a stretch of the border; its last control point is its last point
+    std::optional<Hand> inside{};  ///< of an open line: where the structure lies; unset: to be found out
 
     friend bool operator==(const DrawnContour&, const DrawnContour&) = default;
 };
@@ -47,6 +49,9 @@ std::string_view kind_name(const DrawnContour& contour) noexcept;
 
 /// A contour of a file, or drawn by others: one free stretch.
 DrawnContour as_drawn(const Contour& contour);
+
+/// As the library takes it.
+Contour as_contour(const DrawnContour& contour);
 
 struct Structure {
     Id id = 0;

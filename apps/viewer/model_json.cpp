@@ -125,14 +125,17 @@ json to_json(const ControlPoint& c) {
 json to_json(const DrawnContour& c) {
     json control = json::array();
     for (const ControlPoint& point : c.control) control.push_back(to_json(point));
-    return {{"id", c.id},
-            {"structure", c.structure},
-            {"kind", kind_name(c)},
-            {"plane", to_json(c.plane)},
-            {"control", std::move(control)},
-            {"points", to_json(c.points)},
-            {"hole", c.hole},
-            {"visible", c.visible}};
+    json told{{"id", c.id},
+              {"structure", c.structure},
+              {"kind", kind_name(c)},
+              {"plane", to_json(c.plane)},
+              {"control", std::move(control)},
+              {"points", to_json(c.points)},
+              {"closed", c.closed},
+              {"hole", c.hole},
+              {"visible", c.visible}};
+    if (c.inside) told["inside"] = std::string(name(*c.inside));
+    return told;
 }
 
 Members::Members(const json& object, const Limits& limits) : object_(object), limits_(limits) {
@@ -240,6 +243,13 @@ Stretch Members::stretch(const char* key) const {
     refuse(fmt::format("'{}' is none of free, line, spline and wire", key));
 }
 
+Hand Members::hand(const char* key) const {
+    const std::string word = text(key, 16);
+    for (const Hand hand : {Hand::left, Hand::right})
+        if (word == name(hand)) return hand;
+    refuse(fmt::format("'{}' is neither left nor right", key));
+}
+
 std::string Members::color(const char* key) const {
     std::string color = text(key, 7);
     const auto is_hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
@@ -274,8 +284,12 @@ DrawnContour contour_from_json(const json& value, const Limits& limits) {
     c.structure = m.id("structure");
     c.plane = m.plane("plane");
     c.points = m.points("points");
+    c.closed = m.flag_or("closed", true);  // of projects from before there were open lines
     c.hole = m.flag("hole");
     c.visible = m.flag("visible");
+    if (m.has("inside")) c.inside = m.hand("inside");
+    if (!c.closed && c.hole) refuse("a contour is open and a hole; only closed contours can be holes");
+    if (c.closed && c.inside) refuse("a contour is closed and says on which hand the structure lies");
     if (!m.at("control").is_array() || m.at("control").empty()) refuse("a contour has no control points");
     for (const json& item : m.at("control")) {
         const Members point(item, limits);

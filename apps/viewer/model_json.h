@@ -75,6 +75,7 @@ public:
     std::vector<SurfacePoint> surface_points(const char* key) const;
     std::vector<Plane> planes(const char* key, std::size_t most = kMostEmptyPlanes) const;
     Stretch stretch(const char* key) const;
+    Hand hand(const char* key) const;
     /// The number of an image, from 0; 0 where it is missing.
     int image(const char* key) const;
     /// The member `time`, from 0; unset where it is missing.

@@ -34,6 +34,7 @@ std::vector<DrawnContour> Session::carried_with(const DrawnContour& contour) {
     if (!state.borders.shared || before == state.contours.end()) return {};
     const DrawnContour& old = *before->second;
     if (old.structure != contour.structure || old.points == contour.points || old.points.size() < 3) return {};
+    if (!old.closed || !contour.closed) return {};  // an open line says nothing of a border beyond its ends
     const Vec3 spacing = image_->grid.spacing_mm();
     const double near_mm = kNearVoxels * std::min({spacing.x, spacing.y, spacing.z});
     std::vector<DrawnContour> carried;

@@ -57,6 +57,38 @@ std::string label_of(std::string_view origin) {
     return std::ranges::find(kOrigins, origin, &std::pair<std::string_view, const char*>::first)->second;
 }
 
+/// What the message says of the contour beside its line. `structure` has been checked.
+void set_marks(DrawnContour& contour, const Members& m) {
+    if (m.has("structure")) contour.structure = m.id("structure");
+    contour.hole = m.flag_or("hole", contour.hole);
+    contour.visible = m.flag_or("visible", contour.visible);
+    if (contour.hole && !contour.closed)
+        throw Error(ErrorKind::invalid_input, "an open line encloses nothing, so it can be no hole");
+    if (!m.has("inside")) return;
+    if (contour.closed)
+        throw Error(ErrorKind::invalid_input,
+                    "the structure lies inside of a closed contour; of open lines alone the side is told");
+    contour.inside.reset();
+    if (m.text("inside", 16) != "auto") contour.inside = m.hand("inside");
+}
+
+/// The line closed or opened, if the message says so, and its marks set.
+DrawnContour as_told(const DrawnContour& before, const Members& m, SliceEdges& edges) {
+    std::optional<Vec3> at;
+    if (m.has("at")) at = m.point("at");
+    DrawnContour after = before;
+    if (m.has("closed")) after = m.flag("closed") ? closed(before, edges) : opened(before, at, edges);
+    set_marks(after, m);
+    return after;
+}
+
+/// What the history calls such a change of one contour.
+const char* label_of_marks(const Members& m) {
+    if (m.has("closed")) return m.flag("closed") ? "Close a line" : "Open a contour";
+    if (m.has("inside")) return "Tell the side of a line";
+    return m.has("visible") ? "Show or hide a contour" : "Change a contour";
+}
+
 Commit one_contour(const std::string& label, const State& state, const DrawnContour& after) {
     Change<DrawnContour> change{after.id, {}, after};
     if (const auto before = state.contours.find(after.id); before != state.contours.end()) change.before = *before->second;
@@ -102,10 +134,11 @@ json Session::add_contour(const Members& m) {
     SketchOptions options;
     // The page sends control points that `path` has snapped already.
     options.snap = false;
+    options.closed = m.flag_or("closed", true);
     const Plane plane = m.plane("plane");  // of two wrong members every compiler's program names the same
     DrawnContour contour = draw_contour(sketch_from(m), plane, edges_, options);
     contour.structure = structure_of(project_.state(), m.id("structure")).id;
-    contour.hole = m.flag_or("hole", false);
+    set_marks(contour, m);
     return put(label_of(m.has("origin") ? m.text("origin", 16) : "drawn"), std::move(contour), m);
 }
 
@@ -163,22 +196,16 @@ json Session::copy_contour(const Members& m) {
 /// One contour, or several as one step.
 json Session::set_contour(const Members& m) {
     if (m.has("ids")) return set_contours(m);
-    DrawnContour contour = contour_of(project_.state(), m.id("id"));
-    if (m.has("structure")) contour.structure = structure_of(project_.state(), m.id("structure")).id;
-    contour.hole = m.flag_or("hole", contour.hole);
-    contour.visible = m.flag_or("visible", contour.visible);
-    return put(m.has("visible") ? "Show or hide a contour" : "Change a contour", std::move(contour), m);
+    if (m.has("structure")) structure_of(project_.state(), m.id("structure"));
+    return put(label_of_marks(m), as_told(contour_of(project_.state(), m.id("id")), m, edges_), m);
 }
 
 json Session::set_contours(const Members& m) {
     Commit changed;
+    if (m.has("structure")) structure_of(project_.state(), m.id("structure"));
     for (const Id id : ids_from(m)) {
         const DrawnContour& before = contour_of(project_.state(), id);
-        DrawnContour after = before;
-        if (m.has("structure")) after.structure = structure_of(project_.state(), m.id("structure")).id;
-        after.hole = m.flag_or("hole", before.hole);
-        after.visible = m.flag_or("visible", before.visible);
-        changed.contours.push_back({id, before, std::move(after)});
+        changed.contours.push_back({id, before, as_told(before, m, edges_)});
     }
     changed.label = fmt::format("{} {} contours", m.has("visible") ? "Show or hide" : "Change", changed.contours.size());
     commit(changed);

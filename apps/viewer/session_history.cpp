@@ -31,7 +31,8 @@ bool same_surface(const Structure& a, const Structure& b) {
 }
 
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
-    return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure;
+    return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure &&
+           a.closed == b.closed && a.inside == b.inside;
 }
 
 }  // namespace
@@ -141,7 +142,7 @@ SurfaceTask Session::surface_task(Id structure) const {
     }
     const auto add = [&](const DrawnContour& contour) {
         if (contour.structure != structure) return;
-        task.set.contours.push_back({contour.plane, contour.points, true, contour.hole});
+        task.set.contours.push_back(as_contour(contour));
         task.ids.push_back(contour.id);
     };
     // The draft in its contour's place: what is shown of it is then what will be, to the last bit.

@@ -126,6 +126,9 @@ json Session::surface_event(const Surface& surface) const {
                {"stage", std::string(name(surface.stage))},
                {"triangles", surface.mesh ? surface.mesh->triangles.size() : 0},
                {"warnings", surface.warnings}};
+    for (const LineSide& side : surface.sides)
+        event["sides"].push_back(
+            {{"contour", side.contour}, {"inside", std::string(kontur::name(side.inside))}, {"sure", side.is_sure}});
     if (is_finished(surface.stage) || surface.stage == SurfaceStage::none) {
         event["conflicts"] = json::array();
         for (const Conflict& conflict : surface.conflicts)

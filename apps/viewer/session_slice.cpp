@@ -179,7 +179,7 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
             head["contours"].push_back(id);
             continue;
         }
-        const std::vector<Vec3> points = crossings({contour->plane, contour->points, true, contour->hole}, raster.plane);
+        const std::vector<Vec3> points = crossings(as_contour(*contour), raster.plane);
         if (points.empty()) continue;
         head["crossings"].push_back(dots.add(points));
         head["crossings"].back()["contour"] = id;

@@ -27,6 +27,7 @@ class Sketcher {
 public:
     Sketcher(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges, const SketchOptions& options)
         : sketch_(sketch), plane_(plane), edges_(edges), options_(options) {
+        if (!options_.closed) end_by_a_point();
         for (std::size_t i = 0; i < sketch_.size(); ++i) place(sketch_[i], i > 0 ? &sketch_[i - 1] : nullptr);
     }
 
@@ -49,6 +50,14 @@ public:
     }
 
 private:
+    void end_by_a_point() {
+        SketchPoint& last = sketch_.back();
+        const std::vector<Vec3> path = last.path.value_or(std::vector<Vec3>{});
+        if (path.empty()) return;
+        last.path = std::vector<Vec3>(path.begin(), path.end() - 1);
+        sketch_.push_back({path.back(), last.kind, {}, last.image});
+    }
+
     void place(SketchPoint& point, const SketchPoint* before) const {
         point.at = projected(point.at, plane_);
         const bool on_wire =

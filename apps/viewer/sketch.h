@@ -10,7 +10,8 @@
 namespace kontur::viewer {
 
 /// A control point as the user sets it. With `path`, the line to the next control point runs through these points; without,
-/// it is made as `kind` says (free: straight).
+/// it is made as `kind` says (free: straight). From the last one of an open sketch a path leads to the line's end, which
+/// becomes a control point, too.
 struct SketchPoint {
     Vec3 at;
     Stretch kind = Stretch::free;

@@ -123,7 +123,8 @@ private:
         search(is_first_nearer ? second : first, p, found);
     }
 
-    /// Inside is told by the normal of the place, between those of the corners: across an edge a triangle's own can be wrong.
+    /// Inside is told by the normal of the place, between those of the corners: across an edge a triangle's own can be
+    /// wrong.
     void look_at(std::size_t triangle, const Vec3& p, Found& found) const {
         const auto [a, b, c] = corners(triangle);
         const Weights w = nearest_place(p, a, b, c);

@@ -63,6 +63,8 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
                     : update.asks_image     ? SurfaceStage::asking
                                             : SurfaceStage::refined;
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
+    for (const FoundSide& found : update.surface.sides)
+        surface.sides.push_back({task.ids[found.contour], found.inside, found.is_sure});
     if (!update.surface.refined) return surface;
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
     surface.residual = update.surface.residual;

@@ -39,6 +39,13 @@ struct Conflict {
     double disagreement_mm = 0;
 };
 
+/// On which hand of an open line that does not tell the structure was taken to lie.
+struct LineSide {
+    Id contour = 0;
+    Hand inside = Hand::left;
+    bool is_sure = true;
+};
+
 /// What is shown of a structure's surface.
 struct Surface {
     Id structure = 0;
@@ -46,6 +53,7 @@ struct Surface {
     SurfaceStage stage = SurfaceStage::none;
     std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
     std::vector<std::string> warnings;
+    std::vector<LineSide> sides;
     std::vector<Conflict> conflicts;  ///< the largest first; known when refined, and when there is no surface
     // Known when finished:
     double volume_ml = 0;

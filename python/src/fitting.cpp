@@ -223,7 +223,8 @@ PreparedContours
             const Preparing asked = preparing.parse("prepare", given);
             return unlocked([&] {
                 Drawing drawing(contours, asked.fill_rule);
-                std::vector<std::string> notes = find_sides(drawing.tidied);
+                std::vector<std::string> notes;
+                for (const FoundSide& found : find_sides(drawing.tidied)) notes.push_back(sentence(found));
                 PreparedContours prepared = prepare(drawing, asked.options);
                 prepared.notes.insert(prepared.notes.begin(), notes.begin(), notes.end());
                 return prepared;

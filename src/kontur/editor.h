@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/drawing/drawing.h"
 #include "kontur/drawing/prepare.h"
 #include "kontur/extract/surface_band.h"
 #include "kontur/fit/residual.h"
@@ -34,6 +35,7 @@ struct EditedSurface {
     TriangleMesh mesh;             ///< in mm, with normals; empty without contours
     double spacing_mm = 0;         ///< of the lattice that the mesh was made on
     Residual residual;             ///< at all drawn points; refined surfaces only
+    std::vector<FoundSide> sides;  ///< of the open contours that do not tell, numbered as they came
     int solves = 0;                ///< how often a linear system was solved for it
     RefineReport image{};          ///< what became of the image; refined surfaces only
     std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit: of previews, and of

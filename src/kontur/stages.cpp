@@ -94,8 +94,8 @@ StageOptions stage_options(const SegmentOptions& options, double diameter_mm) {
 
 Drawing read_drawing(const ContourSet& drawn, FillRule rule) {
     Drawing drawing(drawn, rule);
-    const std::vector<std::string> sides = find_sides(drawing.tidied);
-    drawing.notes.insert(drawing.notes.end(), sides.begin(), sides.end());
+    drawing.sides = find_sides(drawing.tidied);
+    for (const FoundSide& found : drawing.sides) drawing.notes.push_back(sentence(found));
     return drawing;
 }
 

@@ -45,9 +45,10 @@ TEST(FindSides, FollowWhatTheRestOfTheDrawingSays) {
                 test::circle(make_plane(kPlane.origin + at * kPlane.normal, kPlane.normal), std::sqrt(400 - at * at), 60));
         set.contours.push_back(arc(make_plane(kPlane.origin, kPlane.u), 20, reversed));
         EXPECT_THROW(prepare(set), Error) << "nobody told on which hand the object lies";
-        const std::vector<std::string> notes = find_sides(set);
-        ASSERT_EQ(notes.size(), 1u);
-        EXPECT_EQ(notes[0],
+        const std::vector<FoundSide> sides = find_sides(set);
+        ASSERT_EQ(sides.size(), 1u);
+        EXPECT_EQ(sides[0], (FoundSide{2, reversed ? Hand::right : Hand::left, true}));
+        EXPECT_EQ(sentence(sides[0]),
                   std::string("contour 3 is open; the object was taken to lie on its ") + (reversed ? "right" : "left"));
         for (const BoundaryPoint& point : prepare(set).points) {
             if (point.contour != 2) continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "support/expect_error.h"
+#include "viewer/contour_lines.h"
 #include "viewer/drawn_contours.h"
 
 namespace kontur::viewer {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include "kontur/shape/crossings.h"
 
 namespace kontur {
+
+/// On which hand of an open contour that does not tell the object was taken to lie.
+struct FoundSide {
+    std::size_t contour = 0;
+    Hand inside = Hand::left;
+    bool is_sure = true;
+
+    friend bool operator==(const FoundSide&, const FoundSide&) = default;
+};
 
 /// What was drawn, without repeated points and with its holes known, and what all stages ask of it, found once.
 struct Drawing {
@@ -21,6 +31,7 @@ struct Drawing {
     ContourSet tidied;                ///< the same without spikes, and with no more points than the fit needs
     Ball3 ball;                       ///< the smallest one around the tidied contours and single points, mm
     std::vector<Crossing> crossings;  ///< of contours of different planes
+    std::vector<FoundSide> sides{};   ///< where they have been asked for (read_drawing); `tidied` has them
     std::vector<std::string> notes;   ///< what was changed or is contradictory, one sentence each
 
     /// What the method's lengths are fractions of, so that results turn and scale with the contours.

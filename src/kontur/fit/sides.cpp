@@ -76,21 +76,25 @@ double leftness(const Contour& contour, const std::optional<ImplicitFunction>& c
 
 }  // namespace
 
-std::vector<std::string> find_sides(ContourSet& set) {
-    std::vector<std::string> notes;
+std::vector<FoundSide> find_sides(ContourSet& set) {
+    std::vector<FoundSide> sides;
     std::optional<ImplicitFunction> coarse;
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
         Contour& contour = set.contours[c];
         if (contour.closed || contour.inside) continue;
-        if (notes.empty()) coarse = coarse_fit(set);
+        if (sides.empty()) coarse = coarse_fit(set);
         constexpr double kSure = 0.3;
         const double left = leftness(contour, coarse, middle_of(set));
         const Hand hand = left > 0 ? Hand::left : Hand::right;
-        notes.push_back(fmt::format("contour {} is open; the object was taken to lie on its {}{}", c + 1, name(hand),
-                                    std::abs(left) < kSure ? ", which is doubtful" : ""));
+        sides.push_back({c, hand, std::abs(left) >= kSure});
         contour.inside = hand;
     }
-    return notes;
+    return sides;
+}
+
+std::string sentence(const FoundSide& found) {
+    return fmt::format("contour {} is open; the object was taken to lie on its {}{}", found.contour + 1, name(found.inside),
+                       found.is_sure ? "" : ", which is doubtful");
 }
 
 }  // namespace kontur

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kTold = 0.7;  // of the error without the image: where more is left, it said next to nothing
 
-bool is_same(const Contour& a, const Contour& b) { return a.points == b.points && a.closed == b.closed && a.hole == b.hole; }
+bool is_same(const Contour& a, const Contour& b) {
+    return a.points == b.points && a.closed == b.closed && a.hole == b.hole && a.inside == b.inside;
+}
 
 bool holds(const ContourSet& set, const Contour& contour) {
     return std::any_of(set.contours.begin(), set.contours.end(), [&](const Contour& c) { return is_same(c, contour); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { heightOver, type Axes, type PixelPlane, type Plane } from "./plane";
-import { add, dot, scale, sub, type Vec3 } from "./vec";
+import { add, cross, dot, scale, sub, type Vec3 } from "./vec";
 
 /** CSS pixels from a view's left and top edge. */
 export type Point2 = readonly [number, number];
@@ -36,6 +36,12 @@ export function slicePlane(screen: Screen, ratio: number): PixelPlane {
     origin: toWorld(screen, [0.5 / ratio, 0.5 / ratio]),
     mm_per_pixel: screen.mm_per_pixel / ratio,
   };
+}
+
+/** What lies to the left of someone who walks along this direction of the screen, upright on the side to which the plane's normal points. */
+export function leftOnScreen({ axes }: Screen, plane: Axes, [x, y]: Point2): Point2 {
+  const left = cross(plane.normal, add(scale(axes.u, x), scale(axes.v, y)));
+  return [dot(left, axes.u), dot(left, axes.v)];
 }
 
 export const depthBelow = (screen: Screen, p: Vec3): number => heightOver(planeOf(screen), p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { BorderPair, Borders, Changed, Contour, History, Session, Structure, Surface, UseImage } from "../net/protocol";
+import type { BorderPair, Borders, Changed, Contour, Hand, History, Session, Structure, Surface, UseImage } from "../net/protocol";
 import { Emitter } from "./emitter";
 
 type Topic = "contours" | "structures" | "surfaces" | "stages" | "history" | "selection" | "draft" | "borders" | "image" | "refused";
@@ -102,6 +102,11 @@ export class Project extends Emitter<Topic> {
   contour(id: number): Contour | undefined {
     if (this.draftContour?.id === id) return this.draftContour;
     return (this.draftContour && this.carried.find((contour) => contour.id === id)) ?? this.contours.get(id);
+  }
+
+  /** On which hand of an open line the structure lies, as it is told or was found; undefined before that. */
+  sideOf({ id, structure, inside }: Contour): Hand | undefined {
+    return inside ?? this.surfaces.get(structure)?.sides?.find(({ contour }) => contour === id)?.inside;
   }
 
   isShown(contour: Contour): boolean {

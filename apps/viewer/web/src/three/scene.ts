@@ -167,11 +167,12 @@ export class Scene {
     return tinted(color, this.ground === "light" ? -t : t);
   }
 
-  setContours(contours: { points: readonly Vec3[]; color: string; selected: boolean }[]): void {
+  setContours(contours: { points: readonly Vec3[]; closed: boolean; color: string; selected: boolean }[]): void {
     this.clear(this.lines);
-    for (const { points, color, selected } of contours) {
+    for (const { points, closed, color, selected } of contours) {
       const geometry = new THREE.BufferGeometry().setFromPoints(points.map(vector));
-      this.lines.add(new THREE.LineLoop(geometry, this.materials.line(this.stands(color, selected ? 0.95 : 0.6), 1)));
+      const material = this.materials.line(this.stands(color, selected ? 0.95 : 0.6), 1);
+      this.lines.add(closed ? new THREE.LineLoop(geometry, material) : new THREE.Line(geometry, material));
     }
     this.pace.changed(true);
   }

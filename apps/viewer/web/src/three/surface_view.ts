@@ -139,6 +139,7 @@ export class SurfaceView {
     this.scene?.setContours(
       project.shownContours().map((contour) => ({
         points: contour.points,
+        closed: contour.closed,
         color: project.structures.get(contour.structure)!.color,
         selected: project.selection?.contour === contour.id,
       })),

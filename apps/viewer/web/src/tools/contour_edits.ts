@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { toWorld, type Point2, type Screen } from "../geometry/screen";
-import { sub, type Vec3 } from "../geometry/vec";
+import { mix, sub, type Vec3 } from "../geometry/vec";
 import type { Arguments, CallName, Edit } from "../net/calls";
 import type { Contour } from "../net/protocol";
 import { Edits } from "./edits";
@@ -85,6 +85,23 @@ export class ContourEdits extends Edits {
     return this.drafts.drag(start, editAt, ({ name, args }) => this.make(name, args));
   }
 
+  /** Opens the selected contour at the stretch that is hit, or behind its selected point, or where it was closed; closes an open line. */
+  openOrClose(hit: ContourHit | null): void {
+    const { selectedContour: contour, selection } = this.project;
+    if (!contour) return this.services.tell("Select a contour to open or close it. While you draw one, U ends it as an open line.");
+    if (isContourHidden(contour, this.project, this.services)) return;
+    if (!contour.closed) return this.make("contour.set", { id: contour.id, closed: true });
+    const at = hit?.on === "line" && hit.contour === contour.id ? hit.at : behind(contour, selection?.point ?? null);
+    this.make("contour.set", { id: contour.id, closed: false, ...(at && { at }) });
+    this.project.select({ contour: contour.id, point: null });
+  }
+
+  /** The structure lies on the other side of an open line than it was taken to; "auto": that is found out again. */
+  turnSide(contour: Contour, side: "other" | "auto"): void {
+    const other = this.project.sideOf(contour) === "left" ? "right" : "left";
+    this.make("contour.set", { id: contour.id, inside: side === "auto" ? "auto" : other });
+  }
+
   /** The selected point, or else the marked contours. */
   deleteSelected(): void {
     const { selection, marked } = this.project;
@@ -93,4 +110,13 @@ export class ContourEdits extends Edits {
     this.make("contour.delete_point", { id: selection.contour, index: selection.point });
     this.project.select({ contour: selection.contour, point: null });
   }
+}
+
+/** In the middle of the stretch behind a control point. */
+function behind({ control, points }: Contour, index: number | null): Vec3 | null {
+  const from = index === null ? undefined : control[index];
+  if (!from || control.length < 2) return null;
+  const to = control[index! + 1]?.index ?? points.length;
+  const middle = Math.floor((from.index + to) / 2);
+  return mix(points[middle]!, points[(middle + 1) % points.length]!, 0.5);
 }

@@ -26,6 +26,8 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   /** Drawn by hand at this moment, or about to replace a stretch. */
   handLine: Vec3[] = [];
   pointerCloses = false;
+  /** What Enter, a double click and a stroke by hand finish stays open, but for lines that come back to where they began. */
+  endsOpen = false;
   readonly outbox: Outbox;
   /** The sketch that was left last, and by what: undo or redo brings it back, until something else is done. */
   private leftSketch: { sketch: Sketch; by: "leaving" | "undo" } | null = null;
@@ -93,7 +95,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   /** What is finished has to be saved or given up before the next is begun; says so. */
   holdsUnsaved(): boolean {
-    if (!this.sketch?.isClosed) return false;
+    if (!this.sketch?.isFinished) return false;
     this.services.tell(`${this.sketch.title} is not saved. Enter tries again, Esc gives it up.`);
     return true;
   }
@@ -105,7 +107,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   /** The line from the last point to the pointer. */
   stretchRubber(screen: Screen, step_mm: number, pointer: Point2): void {
-    if (this.sketch?.last && !this.sketch.isClosed && this.sketch.liesIn(planeOf(screen), step_mm / 2)) {
+    if (this.sketch?.last && !this.sketch.isFinished && this.sketch.liesIn(planeOf(screen), step_mm / 2)) {
       this.pointerCloses = this.isNearStart(screen, pointer) && this.sketch.canClose;
       const target = this.pointerCloses ? this.sketch.first! : toWorld(screen, pointer);
       this.rubber.send({ sketch: this.sketch, pointer: target, mm: screen.mm_per_pixel });
@@ -121,11 +123,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
 
   private endHand(screen: Screen, at: Point2, hand: Vec3[], kind: StretchKind): void {
     const closes = this.isNearStart(screen, at);
-    if (!this.sketch && (kind === "line" || comesAround(screen, hand))) {
-      const structure = this.project.activeStructure?.id ?? 0;
-      const drawn = Sketch.closedFree(planeOf(screen), structure, hand);
-      return this.isSlip(screen, hand) ? this.dropSlip(drawn) : this.send(drawn);
-    }
+    if (!this.sketch && (kind === "line" || comesAround(screen, hand))) return this.endStroke(screen, hand);
     const sketch = this.begun(screen, kind);
     sketch.drawFree(hand);
     if (closes && sketch.canClose) {
@@ -135,7 +133,15 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
     this.pointsChanged();
   }
 
-  private isSlip(screen: Screen, hand: Vec3[]): boolean {
+  /** All of it was drawn in one go. */
+  private endStroke(screen: Screen, hand: readonly Vec3[]): void {
+    const structure = this.project.activeStructure?.id ?? 0;
+    if (this.endsOpen && !comesAround(screen, hand)) return this.send(Sketch.openFree(planeOf(screen), structure, hand));
+    const drawn = Sketch.closedFree(planeOf(screen), structure, hand);
+    return this.isSlip(screen, hand) ? this.dropSlip(drawn) : this.send(drawn);
+  }
+
+  private isSlip(screen: Screen, hand: readonly Vec3[]): boolean {
     return narrowWidth(hand.map((p) => toScreen(screen, p))) < LEAST_WIDTH_PIXELS;
   }
 
@@ -149,8 +155,8 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   private click(screen: Screen, at: Point2, kind: StretchKind): void {
     const sketch = this.begun(screen, kind);
     const onLast = sketch.last && gap(toScreen(screen, sketch.last.at), at) < SAME_PIXELS * (screen.reach ?? 1);
-    if ((this.isNearStart(screen, at) && sketch.canClose) || (onLast && sketch.canClose)) return this.close();
-    if (onLast) return;
+    if (this.isNearStart(screen, at) && sketch.canClose) return this.close();
+    if (onLast) return sketch.canClose || (this.endsOpen && sketch.canEnd) ? this.finish() : undefined;
     sketch.place(toWorld(screen, at));
     this.pointsChanged();
   }
@@ -216,12 +222,37 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
     this.send(Sketch.redrawing(contour, stroke));
   }
 
+  setEndsOpen(endsOpen: boolean): void {
+    this.endsOpen = endsOpen;
+    this.changed();
+  }
+
+  /** Makes what is drawn a contour or an open line, as the user wants it now or has ended it before. */
+  finish(): void {
+    const sketch = this.sketch;
+    if (sketch && (sketch.isOpen || (this.endsOpen && !sketch.isClosed && !sketch.isUnsaved))) this.endOpen();
+    else this.close();
+  }
+
+  /** Makes an open line of the sketch. */
+  endOpen(): void {
+    const sketch = this.sketch;
+    if (!sketch || (!sketch.isOpen && this.holdsUnsaved())) return;
+    if (!sketch.canEnd) return this.services.tell("An open line needs at least two points.");
+    if (this.isOutOfSight()) return;
+    const line = this.placedLine.length < 2 ? sketch.line() : this.placedLine;
+    sketch.isOpen = true;
+    this.clear();
+    this.send(sketch, line);
+  }
+
   /** Makes a contour of the sketch, or tries again to redraw the piece. */
   close(): void {
     const sketch = this.sketch;
     if (!sketch) return;
     if (!sketch.canClose) return this.services.tell("A contour needs at least three points.");
     if (this.isOutOfSight()) return;
+    sketch.isOpen = false;
     const line = sketch.isClosed || this.placedLine.length < 2 ? sketch.finishedLine() : [...this.placedLine, sketch.first!];
     this.clear();
     this.send(sketch, line);

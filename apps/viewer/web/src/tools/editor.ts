@@ -136,6 +136,13 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     this.outlines.adopt(this.pointer?.view ?? focused, this.pointer?.at ?? null);
   }
 
+  /** Ends what is drawn as an open line, or else opens the selected contour, at the stretch under the pointer, or closes it if it is open. */
+  openOrClose(): void {
+    if (this.drawing.sketch) return this.drawing.endOpen();
+    const { hover } = this;
+    this.edits.openOrClose(hover && "contour" in hover ? hover.contour : null);
+  }
+
   /** False where the wheel with Ctrl means nothing to the tool. */
   wheel(factor: number): boolean {
     if (!this.tool.wheel) return false;
@@ -165,7 +172,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
   }
 
   doubleClick(): void {
-    if (this.drawing.sketch && !this.mayNotEdit()) this.drawing.close();
+    if (this.drawing.sketch && !this.mayNotEdit()) this.drawing.finish();
   }
 
   cursor(): string {

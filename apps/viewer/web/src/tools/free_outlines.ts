@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { heightOver, pixelToWorld, type PixelPlane, type Plane } from "../geometry/plane";
-import { isInside, nearestOnLoop, type NearPlace } from "../geometry/loop";
+import { isInside, nearestOnPath, type NearPlace } from "../geometry/loop";
 import { planeOf, toScreen, type Point2, type Screen } from "../geometry/screen";
 import { dot, sub, type Vec3 } from "../geometry/vec";
 import type { Project } from "../model/project";
@@ -75,6 +75,6 @@ function rangeOf(points: readonly Point2[], axis: 0 | 1): [number, number] {
 
 /** The outline that is nearest to the pointer, and where; null where there is none. */
 export function nearestOutline(outlines: readonly FreeOutline[], pointer: Point2): { outline: FreeOutline; place: NearPlace } | null {
-  const places = outlines.map((outline) => ({ outline, place: nearestOnLoop(outline.seen, pointer) }));
+  const places = outlines.map((outline) => ({ outline, place: nearestOnPath(outline.seen, pointer) }));
   return places.reduce<(typeof places)[number] | null>((best, next) => (best && best.place.distance <= next.place.distance ? best : next), null);
 }

@@ -10,4 +10,5 @@ export const freehandTool = drawingTool({
   help: { Draw: [["F", "freehand: drag around the structure"]] },
   stretch: "line",
   hint: "Drag around the structure; releasing closes the contour",
+  openHint: "Drag along the border; releasing ends the open line · Shift + U draws closed contours again",
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { nearestOnLoop } from "../geometry/loop";
+import { nearestOnPath } from "../geometry/loop";
 import { commonDirection, coincide, type Axes } from "../geometry/plane";
 import { clippedLine, gap, nearestOnLine, planeOf, toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import { dot, type Vec3 } from "../geometry/vec";
@@ -45,9 +45,10 @@ function hitPoint(contour: Contour, screen: Screen, pointer: Point2): ContourHit
 }
 
 function hitLine(contour: Contour, screen: Screen, pointer: Point2): ContourHit | null {
-  const { at, distance } = nearestOnLoop(
+  const { at, distance } = nearestOnPath(
     contour.points.map((p) => toScreen(screen, p)),
     pointer,
+    contour.closed,
   );
   return distance > LINE_PIXELS * (screen.reach ?? 1) ? null : { on: "line", contour: contour.id, at: toWorld(screen, at) };
 }

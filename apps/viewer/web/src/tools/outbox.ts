@@ -21,7 +21,7 @@ export interface Desk {
   path(sketch: Sketch, control: readonly SketchPoint[]): Promise<PathResult>;
 }
 
-/** Sketches that are finished (closed contours, redrawn pieces) until the server has them. What it does not take goes back to the drawing, one after the other. */
+/** Sketches that are finished (contours, open lines, redrawn pieces) until the server has them. What it does not take goes back to the drawing, one after the other. */
 export class Outbox {
   private readonly sending = new Map<Sketch, Vec3[]>(); // with their lines
   private readonly waiting: Sketch[] = []; // not taken by the server, and not shown yet
@@ -104,6 +104,8 @@ export class Outbox {
       plane: this.drawing.pixelPlane(sketch),
       control: sketch.points,
       ...(sketch.hole && { hole: true }),
+      ...(sketch.isOpen && { closed: false }),
+      ...(sketch.inside && { inside: sketch.inside }),
       ...(sketch.origin !== "drawn" && { origin: sketch.origin }),
     });
     return contour;
@@ -120,7 +122,7 @@ export class Outbox {
 
   /** Holds on to what the user has finished. A stroke that can never be a contour, or a piece of this one, is only put aside. */
   private keep(sketch: Sketch, error: unknown): void {
-    if (error instanceof ServerError && error.kind === "invalid_input" && sketch.isClosed && sketch.points.length === 1) {
+    if (error instanceof ServerError && error.kind === "invalid_input" && sketch.isOneStroke) {
       this.drawing.putAside(sketch);
       return this.services.failed(error);
     }

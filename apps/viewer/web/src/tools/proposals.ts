@@ -4,7 +4,8 @@ import { add, dot, scale, type Vec3 } from "../geometry/vec";
 import { Emitter } from "../model/emitter";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
-import { VIEW_NAMES, type Contour, type ViewName } from "../net/protocol";
+import { VIEW_NAMES, type Contour, type Hand, type ViewName } from "../net/protocol";
+import { stretchAlong } from "./alongside";
 import type { Drawing } from "./drawing";
 import { isHoleOf } from "./free_outlines";
 import type { EditorServices } from "./services";
@@ -16,6 +17,9 @@ export interface Proposal {
   structure: number;
   plane: Plane;
   lines: readonly (readonly Vec3[])[];
+  /** Its one line is an open one; and where the structure lies of it, if that is known. */
+  isOpen?: boolean;
+  inside?: Hand | undefined;
 }
 
 /** Offers what is fitted on another slice: Enter makes contours of it, Esc drops it. */
@@ -96,7 +100,9 @@ export class Proposals extends Emitter<"proposal"> {
       const { lines } = await this.services.call("outline", { structure, plane });
       if (this.asked !== plane) return; // another one was asked for, or none is wanted any more
       const there = lines.filter((line) => line.length >= 3);
-      if (there.length === 0 && instead) there.push(instead.points.map((p) => projected(plane, p)));
+      const laid = instead?.points.map((p) => projected(plane, p));
+      if (laid && !instead!.closed) return this.offerOpen(structure, plane, stretchAlong(there, laid) ?? laid, instead!.inside);
+      if (there.length === 0 && laid) there.push(laid);
       if (there.length === 0) return this.tellNone(structure);
       this.shown = { structure, plane, lines: there };
       this.emit("proposal");
@@ -105,11 +111,21 @@ export class Proposals extends Emitter<"proposal"> {
     }
   }
 
+  /** Of an open line's neighbour only what runs along it: of the rest the user said nothing. */
+  private offerOpen(structure: number, plane: Plane, line: readonly Vec3[], inside: Hand | undefined): void {
+    this.shown = { structure, plane, lines: [line], isOpen: true, inside };
+    this.emit("proposal");
+  }
+
   /** False where nothing is proposed. */
   accept(): boolean {
     if (!this.shown || this.drawing.holdsUnsaved()) return false;
-    const { structure, plane, lines } = this.shown;
-    const sketches = lines.map((line) => Sketch.closedFree(plane, structure, line, { hole: isHoleOf(line, lines, plane), origin: "proposed" }));
+    const { structure, plane, lines, isOpen, inside } = this.shown;
+    const sketches = lines.map((line) =>
+      isOpen
+        ? Sketch.openFree(plane, structure, line, { inside, origin: "proposed" })
+        : Sketch.closedFree(plane, structure, line, { hole: isHoleOf(line, lines, plane), origin: "proposed" }),
+    );
     this.drop();
     if (this.project.activeStructure?.id !== structure) this.project.activate(structure);
     for (const sketch of sketches) this.drawing.send(sketch);

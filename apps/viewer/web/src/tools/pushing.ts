@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { brushed, newPart, type BrushPoint } from "../geometry/brush";
-import { arcLengths, nearestOnLoop } from "../geometry/loop";
+import { brushed, newPart, newPartOfOpen, type BrushPoint } from "../geometry/brush";
+import { arcLengths, nearestOnPath } from "../geometry/loop";
 import { projected } from "../geometry/plane";
 import { toScreen, toWorld, type Point2, type Screen } from "../geometry/screen";
 import type { Vec3 } from "../geometry/vec";
@@ -25,6 +25,7 @@ const NEARLY_HALF = 0.49; // of a line: the server redraws the shorter part
 /** What the brush works on, and what of it is drawn at its end. */
 interface Target {
   points: readonly Vec3[];
+  isClosed: boolean;
   draft(line: readonly BrushPoint[]): void;
   make(line: readonly BrushPoint[]): void;
 }
@@ -60,7 +61,7 @@ export class Pushing {
     let last = pointer;
     const brush = (at: Point2) => {
       this.place = { view, at };
-      line = brushed(line, last, at, this.radius);
+      line = brushed(line, last, at, this.radius, target.isClosed);
       last = at;
     };
     brush(pointer);
@@ -69,7 +70,7 @@ export class Pushing {
       move: (at) => {
         brush(at);
         const seen = line === before ? [] : this.world(screen, target, line);
-        this.drawing.showHand(seen.length > 0 ? [...seen, seen[0]!] : []);
+        this.drawing.showHand(seen.length > 0 ? [...seen, ...(target.isClosed ? [seen[0]!] : [])] : []);
         if (line !== before) target.draft(line);
       },
       end: (at) => {
@@ -96,10 +97,11 @@ export class Pushing {
     const computed = this.outlines.free(view, screen).filter(({ structure }) => structure === active);
     const targets = [...drawn.map((contour) => this.ofContour(screen, contour)), ...computed.map((outline) => this.ofOutline(screen, outline))];
     const away = targets.map(
-      ({ points }) =>
-        nearestOnLoop(
+      ({ points, isClosed }) =>
+        nearestOnPath(
           points.map((p) => toScreen(screen, p)),
           pointer,
+          isClosed,
         ).distance,
     );
     return targets[away.indexOf(Math.min(...away))] ?? null;
@@ -110,6 +112,7 @@ export class Pushing {
       this.redraw(contour, line, (part) => this.world(screen, contour, part).map((p) => projected(contour.plane, p)));
     return {
       points: contour.points,
+      isClosed: contour.closed,
       draft: (line) => this.drafts.send(edit(line)),
       make: (line) => {
         const { name, args } = edit(line);
@@ -120,17 +123,17 @@ export class Pushing {
   }
 
   /** Where little has changed the rest keeps its points to drag. */
-  private redraw({ id, points }: Contour, line: readonly BrushPoint[], world: (part: readonly BrushPoint[]) => Vec3[]): Edit {
-    const part = newPart(line);
+  private redraw({ id, points, closed }: Contour, line: readonly BrushPoint[], world: (part: readonly BrushPoint[]) => Vec3[]): Edit {
+    const part = closed ? newPart(line) : newPartOfOpen(line, points.length);
     const at = arcLengths(points);
     const whole = at.at(-1)!;
     const replaced = part ? (at[part.to]! - at[part.from]! + whole) % whole : whole;
-    if (part && replaced < NEARLY_HALF * whole) return { name: "contour.redraw", args: { id, path: world(part.points) } };
+    if (part && (!closed || replaced < NEARLY_HALF * whole)) return { name: "contour.redraw", args: { id, path: world(part.points) } };
     return { name: "contour.redraw", args: { id, path: world(line), whole: true } };
   }
 
   private ofOutline(screen: Screen, outline: FreeOutline): Target {
     const contour = (line: readonly BrushPoint[]) => this.outlines.contour(screen, outline, this.world(screen, outline, line), "pulled");
-    return { points: outline.points, draft: (line) => this.outlines.draft(contour(line)), make: (line) => this.outlines.add(contour(line)) };
+    return { points: outline.points, isClosed: true, draft: (line) => this.outlines.draft(contour(line)), make: (line) => this.outlines.add(contour(line)) };
   }
 }

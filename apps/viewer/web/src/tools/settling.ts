@@ -10,11 +10,11 @@ export interface Pull {
   to: Vec3;
 }
 
-/** Where the closed line crosses the plane, nearest to `at`; null where it does not. */
-export function crossingNear(points: readonly Vec3[], plane: Plane, at: Vec3): Vec3 | null {
+/** Where the line crosses the plane, nearest to `at`; null where it does not. */
+export function crossingNear(points: readonly Vec3[], plane: Plane, at: Vec3, isClosed = true): Vec3 | null {
   let nearest: Vec3 | null = null;
   points.forEach((p, i) => {
-    const q = points[(i + 1) % points.length]!;
+    const q = points[i + 1] ?? points[isClosed ? 0 : i]!;
     const a = heightOver(plane, p);
     const b = heightOver(plane, q);
     if (a > 0 === b > 0) return;
@@ -26,8 +26,8 @@ export function crossingNear(points: readonly Vec3[], plane: Plane, at: Vec3): V
 
 /** Bends `yielding` at the conflict to where `kept` crosses its plane; null where one of them does not cross the other's plane. */
 export function settled({ at }: Conflict, kept: Contour, yielding: Contour): Pull | null {
-  const to = crossingNear(kept.points, yielding.plane, at);
-  const from = crossingNear(yielding.points, kept.plane, at);
+  const to = crossingNear(kept.points, yielding.plane, at, kept.closed);
+  const from = crossingNear(yielding.points, kept.plane, at, yielding.closed);
   return from && to && { id: yielding.id, from, to };
 }
 

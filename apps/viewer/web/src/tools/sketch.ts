@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { coincide, projected, type Plane } from "../geometry/plane";
 import { sub, length, type Vec3 } from "../geometry/vec";
-import type { Contour, ControlPoint, SketchPoint, StretchKind } from "../net/protocol";
+import type { Contour, ControlPoint, Hand, SketchPoint, StretchKind } from "../net/protocol";
 
 /** A sketch as it is kept with the project until the next visit. */
 export interface SavedSketch {
@@ -12,6 +12,8 @@ export interface SavedSketch {
   isUnsaved?: boolean;
   redraws?: number;
   hole?: boolean;
+  isOpen?: boolean;
+  inside?: Hand;
   origin?: Origin;
 }
 
@@ -34,6 +36,10 @@ export class Sketch {
   isUnsaved = false;
   /** Its inside does not belong to the structure. */
   hole = false;
+  /** The user has ended it as an open line. */
+  isOpen = false;
+  /** Of an open line, where the structure lies; undefined: that is found out. */
+  inside: Hand | undefined;
   origin: Origin = "drawn";
   private image = 0; // whose edges wires follow from the last point on
   private undone: SketchPoint[][] = []; // what the points were before each removal, the latest last
@@ -47,7 +53,8 @@ export class Sketch {
 
   /** What a user knows it by. */
   get title(): string {
-    return this.redraws === undefined ? "The contour that you closed" : "The piece that you redrew";
+    if (this.redraws !== undefined) return "The piece that you redrew";
+    return this.isOpen ? "The open line that you drew" : "The contour that you closed";
   }
 
   /** What removing the last point takes back. */
@@ -62,6 +69,21 @@ export class Sketch {
   /** Whether the hand has drawn the line back to the first point, or all of the stroke that redraws a piece. */
   get isClosed(): boolean {
     return this.last?.path !== undefined;
+  }
+
+  /** Whether the user has finished all of it, so that it takes no more points. */
+  get isFinished(): boolean {
+    return this.isClosed || (this.isOpen && this.isUnsaved);
+  }
+
+  /** Drawn by the hand in one go. */
+  get isOneStroke(): boolean {
+    return this.isClosed ? this.points.length === 1 : this.isOpen && this.points.length === 2 && this.points[0]!.path !== undefined;
+  }
+
+  /** An open line needs two points. */
+  get canEnd(): boolean {
+    return this.points.length >= 2;
   }
 
   /** A closed line needs three points, or one stretch drawn by hand. */
@@ -126,6 +148,21 @@ export class Sketch {
     return sketch;
   }
 
+  /** A hand-drawn open line as a whole, from end to end. */
+  static openFree(
+    plane: Plane,
+    structure: number,
+    path: readonly Vec3[],
+    { inside, origin = "drawn" }: { inside?: Hand | undefined; origin?: Origin } = {},
+  ): Sketch {
+    const sketch = new Sketch(plane, structure, "free");
+    sketch.drawFree(path);
+    sketch.isOpen = true;
+    sketch.inside = inside;
+    sketch.origin = origin;
+    return sketch;
+  }
+
   /** The stroke by which the hand redrew a piece of this contour. */
   static redrawing({ id, plane, structure }: Contour, path: readonly Vec3[]): Sketch {
     const sketch = new Sketch(plane, structure, "free", id);
@@ -145,6 +182,7 @@ export class Sketch {
 
   removeLast(): void {
     this.undone.push(this.points.map((point) => ({ ...point })));
+    this.isOpen = false;
     if (!this.isClosed || this.redraws !== undefined) this.points.pop();
     const last = this.last;
     if (!last) return;
@@ -153,7 +191,7 @@ export class Sketch {
   }
 
   saved(): SavedSketch {
-    const { plane, structure, kind, isUnsaved, redraws, hole, origin } = this;
+    const { plane, structure, kind, isUnsaved, redraws, hole, isOpen, inside, origin } = this;
     const points = this.points.map((point) => ({ ...point, at: rounded(point.at), ...(point.path && { path: point.path.map(rounded) }) }));
     return {
       plane,
@@ -163,15 +201,19 @@ export class Sketch {
       ...(isUnsaved && { isUnsaved }),
       ...(redraws !== undefined && { redraws }),
       ...(hole && { hole }),
+      ...(isOpen && { isOpen }),
+      ...(inside && { inside }),
       ...(origin !== "drawn" && { origin }),
     };
   }
 
-  static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false, origin = "drawn" }: SavedSketch): Sketch {
+  static from({ plane, structure, kind, points, isUnsaved = false, redraws, hole = false, isOpen = false, inside, origin = "drawn" }: SavedSketch): Sketch {
     const sketch = new Sketch(plane, structure, kind, redraws);
     sketch.points = points;
     sketch.isUnsaved = isUnsaved;
     sketch.hole = hole;
+    sketch.isOpen = isOpen;
+    sketch.inside = inside;
     sketch.origin = origin;
     return sketch;
   }
@@ -184,14 +226,14 @@ export class Sketch {
 
   /** The whole line of what the user has finished. */
   finishedLine(): Vec3[] {
-    return this.isClosed || this.isEmpty ? this.line() : [...this.line(), this.first!];
+    return this.isClosed || this.isOpen || this.isEmpty ? this.line() : [...this.line(), this.first!];
   }
 
   /** Whether the server made this contour of the sketch: the same control points, and between them points of the same hand. */
   became(contour: Contour): boolean {
     if (this.redraws !== undefined) return this.isPieceOf(contour);
-    const { control, points } = contour;
-    if (control.length !== this.points.length) return false;
+    const { control, points, closed } = contour;
+    if (closed === this.isOpen || control.length !== this.points.length) return false;
     return this.points.every(({ at, kind, path }, i) => {
       const { at: place, kind: kindThere, index } = control[i]!;
       if (kind !== kindThere || !isSamePlace(at, place)) return false;
@@ -200,12 +242,13 @@ export class Sketch {
   }
 
   /** Whether one of the contour's stretches is this stroke, of which the server keeps the ends and some points between them. */
-  private isPieceOf({ id, control, points }: Contour): boolean {
+  private isPieceOf({ id, control, points, closed }: Contour): boolean {
     if (id !== this.redraws) return false;
     const stroke = this.line();
     const isIn = (line: readonly Vec3[], p: Vec3) => line.some((q) => isSamePlace(p, q));
     return control.some(({ index }, i) => {
       const end = control[i + 1]?.index ?? points.length;
+      if (!closed && i === control.length - 1) return false; // nothing leads on from there
       const stretch = [...points.slice(index, end), points[end % points.length]!];
       return isIn(stretch, stroke[0]!) && isIn(stretch, stroke.at(-1)!) && stretch.slice(1, -1).every((p) => isIn(stroke, p));
     });

@@ -10,4 +10,5 @@ export const splineTool = drawingTool({
   help: { Draw: [["S", "spline: a smooth curve through points"]] },
   stretch: "spline",
   hint: "Click points; a smooth curve goes through them",
+  openHint: "Click points of a smooth curve; Enter or a double click ends the open line · Shift + U draws closed contours again",
 });

@@ -10,4 +10,5 @@ export const wireTool = drawingTool({
   help: { Draw: [["L", "live-wire: lines follow the edge in the image"]] },
   stretch: "wire",
   hint: "Click along the edge; the line snaps to it · or drag all around it by hand",
+  openHint: "Click along the edge; Enter or a double click ends the open line · Shift + U draws closed contours again",
 });

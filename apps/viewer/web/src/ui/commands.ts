@@ -106,7 +106,15 @@ export const COMMANDS: readonly Command[] = [
     keys: ["Enter"],
     edits: true,
     help: ["Draw", "Click the first point, double click, Enter", "close the contour"],
-    run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.close() : proposals.accept()),
+    run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.finish() : proposals.accept()),
+  },
+  {
+    keys: ["u"],
+    help: ["Draw", "U; Shift + U", "end the line open, or open and close the selected contour; draw open lines from now on, or not"],
+    run: ({ editor }, isShifted) => {
+      if (isShifted) editor.drawing.setEndsOpen(!editor.drawing.endsOpen);
+      else if (!editor.isAnotherTime()) editor.openOrClose();
+    },
   },
   {
     keys: ["Backspace"],
@@ -162,7 +170,8 @@ function ofSecond({ second, tell }: CommandServices, act: (second: SecondImage) 
   else tell("There is no second image; the toolbar adds one.");
 }
 
-function toggleHole({ editor, project }: CommandServices): void {
+function toggleHole({ editor, project, tell }: CommandServices): void {
   const contour = project.selectedContour;
-  if (contour) editor.edits.make("contour.set", { id: contour.id, hole: !contour.hole });
+  if (contour && !contour.closed) tell("An open line encloses nothing, so it can be no hole. U closes it.");
+  else if (contour) editor.edits.make("contour.set", { id: contour.id, hole: !contour.hole });
 }

@@ -62,9 +62,56 @@ export class ContourActions {
         part: "delete",
         click: () => void (editor.isAnotherTime() || editor.edits.deleteSelected()),
       }),
-      piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole"),
+      ...(contour.closed
+        ? [this.opener(), piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole")]
+        : this.ofOpen(contour)),
       this.owner([contour], "The structure that this contour belongs to"),
     ];
+  }
+
+  private opener(): Piece {
+    return buttonPiece({
+      icon: ICONS.openLine,
+      label: "Open",
+      title: "Make it an open line: without the stretch behind the selected point, or else the last one; U: without the one under the pointer",
+      class: "tool",
+      test: "open-contour",
+      click: () => this.openOrClose(),
+    });
+  }
+
+  private ofOpen(contour: Contour): Piece[] {
+    const { editor } = this.services;
+    const turn = (side: "other" | "auto") => () => void (editor.isAnotherTime() || editor.edits.turnSide(contour, side));
+    const close = buttonPiece({
+      icon: ICONS.closedLine,
+      label: "Close",
+      title: "Lead the open line on to its beginning (U)",
+      class: "tool",
+      test: "close-line",
+      click: () => this.openOrClose(),
+    });
+    const other = buttonPiece({
+      icon: ICONS.otherSide,
+      label: "Other side",
+      title: "The structure lies on the other side of this line than its ticks show",
+      class: "tool",
+      test: "other-side",
+      click: turn("other"),
+    });
+    const find = buttonPiece({
+      label: "Find side",
+      title: "Find out again on which side the structure lies, from all that is drawn",
+      class: "tool",
+      test: "find-side",
+      click: turn("auto"),
+    });
+    return contour.inside ? [close, other, find] : [close, other];
+  }
+
+  private openOrClose(): void {
+    const { editor } = this.services;
+    if (!editor.isAnotherTime()) editor.edits.openOrClose(null);
   }
 
   private ofMany(marked: readonly Contour[]): Piece[] {

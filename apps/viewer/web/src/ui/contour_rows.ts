@@ -94,7 +94,7 @@ export class ContourRows {
         key: contour.id,
         "data-contour": contour.id,
         "data-kind": contour.kind,
-        title: `${kind}; click to show it, Ctrl + click or Shift + click to mark several`,
+        title: `${contour.closed ? kind : `open line, ${kind}`}; click to show it, Ctrl + click or Shift + click to mark several`,
         on: { click: choose },
       },
       piece("span", { class: "plane-dot", style: { background: PLANE_COLORS[name ?? "oblique"] } }),
@@ -107,6 +107,7 @@ export class ContourRows {
         " ",
         piece("span", { class: "contour-position" }, position),
       ),
+      contour.closed ? null : piece("span", { class: "flag", "data-test": "open", title: "An open line: a stretch of the border" }, "open"),
       contour.hole ? piece("span", { class: "flag", title: "A hole" }, "hole") : null,
       contour.self_crossings.length > 0
         ? piece("span", { class: "flag", "data-test": "crosses-itself", title: "It crosses itself: rings mark the places" }, "crosses itself")

@@ -3,7 +3,7 @@ import { heightOver } from "../geometry/plane";
 import { dot } from "../geometry/vec";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
-import type { ViewName } from "../net/protocol";
+import type { Contour, ViewName } from "../net/protocol";
 import { VIEW_NAMES } from "../net/protocol";
 import { BorderPanel } from "./borders";
 import { ContourActions, type ActionServices } from "./contour_actions";
@@ -91,11 +91,19 @@ export class Panel {
     const { proposals } = this.services.editor;
     const nothingHere =
       structure && proposals.shown?.structure === structure.id ? () => void (this.services.editor.isAnotherTime() || proposals.nothingHere()) : null;
-    render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere }));
+    render(
+      this.quality,
+      qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere, show: (contour) => this.show(contour) }),
+    );
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["image"] = surface?.image?.verdict ?? "none";
     this.element.dataset["structure"] = String(structure?.id ?? 0);
+  }
+
+  private show(contour: Contour): void {
+    this.services.project.select({ contour: contour.id, point: null });
+    this.services.show(contour);
   }
 }
 

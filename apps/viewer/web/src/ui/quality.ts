@@ -16,6 +16,8 @@ const SAME_PLANE_MM = 0.01;
 export interface QualityServices {
   navigation: Navigation;
   goTo(p: Vec3): void;
+  /** Selects a contour and shows it. */
+  show(contour: Contour): void;
   /** Shows where to draw next. */
   suggest(): void;
   /** What is proposed is empty; null while nothing is. */
@@ -73,11 +75,20 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   return [...entries, ...troubles(surface, contours, services)];
 }
 
-function troubles({ conflicts = [], warnings = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
+function troubles({ conflicts = [], warnings = [], sides = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
   return [
     ...warnings.map((text) => piece("p", { class: "warning-text" }, text)),
+    ...sides.flatMap(({ contour, sure }) => (sure ? [] : doubtfulSides(contour, contours, services))),
     ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services)),
   ];
+}
+
+/** An open line of which nothing else that is drawn says on which side the structure lies. */
+function doubtfulSides(id: number, contours: Contour[], { navigation, show }: QualityServices): Piece[] {
+  const line = contours.find((contour) => contour.id === id && !contour.closed && !contour.inside);
+  if (!line) return [];
+  const label = `${contourName(line, navigation)} is open, and its side is doubtful`;
+  return [place(label, "Show the line: its ticks point to where the structure was taken to lie, and Other side turns them", "side", () => show(line))];
 }
 
 /** Which two contradict each other, by how much, and a button for each to bend the other one to it. */
@@ -109,7 +120,7 @@ function selfCrossings(contours: Contour[], services: QualityServices): Piece[] 
   return places.map((at) => place("a contour crosses itself", "Go to where it crosses itself", "self-crossing", () => services.goTo(at)));
 }
 
-function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing", click: () => void): Piece {
+function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing" | "side", click: () => void): Piece {
   return buttonPiece({
     label,
     icon: kind === "residual" ? ICONS.lines : ICONS.warning,

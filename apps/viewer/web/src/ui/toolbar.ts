@@ -43,6 +43,7 @@ export class Toolbar {
   private readonly layouts = new Map<LayoutName, HTMLButtonElement>();
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
+  private readonly openLines: HTMLButtonElement;
   private readonly link: HTMLButtonElement;
   private readonly another: HTMLButtonElement;
   private readonly addImage: HTMLButtonElement;
@@ -77,6 +78,13 @@ export class Toolbar {
       );
     for (const [layout, path, title] of LAYOUTS)
       this.layouts.set(layout, button({ icon: path, title, class: "icon-button", test: `layout-${layout}`, click: () => navigation.setLayout(layout) }));
+    this.openLines = button({
+      icon: ICONS.openLine,
+      title: "Draw open lines: stretches of the border that do not close (Shift+U)",
+      class: "icon-button",
+      test: "open-lines",
+      click: () => editor.drawing.setEndsOpen(!editor.drawing.endsOpen),
+    });
     this.undo = button({ icon: ICONS.undo, title: "Undo", class: "icon-button", test: "undo", click: services.undo });
     this.redo = button({ icon: ICONS.redo, title: "Redo", class: "icon-button", test: "redo", click: services.redo });
     this.link = button({
@@ -124,7 +132,7 @@ export class Toolbar {
       this.another,
       this.addImage,
       this.title,
-      group(...this.tools.values()),
+      group(...this.tools.values(), this.openLines),
       group(this.undo, this.redo),
       el("span", { class: "spring" }),
       windows,
@@ -157,6 +165,7 @@ export class Toolbar {
     const { drawing } = editor;
     describe(this.undo, drawing.undoLabel ?? undo, "Undo", "Ctrl+Z");
     describe(this.redo, drawing.redoLabel ?? (drawing.sketch ? null : redo), "Redo", "Ctrl+Shift+Z");
+    press(this.openLines, drawing.endsOpen);
     press(this.link, navigation.linked);
     const { center, width } = navigation.window;
     setValue(this.center, short(center));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import { sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
+import { leftOnScreen, sliceOnScreen, toScreen, type Point2, type Screen } from "../geometry/screen";
 import { scaleBar } from "../geometry/scale_bar";
+import { alongLine } from "../geometry/loop";
 import type { PixelPlane } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
-import type { Contour, LineRun, PointKind, SliceHeader } from "../net/protocol";
+import type { Contour, Hand, LineRun, PointKind, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
 import type { SinglePoint } from "../tools/single_points";
 import type { Outline } from "./outlines";
@@ -15,6 +16,17 @@ const INK = "#e8edf2";
 const MEASURED = "#f0e442";
 
 const USUAL_FONT_PIXELS = 13;
+
+const TICK_PIXELS = 7;
+const TICK_STEP_PIXELS = 18;
+
+/** How a drawn contour is seen. */
+export interface ContourState {
+  selected: boolean;
+  hovered: boolean;
+  point: number | null;
+  hoveredPoint: number | null;
+}
 
 /** A quarter of a plus, which is turned for the others. */
 const QUARTER: readonly Point2[] = [
@@ -76,9 +88,10 @@ export class OverlayPainter {
     }
   }
 
-  /** A drawn contour: light with a dark rim, unlike the computed outlines; holes dashed. */
-  contour(contour: Contour, color: string, state: { selected: boolean; hovered: boolean; point: number | null; hoveredPoint: number | null }): void {
-    const path = this.path(contour.points, true);
+  /** A drawn contour: light with a dark rim, unlike the computed outlines; holes dashed, open lines with ticks on the structure's side. */
+  contour(contour: Contour, side: Hand | undefined, color: string, state: ContourState): void {
+    const path = this.path(contour.points, contour.closed);
+    if (!contour.closed && side) path.addPath(this.ticks(contour, side));
     const light = tinted(color, state.selected || state.hovered ? 0.82 : 0.55);
     this.ctx.lineJoin = "round";
     const width = (state.selected ? 2.4 : 1.9) * this.appearance.width;
@@ -88,6 +101,22 @@ export class OverlayPainter {
     this.ctx.setLineDash([]);
     if (!hasHandles(contour) || !(state.selected || state.hovered)) return;
     contour.control.forEach(({ at }, i) => this.handle(toScreen(this.screen, at), i === state.point, i === state.hoveredPoint, color));
+  }
+
+  /** Short strokes off an open line, to where the structure lies. */
+  private ticks({ points, plane }: Contour, side: Hand): Path2D {
+    const path = new Path2D();
+    const reach = TICK_PIXELS * this.scale;
+    for (const { at, direction } of alongLine(
+      points.map((p) => toScreen(this.screen, p)),
+      TICK_STEP_PIXELS * this.scale,
+    )) {
+      const [x, y] = leftOnScreen(this.screen, plane, direction);
+      const sign = side === "left" ? reach : -reach;
+      path.moveTo(at[0], at[1]);
+      path.lineTo(at[0] + sign * x, at[1] + sign * y);
+    }
+    return path;
   }
 
   /** A single point: a square where the surface passes it, unlike the points of lines; a plus inside, a minus outside. */
@@ -124,12 +153,12 @@ export class OverlayPainter {
     this.stroke(this.path(points, true), tinted(color, 0.5), 2.6 * this.appearance.width);
   }
 
-  /** What Enter would make contours of. */
-  proposal(lines: readonly (readonly Vec3[])[], color: string): void {
+  /** What Enter would make contours of, or an open line. */
+  proposal(lines: readonly (readonly Vec3[])[], color: string, isOpen = false): void {
     const { ctx } = this;
     ctx.lineJoin = "round";
     for (const line of lines) {
-      const path = this.path(line, true);
+      const path = this.path(line, !isOpen);
       this.stroke(path, SHADE, 2.4 * this.appearance.width + 2);
       ctx.setLineDash([8, 5]);
       this.stroke(path, tinted(color, 0.82), 2.4 * this.appearance.width);

@@ -91,7 +91,7 @@ export class SliceVectors {
       if (!inView(contour, screen, navigation.step(this.name))) continue;
       const selected = project.selection?.contour === contour.id;
       const hovered = hover?.contour === contour.id;
-      painter.contour(contour, project.structures.get(contour.structure)!.color, {
+      painter.contour(contour, project.sideOf(contour), project.structures.get(contour.structure)!.color, {
         selected,
         hovered,
         point: selected ? (project.selection?.point ?? null) : null,
@@ -122,7 +122,7 @@ export class SliceVectors {
     const { editor, project, navigation } = this.services;
     const proposal = editor.proposals.shown;
     if (!proposal || !coincide(proposal.plane, planeOf(screen), navigation.step(this.name) / 2)) return;
-    painter.proposal(proposal.lines, project.structures.get(proposal.structure)?.color ?? "#888888");
+    painter.proposal(proposal.lines, project.structures.get(proposal.structure)?.color ?? "#888888", proposal.isOpen);
   }
 
   private paintSketch(painter: OverlayPainter, screen: Screen): void {

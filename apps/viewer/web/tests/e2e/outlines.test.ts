@@ -2,7 +2,7 @@
 // What is fitted is taken by the pointer, and by a key: with real presses, moves and keys.
 import assert from "node:assert/strict";
 import { beforeEach, describe, test } from "node:test";
-import { nearestOnLoop } from "../../src/geometry/loop";
+import { nearestOnPath } from "../../src/geometry/loop";
 import { BALL_RADIUS_MM, BallVisits, circle, Viewer } from "./support";
 
 const visits = new BallVisits();
@@ -82,7 +82,7 @@ describe("a computed outline", () => {
     await viewer.saved();
     const moved = (await drawnAt(HEIGHT_MM)).map((p) => ({
       p,
-      by: nearestOnLoop(
+      by: nearestOnPath(
         fitted.map(([x, y]) => [x, y]),
         [p[0], p[1]],
       ).distance,

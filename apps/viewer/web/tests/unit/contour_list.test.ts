@@ -13,6 +13,7 @@ const contour = (axes: { u: Contour["plane"]["u"]; v: Contour["plane"]["v"]; nor
   id: ++id,
   structure,
   kind: "freehand",
+  closed: true,
   hole: false,
   visible: true,
   points: [],

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { isInside, nearestOnLoop, pulled, pullReach } from "../../src/geometry/loop";
+import { isInside, nearestOnPath, pulled, pullReach } from "../../src/geometry/loop";
 import type { PixelPlane } from "../../src/geometry/plane";
 import type { Point2 } from "../../src/geometry/screen";
 import { distance, type Vec3 } from "../../src/geometry/vec";
@@ -59,8 +59,8 @@ test("the nearest place of a closed line may lie between its last point and its 
     [10, 10],
     [0, 10],
   ];
-  assert.deepEqual(nearestOnLoop(corners, [-3, 4]), { index: 3, at: [0, 4], distance: 3 });
-  assert.deepEqual(nearestOnLoop(corners, [4, 1]), { index: 0, at: [4, 0], distance: 1 });
+  assert.deepEqual(nearestOnPath(corners, [-3, 4]), { index: 3, at: [0, 4], distance: 3 });
+  assert.deepEqual(nearestOnPath(corners, [4, 1]), { index: 0, at: [4, 0], distance: 1 });
 });
 
 test("the inside of a line that turns back is inside", () => {

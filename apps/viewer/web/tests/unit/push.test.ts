@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { brushed, newPart, type BrushPoint } from "../../src/geometry/brush";
-import { nearestOnLoop } from "../../src/geometry/loop";
+import { nearestOnPath } from "../../src/geometry/loop";
 import { gap, type Point2 } from "../../src/geometry/screen";
 import { distance, type Vec3 } from "../../src/geometry/vec";
 import type { Contour, SketchPoint } from "../../src/net/protocol";
@@ -28,7 +28,7 @@ test("a brush leaves no line within it, also where it moved far at once, and all
   ] as [Point2, Point2][]) {
     const before = line(ring(80));
     const after = brushed(before, from, to, 24);
-    const { distance: away } = nearestOnLoop(places(after), to);
+    const { distance: away } = nearestOnPath(places(after), to);
     assert.ok(Math.abs(away - 24) < 0.4, `the line lies ${away} pixels from the brush's middle, which has a radius of 24`);
     for (const { at, original } of after) if (original !== undefined) assert.deepEqual(at, before[original]!.at);
     const old = after.filter(({ original }) => original !== undefined).length;
@@ -52,7 +52,7 @@ test("a brush between two points of a straight line finds it", () => {
   ]);
   const after = brushed(corners, [50, -30], [50, 5], 10);
   assert.equal(after.filter(({ original }) => original !== undefined).length, 4);
-  near([nearestOnLoop(places(after), [50, 5]).distance], [10], 0.2);
+  near([nearestOnPath(places(after), [50, 5]).distance], [10], 0.2);
 });
 
 test("the new part lies between untouched points, also around the line's first point", () => {

@@ -100,6 +100,7 @@ export function square(id: number, changes: Partial<Contour> = {}): Contour {
     structure: 1,
     kind: "spline",
     plane: { ...AXIAL, origin: [0, 0, 0] },
+    closed: true,
     hole: false,
     visible: true,
     points,

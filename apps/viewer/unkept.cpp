@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/drawable.h"
+#include "viewer/unkept.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-
-#include "kontur/base/error.h"
 
 namespace kontur::viewer {
 namespace {
@@ -16,11 +12,8 @@ std::string counted(std::size_t count, std::string_view what) {
 
 }  // namespace
 
-std::vector<std::string> leave_out_undrawable(ContourSet& set) {
+std::vector<std::string> leave_out_unkept(ContourSet& set) {
     std::vector<std::string> notes;
-    const std::size_t open = std::erase_if(set.contours, [](const Contour& contour) { return !contour.closed; });
-    if (open > 0)
-        notes.push_back(fmt::format("left out: {}; the page draws closed contours only", counted(open, "open line")));
     std::size_t ends = 0, weights = 0;
     for (Contour& contour : set.contours) {
         ends += contour.end != ContourEnd::automatic;
@@ -35,11 +28,6 @@ std::vector<std::string> leave_out_undrawable(ContourSet& set) {
         notes.push_back(fmt::format("left out: the {}, which the page does not keep; every contour counts as 1",
                                     weights == 1 ? "weight of a contour" : fmt::format("weights of {} contours", weights)));
     return notes;
-}
-
-void check_is_drawable(const ContourSet& set) {
-    if (set.contours.empty())
-        throw Error(ErrorKind::unsupported, "all its contours are open lines, and the page draws closed contours only");
 }
 
 }  // namespace kontur::viewer

@@ -53,10 +53,26 @@ TEST(ModelJson, EveryMissingOrWrongMemberIsNamed) {
         json without = whole, wrong = whole;
         without.erase(key);
         wrong[key] = "?";
+        EXPECT_THROW(contour_from_json(wrong), Error) << key;
+        if (key == "closed") continue;  // projects of before have none
         EXPECT_KONTUR_ERROR(contour_from_json(without), ErrorKind::invalid_input,
                             key == "control" ? "control" : "'" + key + "'");
-        EXPECT_THROW(contour_from_json(wrong), Error) << key;
     }
+}
+
+TEST(ModelJson, AnOpenLineReturnsAndAContourOfAProjectOfBeforeIsClosed) {
+    DrawnContour line = oblique_contour();
+    line.closed = line.hole = false;
+    line.inside = Hand::right;
+    json told = json::parse(to_text(to_json(line)));
+    EXPECT_EQ(contour_from_json(told), line);
+    told["hole"] = true;
+    EXPECT_KONTUR_ERROR(contour_from_json(told), ErrorKind::invalid_input, "open and a hole");
+    told["hole"] = false;
+    told.erase("closed");
+    EXPECT_KONTUR_ERROR(contour_from_json(told), ErrorKind::invalid_input, "closed and says on which hand");
+    told.erase("inside");
+    EXPECT_TRUE(contour_from_json(told).closed);
 }
 
 TEST(ModelJson, AKeyThatStandsTwiceIsRefused) {

@@ -110,6 +110,79 @@ TEST(Session, TheHistoryNamesWhatAContourWasMadeOf) {
     EXPECT_EQ(refusal["error"]["message"], R"('origin' is "stolen"; drawn, pulled, adopted or proposed is needed)");
 }
 
+json arc_to_add(Id structure) {
+    json message = circle_to_add(structure, "drawn");
+    message["plane"]["origin"] = {20, 20, 20};
+    message["closed"] = false;
+    message["control"].erase(message["control"].begin() + 16, message["control"].end());
+    return message;
+}
+
+TEST(Session, AnOpenLineIsDrawnClosedAndOpenedAgain) {
+    SessionHere here;
+    const Id structure = here.session.add_structures("Import", {circles(1, 20)}).front();
+    const json drawn = called(here.session, arc_to_add(structure))["result"]["contour"];
+    ASSERT_FALSE(drawn["closed"]);
+    const json id = drawn["id"];
+    const auto contour = [&] { return *here.session.state().contours.at(id.get<Id>()); };
+    EXPECT_EQ(contour().points.back(), contour().control.back().at);
+    const std::vector<Vec3> before = contour().points;
+    EXPECT_TRUE(
+        called(here.session, {{"call", "contour.set"}, {"id", id}, {"closed", true}})["result"]["contour"]["closed"]);
+    EXPECT_GT(contour().points.size(), before.size());
+    EXPECT_EQ(called(here.session, {{"call", "undo"}})["result"]["label"], "Close a line");
+    EXPECT_EQ(contour().points, before);
+    called(here.session, {{"call", "redo"}});
+    const Vec3 gap = test::circle(24)[3];
+    const json opened =
+        called(here.session, {{"call", "contour.set"}, {"id", id}, {"closed", false}, {"at", {gap.x, gap.y + 0.1, gap.z}}});
+    EXPECT_FALSE(opened["result"]["contour"]["closed"]) << opened;
+    EXPECT_EQ(contour().points.back(), test::circle(24)[3]) << "the stretch behind it is gone";
+    EXPECT_EQ(called(here.session, {{"call", "undo"}})["result"]["label"], "Open a contour");
+}
+
+TEST(Session, TheSideOfAnOpenLineIsFoundAndCanBeTold) {
+    SessionHere here;
+    ContourSet set = circles(1, 40);
+    set.contours.push_back(set.contours.front());
+    Contour& arc = set.contours.back();
+    for (Vec3& p : arc.points) p = {p.x, 20, p.y};
+    arc.points.resize(24);
+    arc.plane = {{20, 20, 20}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    arc.closed = false;
+    here.session.add_structures("Import", {set});
+    here.session.wait_for_surfaces();
+    const json surface = json::parse(here.session.greeting())["surfaces"][0];
+    ASSERT_EQ(surface["sides"].size(), 1u) << surface;
+    const json found = surface["sides"][0];
+    EXPECT_TRUE(found["sure"]);
+    const std::string inside = found["inside"], other = inside == "left" ? "right" : "left";
+    const auto set_inside = [&](const std::string& side) {
+        called(here.session, {{"call", "contour.set"}, {"id", found["contour"]}, {"inside", side}});
+        here.session.wait_for_surfaces();
+        return json::parse(here.session.greeting())["surfaces"][0];
+    };
+    EXPECT_FALSE(set_inside(other).contains("sides"));
+    EXPECT_EQ(here.session.state().contours.at(found["contour"].get<Id>())->inside,
+              other == "left" ? Hand::left : Hand::right);
+    EXPECT_EQ(set_inside("auto")["sides"], surface["sides"]);
+}
+
+TEST(Session, WhatOnlyClosedOrOnlyOpenLinesCanBeIsRefusedInASentence) {
+    SessionHere here;
+    const Id structure = here.session.add_structures("Import", {circles(1, 20)}).front();
+    const Id ring = here.session.state().contours.begin()->first;
+    const json line = called(here.session, arc_to_add(structure))["result"]["contour"]["id"];
+    const auto refusal = [&](json message) {
+        message["call"] = "contour.set";
+        return called(here.session, message)["error"]["message"].get<std::string>();
+    };
+    EXPECT_EQ(refusal({{"id", line}, {"hole", true}}), "an open line encloses nothing, so it can be no hole");
+    EXPECT_EQ(refusal({{"id", ring}, {"inside", "left"}}),
+              "the structure lies inside of a closed contour; of open lines alone the side is told");
+    EXPECT_EQ(refusal({{"id", line}, {"inside", "up"}}), R"('inside' is "up"; left, right or auto is needed)");
+}
+
 TEST(Session, SeveralContoursAreChangedAsOneStep) {
     SessionHere here;
     const std::vector<Id> owners = here.session.add_structures("Import", {circles(3, 20), circles(1, 20)});

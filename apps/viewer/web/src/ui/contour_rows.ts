@@ -24,6 +24,9 @@ export interface RowServices {
 
 const KIND_LABELS: Record<Contour["kind"], string> = { freehand: "freehand", spline: "spline", livewire: "live-wire", mixed: "mixed" };
 
+/** Whether somebody placed its control points: a stroke by hand has but its beginning, or its two ends. */
+const hasOwnPoints = ({ control, closed }: Contour): boolean => control.length > (closed ? 1 : 2);
+
 /** The contours of structures as rows: many under headings, by the view that they were drawn in and in the order of slices. */
 export class ContourRows {
   private readonly folded = new Set<string>();
@@ -77,7 +80,7 @@ export class ContourRows {
     const { project, call, show } = this.services;
     const { view: name, slice, position } = placeOf(contour, this.services.navigation);
     const isSelected = project.marked.has(contour.id);
-    const points = contour.control.length > 1 ? `${contour.control.length} pts` : `${contour.points.length} pts`;
+    const points = hasOwnPoints(contour) ? `${contour.control.length} pts` : `${contour.points.length} pts`;
     const kind = KIND_LABELS[contour.kind];
     const choose = (event: MouseEvent) => {
       if ((event.target as HTMLElement).closest(".icon-button")) return;

@@ -42,7 +42,6 @@ async function importChanged(viewer: Viewer, change: (drawing: Drawn) => void): 
 interface Drawn {
   interior?: number[][];
   exterior?: number[][];
-  planes: { contours: { closed: boolean }[] }[];
 }
 
 describe("points inside and outside", () => {
@@ -82,16 +81,6 @@ describe("points inside and outside", () => {
     assert.equal(kept.interior?.length, 1);
     assert.deepEqual(kept.exterior, [[-70, -70, -60]]);
     assert.deepEqual(viewer.complaints, []);
-  });
-
-  test("open lines, which the page cannot draw, are said to be left out", async () => {
-    const viewer = await opened();
-    const { page } = viewer;
-    await importChanged(viewer, ({ planes }) => void (planes[0]!.contours[0]!.closed = false));
-    const told = page.locator("[data-test=import-notes]");
-    assert.match((await told.textContent())!, /left out: 1 open line; the page draws closed contours only/);
-    await page.keyboard.press("Escape");
-    await viewer.waitForContours(3);
   });
 });
 

@@ -69,9 +69,9 @@ export function editing(tool: ToolName, contours = [square(5)], snap = (p: Vec3)
   const edits = () => calls.filter(({ name, args }) => name !== "path" && args["draft"] !== true);
   const { drawing } = editor;
   /** The server takes edits again: trying again sends the one that it had refused as it was, and nothing waits any more. */
-  const savedByTryingAgain = async () => {
+  const savedByTryingAgain = async (tryAgain = () => drawing.close()) => {
     server.refusal = null;
-    drawing.close();
+    tryAgain();
     await settled();
     assert.equal(drawing.sketch, null);
     assert.ok(!drawing.outbox.hasUnsaved);

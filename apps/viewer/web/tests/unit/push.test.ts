@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { brushed, newPart, type BrushPoint } from "../../src/geometry/brush";
+import { brushed, newPart, newPartOfOpen, type BrushPoint } from "../../src/geometry/brush";
 import { nearestOnPath } from "../../src/geometry/loop";
 import { gap, type Point2 } from "../../src/geometry/screen";
 import { distance, type Vec3 } from "../../src/geometry/vec";
@@ -35,6 +35,18 @@ test("a brush leaves no line within it, also where it moved far at once, and all
     assert.ok(old > 60 && old < 90, `${old} points are as they were`);
     assert.ok(Math.max(...places(after).map((p, i) => gap(p, places(after)[(i + 1) % after.length]!))) < 8, "no gap");
   }
+});
+
+test("an open line has no edge from its end to its beginning that a brush could push", () => {
+  const bow = line(ring(80).slice(0, 60)); // from the right by the bottom to the upper left
+  assert.equal(brushed(bow, [215, 120], [235, 140], 10, false), bow);
+  assert.notEqual(brushed(bow, [215, 140], [235, 170], 30), bow);
+  const pushed = brushed(bow, [200, 240], [200, 270], 24, false);
+  const part = newPartOfOpen(pushed, bow.length)!;
+  assert.ok(part.from > 5 && part.to < 55 && part.points.length > 5);
+  assert.deepEqual([part.points[0]!.at, part.points.at(-1)!.at], [bow[part.from]!.at, bow[part.to]!.at]);
+  const end = brushed(bow, [300, 200], [275, 200], 24, false);
+  assert.equal(newPartOfOpen(end, bow.length), null, "its end is touched: all of it is new");
 });
 
 test("a brush that touches nothing changes nothing", () => {

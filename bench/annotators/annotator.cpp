@@ -70,7 +70,7 @@ nlohmann::ordered_json Annotator::facts(std::size_t sample_step) const {
     facts["dice"] = rounded(truth_.dice(segmentation_->mask), 1e-5);
     facts["verdict"] = name(segmentation_->report.image.verdict);
     facts["different_planes"] = e.plane_count();
-    facts["diameter_mm"] = e.diameter_mm;
+    facts["size_mm"] = e.size_mm;
     facts["area_mm2"] = e.samples.area_mm2();
     facts["volume_mm3"] = e.volume_mm3;
     facts["true_volume_mm3"] = truth_.volume_mm3();
@@ -85,8 +85,8 @@ nlohmann::ordered_json Annotator::facts(std::size_t sample_step) const {
     for (std::size_t n = 0; n < e.samples.points.size(); ++n) {
         area += e.samples.areas_mm2[n];
         if (n % sample_step != sample_step / 2) continue;
-        samples.push_back({rounded(e.distances_mm[n] / e.diameter_mm, 1e-5), rounded(e.samples.slopes[n], 1e-3),
-                           rounded(truth_.distance_at(e.samples.points[n]) / e.diameter_mm, 1e-5),
+        samples.push_back({rounded(e.distances_mm[n] / e.size_mm, 1e-5), rounded(e.samples.slopes[n], 1e-3),
+                           rounded(truth_.distance_at(e.samples.points[n]) / e.size_mm, 1e-5),
                            rounded(e.samples.areas_mm2[n] / e.samples.area_mm2(), 1e-6)});
     }
     facts["samples"] = std::move(samples);

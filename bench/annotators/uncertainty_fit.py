@@ -23,7 +23,7 @@ class State:
     """One drawing: what the library knows, and the truth. Lengths in diameters of the surface."""
 
     def __init__(self, line):
-        size = line["diameter_mm"]
+        size = line["size_mm"]
         self.structure, self.way, self.planes = line["structure"], line["way"], line["different_planes"]
         distance, slope, error, share = np.array(line["samples"]).T
         self.h = np.log(np.maximum(distance, LEAST_DISTANCE))

@@ -117,7 +117,7 @@ std::optional<Plane> by_clusters(const Annotator& annotator) {
     if (!annotator.segmentation()) return std::nullopt;
     const SurfaceEvidence& e = annotator.evidence();
     if (e.samples.points.empty()) return std::nullopt;
-    if (const auto plane = plane_through_far_places(e.samples.points, e.distances_mm, 0.06 * e.diameter_mm)) return plane;
+    if (const auto plane = plane_through_far_places(e.samples.points, e.distances_mm, 0.06 * e.size_mm)) return plane;
     const double most = *std::max_element(e.distances_mm.begin(), e.distances_mm.end());
     std::vector<Vec3> far;
     for (std::size_t n = 0; n < e.samples.points.size(); ++n)

@@ -79,6 +79,32 @@ TEST(HandError, OneOfManyPlanesThatShowsSomethingElseMattersLittle) {
     EXPECT_NEAR(parallel_hand_mm(drawn) / before, 1, 0.3);
 }
 
+/// Small balls of five sections each, far from each other and none at another's height.
+ContourSet lesions(int count) {
+    ContourSet set;
+    for (int n = 0; n < count; ++n) {
+        const Body ball = test::ellipsoid({90.0 * (n % 3), 90.0 * (n / 3 % 3), 4.7 * n}, {5, 5, 5});
+        const ContourSet sections = test::drawn(ball, test::parallel_planes(ball, 5));
+        set.contours.insert(set.contours.end(), sections.contours.begin(), sections.contours.end());
+    }
+    return set;
+}
+
+TEST(HandError, LinesOfOtherPartsTellNothing) {
+    EXPECT_LT(parallel_hand_mm(lesions(9)), 1);
+    EXPECT_NEAR(parallel_hand_mm(by_hand(lesions(1), 0.3)), 0.3, 0.3);
+}
+
+TEST(HandError, ManySmallPartsAreAboutAsSureAsOne) {
+    const auto expected = [](int count) {
+        const ContourSet set = lesions(count);
+        return segment(set, grid_around(bounding_box(set), {1, 1, 1}, 8)).report.uncertainty.dice;
+    };
+    const ExpectedDice one = expected(1), many = expected(9);
+    EXPECT_NEAR(many.value, one.value, 0.02);
+    EXPECT_GT(many.high, one.value);
+}
+
 TEST(HandError, TurnsMovesAndScalesWithTheContours) {
     const ContourSet drawn = by_hand(stack(11), 0.8);
     const Affine3 turn{{{{0, 0, 1}, {0.8, -0.6, 0}, {0.6, 0.8, 0}}}, {7, 8, 9}};

@@ -95,7 +95,7 @@ TEST(SuggestPlane, NeverRepeatsADrawnPlaneAndNeverMissesTheObject) {
             follow(body, 10, options, [&](const auto& planes, const test::Fitted& made, const SuggestedPlane& next) {
                 for (const Plane& plane : planes) {
                     if (std::abs(dot(plane.normal, next.plane.normal)) < 1 - 1e-9) continue;
-                    EXPECT_GE(std::abs(plane.distance_to(next.plane.origin)), 0.03 * made.evidence.diameter_mm);
+                    EXPECT_GE(std::abs(plane.distance_to(next.plane.origin)), 0.03 * made.evidence.size_mm);
                 }
                 EXPECT_FALSE(drawn(body, {next.plane}).contours.empty()) << body.name() << " " << planes.size();
                 EXPECT_GT(next.gain, 0);
@@ -209,7 +209,7 @@ TEST(SuggestPlane, TurnsMovesAndScalesWithTheDrawing) {
                                  found = next_plane(there, motion.moved(contours), {choice, moved_grid});
             const double off_mm = std::abs(found.plane.distance_to(motion.to.apply(expected.plane.origin)));
             same += std::abs(dot(found.plane.normal, motion.turned(expected.plane.normal))) > 1 - 1e-4 &&
-                    off_mm < 3e-3 * there.evidence.diameter_mm;
+                    off_mm < 3e-3 * there.evidence.size_mm;
             EXPECT_NEAR(found.gain / expected.gain, 1, 0.05) << body.name();
             EXPECT_NEAR(found.after.value, expected.after.value, 1e-3) << body.name();
             EXPECT_EQ(found.slice, expected.slice) << body.name();

@@ -77,7 +77,7 @@ TEST(SurfaceUncertainty, DistancesAreThoseFromTheNearestLine) {
             for (std::size_t i = 0; i < contour.points.size(); ++i)
                 nearest = std::min(nearest, distance_to_segment(evidence.samples.points[n], contour.points[i],
                                                                 contour.points[(i + 1) % contour.points.size()]));
-        EXPECT_NEAR(evidence.distances_mm[n], nearest, 0.004 * evidence.diameter_mm);
+        EXPECT_NEAR(evidence.distances_mm[n], nearest, 0.004 * evidence.size_mm);
     }
 }
 

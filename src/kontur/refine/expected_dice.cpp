@@ -21,11 +21,11 @@ ExpectedDice expected_dice(const SurfaceEvidence& evidence, std::span<const doub
     if (samples.points.empty() || !(evidence.volume_mm3 > 0)) return {};
     double sum = 0;
     for (std::size_t n = 0; n < samples.points.size(); ++n) {
-        const double h = std::max(distances_mm[n] / evidence.diameter_mm, kLeastDistance);
+        const double h = std::max(distances_mm[n] / evidence.size_mm, kLeastDistance);
         const double slope = std::clamp(samples.slopes[n], kLeastSlope, kMostSlope);
         sum += samples.areas_mm2[n] * std::pow(h, kDice.distance) * std::pow(slope, kDice.slope) * evidence.shares[n];
     }
-    const double missed = sum * evidence.diameter_mm / evidence.volume_mm3;
+    const double missed = sum * evidence.size_mm / evidence.volume_mm3;
     const double by_hand =
         kDice.drawing * samples.area_mm2() * evidence.disagreement_mm / (std::sqrt(2.0) * 2 * evidence.volume_mm3);
     const double odds = std::exp(kDice.factor) * std::pow(missed, kDice.power) + by_hand;

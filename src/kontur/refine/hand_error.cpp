@@ -9,6 +9,7 @@
 #include "kontur/refine/quantile.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/predicates.h"
+#include "kontur/shape/section.h"
 
 namespace kontur {
 namespace {
@@ -22,11 +23,12 @@ constexpr std::size_t kMostPlanes = 24, kLeastTriples = 4;
 constexpr double kGrowth = 1.55;
 constexpr double kLeastError = 1e-4;  // of the diameter: what lines are not better known than
 constexpr int kShares = 40;
+constexpr double kOfOthers = 8;  // radii of a section away are lines of other parts, such as other lesions
 
 /// What was drawn in a plane of a stack, in the stack's (u, v).
-class Section {
+class StackSection {
 public:
-    Section(const std::vector<const Contour*>& contours, const Plane& frame, double step_mm) : tree_({}) {
+    StackSection(const std::vector<const Contour*>& contours, const Plane& frame, double step_mm) : tree_({}) {
         double height = 0;
         for (const Contour* contour : contours) {
             Polygon2 outline;
@@ -44,6 +46,13 @@ public:
     }
 
     double height_mm() const { return height_mm_; }
+
+    /// Of a circle that encloses as much.
+    double radius_mm() const {
+        double enclosed = 0;
+        for (const Polygon2& outline : outlines_) enclosed += area(outline);
+        return std::sqrt(enclosed / M_PI);
+    }
 
     std::vector<Point2> some_points() const {
         const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(points_.size()) / kPoints));
@@ -68,7 +77,7 @@ private:
 };
 
 /// The sections of the largest stack of parallel planes in which every contour is closed, from below.
-std::vector<Section> largest_stack(const ContourSet& set, double diameter_mm) {
+std::vector<StackSection> largest_stack(const ContourSet& set, double diameter_mm) {
     const std::vector<std::size_t> plane = shared_planes(set.contours, kSamePlane * diameter_mm);
     std::vector<std::vector<const Contour*>> by_plane(set.contours.size());
     for (std::size_t c = 0; c < plane.size(); ++c) by_plane[plane[c]].push_back(&set.contours[c]);
@@ -87,13 +96,13 @@ std::vector<Section> largest_stack(const ContourSet& set, double diameter_mm) {
         if (count > most) first = &group;
         most = std::max(most, count);
     }
-    std::vector<Section> stack;
+    std::vector<StackSection> stack;
     if (!first) return stack;
     const Plane frame = make_plane(first->front()->points.front(), first->front()->plane.normal);
     for (const auto& group : by_plane)
         if (parallel(*first, group)) stack.emplace_back(group, frame, kStep * diameter_mm);
     std::stable_sort(stack.begin(), stack.end(),
-                     [](const Section& a, const Section& b) { return a.height_mm() < b.height_mm(); });
+                     [](const StackSection& a, const StackSection& b) { return a.height_mm() < b.height_mm(); });
     return stack;
 }
 
@@ -104,7 +113,7 @@ struct Triple {
     double gap_mm2;  ///< the product of the gaps
 };
 
-void add_triples(const std::vector<Section>& stack, std::size_t middle, double least_mm, std::vector<Triple>& triples) {
+void add_triples(const std::vector<StackSection>& stack, std::size_t middle, double least_mm, std::vector<Triple>& triples) {
     const std::vector<Point2> points = stack[middle].some_points();
     const std::size_t low = middle - std::min(middle, kReach), high = std::min(middle + kReach, stack.size() - 1);
     std::vector<std::vector<double>> depths(high - low + 1);
@@ -116,11 +125,13 @@ void add_triples(const std::vector<Section>& stack, std::size_t middle, double l
             const double a = stack[middle].height_mm() - stack[below].height_mm(),
                          b = stack[above].height_mm() - stack[middle].height_mm();
             if (!(a > least_mm && b > least_mm)) continue;
-            std::vector<double> errors;
+            std::vector<double> errors, farther;
             for (std::size_t p = 0; p < points.size(); ++p) {
                 const double from = depths[below - low][p], to = depths[above - low][p], slope = (to - from) / (a + b);
+                farther.push_back(std::max(std::abs(from), std::abs(to)));
                 errors.push_back(std::abs(b * from + a * to) / (a + b) / std::hypot(1, slope));
             }
+            if (median(std::move(farther)) > kOfOthers * stack[middle].radius_mm()) continue;
             const double error = kDeviationOfMedian * median(std::move(errors));
             triples.push_back({error * error + least_mm * least_mm, 1 + (a * a + b * b) / ((a + b) * (a + b)), a * b});
         }
@@ -154,7 +165,7 @@ double nugget(const std::vector<Triple>& triples) {
 
 double parallel_hand_mm(const ContourSet& contours) {
     const double diameter = diameter_mm(contours);
-    const std::vector<Section> stack = largest_stack(contours, diameter);
+    const std::vector<StackSection> stack = largest_stack(contours, diameter);
     if (stack.size() < 3) return 0;
     std::vector<Triple> triples;
     const std::size_t inner = stack.size() - 2, count = std::min(inner, kMostPlanes);

@@ -65,7 +65,7 @@ public:
     std::optional<SuggestedPlane> next(PlaneSuggestions& cost) {
         if (options_.planes == PlaneChoice::any && planes_ >= kFirstByClusters && planes_ < kFirstByClusters + kByClusters)
             if (const auto plane =
-                    plane_through_far_places(evidence_.samples.points, distances_, kClusterReach * evidence_.diameter_mm)) {
+                    plane_through_far_places(evidence_.samples.points, distances_, kClusterReach * evidence_.size_mm)) {
                 const Cut cut = cut_by(*plane, {});
                 if (shows_more(cut)) return take(cut);
             }
@@ -99,7 +99,7 @@ public:
         Cut cut{.plane = plane, .slice = slice, .line = {}};
         for (const Vec3& p : evidence_.samples.points) {
             const double distance = plane.distance_to(p);
-            if (std::abs(distance) < kSlab * evidence_.diameter_mm) cut.line.push_back(p - distance * plane.normal);
+            if (std::abs(distance) < kSlab * evidence_.size_mm) cut.line.push_back(p - distance * plane.normal);
         }
         return cut;
     }
@@ -145,7 +145,7 @@ private:
     /// Shifts and tilts a plane as long as that gains.
     void settle(Cut& best, PlaneSuggestions& cost) const {
         const std::array<Vec3, 3> axes = principal_axes(evidence_.samples.points);
-        double shift = kFirstShift * evidence_.diameter_mm, tilt = kFirstTilt;
+        double shift = kFirstShift * evidence_.size_mm, tilt = kFirstTilt;
         for (int round = 0; round < kRounds; ++round, shift /= 2, tilt /= 2)
             for (int step = 0; step < kStepsPerRound; ++step) {
                 const Vec3 middle = middle_of(best.line), normal = best.plane.normal;
@@ -164,7 +164,7 @@ private:
     bool copies(const Cut& cut, const Plane& drawn) const {
         if (std::abs(dot(cut.plane.normal, drawn.normal)) < kAlikeCosine) return false;
         const auto near = std::count_if(cut.line.begin(), cut.line.end(), [&](const Vec3& p) {
-            return std::abs(drawn.distance_to(p)) < kNearCopy * evidence_.diameter_mm;
+            return std::abs(drawn.distance_to(p)) < kNearCopy * evidence_.size_mm;
         });
         return static_cast<double>(near) > kMostOfCut * static_cast<double>(cut.line.size());
     }
@@ -189,7 +189,7 @@ private:
     double remaining(const std::vector<double>& distances) const {
         double sum = 0;
         for (std::size_t n = 0; n < distances.size(); ++n)
-            sum += weights_[n] * std::max(distances[n] - kLeastDistance * evidence_.diameter_mm, 0.0);
+            sum += weights_[n] * std::max(distances[n] - kLeastDistance * evidence_.size_mm, 0.0);
         return sum;
     }
     double gain(const std::vector<double>& after) const { return remaining(distances_) - remaining(after); }

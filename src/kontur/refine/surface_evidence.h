@@ -20,7 +20,7 @@ struct SurfaceEvidence {
     std::vector<double> shares{};      ///< of each sample's error that the image leaves; 1 without one
     ImageShares image{};               ///< the same at any place
     DrawnLines lines;
-    double diameter_mm = 0;      ///< of the smallest ball around the samples: the unit of length, which turns with them
+    double size_mm = 0;          ///< the unit of length: diameter of the ball around the samples, twelve thicknesses at most
     double volume_mm3 = 0;       ///< that the surface encloses
     double voxel_mm = 0;         ///< smallest spacing of the image that was drawn on; 0: not known
     double residual_mm = 0;      ///< rms distance of the surface from the drawn points

@@ -17,7 +17,7 @@ namespace {
 /// The band's formula with what is the same all over the surface in one factor.
 class Band {
 public:
-    explicit Band(const SurfaceEvidence& evidence) : diameter_mm_(evidence.diameter_mm) {
+    explicit Band(const SurfaceEvidence& evidence) : size_mm_(evidence.size_mm) {
         const SurfaceSamples& samples = evidence.samples;
         const double area = samples.area_mm2();
         double mean_h = 0, mean_log_slope = 0;
@@ -26,7 +26,7 @@ public:
             mean_log_slope += samples.areas_mm2[n] * std::log(clamped(samples.slopes[n]));
         }
         mean_slope_ = std::exp(mean_log_slope / area);
-        factor_mm_ = diameter_mm_ * std::exp(kBand.factor) * std::pow(mean_h / area, kBand.mean_distance) *
+        factor_mm_ = size_mm_ * std::exp(kBand.factor) * std::pow(mean_h / area, kBand.mean_distance) *
                      std::pow(std::pow(area, 1.5) / evidence.volume_mm3, kBand.shape);
         const double by_hand =
             kNinety * std::max({evidence.residual_mm, evidence.disagreement_mm / std::sqrt(2.0), evidence.hand_mm});
@@ -41,10 +41,10 @@ public:
     }
 
 private:
-    double relative(double distance_mm) const { return std::max(distance_mm / diameter_mm_, kLeastDistance); }
+    double relative(double distance_mm) const { return std::max(distance_mm / size_mm_, kLeastDistance); }
     static double clamped(double slope) { return std::clamp(slope, kLeastSlope, kMostSlope); }
 
-    double diameter_mm_, mean_slope_ = 1, factor_mm_ = 0, drawing_mm_ = 0;
+    double size_mm_, mean_slope_ = 1, factor_mm_ = 0, drawing_mm_ = 0;
 };
 
 bool is_known(const SurfaceEvidence& evidence) {

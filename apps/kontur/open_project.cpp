@@ -226,9 +226,7 @@ fs::path project_path(const OpenCommand& command, const Words& words, const view
 ReadContours first_contours(const OpenCommand& command, const Words& words, Opened& result) {
     if (words.contours.empty()) return {};
     ReadContours read = read_contours(words.contours, command.read);
-    check_contours(read.contours);
-    for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
-    for (std::string& note : leave_out_repetitions(read.contours)) read.notes.push_back(std::move(note));
+    for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : viewer::leave_out_unkept(read.contours)) read.notes.push_back(std::move(note));
     result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());
     if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);

@@ -141,9 +141,7 @@ Imported read_rtstruct_of(const fs::path& path) {
 Imported read_contours_of(const fs::path& path) {
     if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
     ReadContours read = read_contours(path);
-    check_contours(read.contours);
-    for (std::string& note : leave_out_lines(read.contours)) read.notes.push_back(std::move(note));
-    for (std::string& note : leave_out_repetitions(read.contours)) read.notes.push_back(std::move(note));
+    for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : leave_out_unkept(read.contours)) read.notes.push_back(std::move(note));
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }

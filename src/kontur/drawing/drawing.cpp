@@ -57,9 +57,7 @@ void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
 Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     if (const std::size_t dropped = drop_duplicate_points(contours); dropped > 0)
         notes.push_back(fmt::format("{} repeated points were left out", dropped));
-    check_contours(contours);
-    for (std::string& note : leave_out_lines(contours)) notes.push_back(std::move(note));
-    for (std::string& note : leave_out_repetitions(contours)) notes.push_back(std::move(note));
+    for (std::string& note : check_and_tidy(contours)) notes.push_back(std::move(note));
     const double drawn_mm = smallest_ball(contours).diameter();
     const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
     leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);

@@ -23,8 +23,8 @@ struct FoundSide {
 
 /// What was drawn, without repeated points and with its holes known, and what all stages ask of it, found once.
 struct Drawing {
-    /// Leaves out repeated points, checks (check_contours, which throws), leaves out contours that enclose nothing or repeat
-    /// others (leave_out_lines, leave_out_repetitions), finds holes (apply_fill_rule); indices are those after all this.
+    /// Leaves out repeated points, checks, leaves out contours that enclose nothing or repeat others (check_and_tidy, which
+    /// throws), finds holes (apply_fill_rule); indices are those after all this.
     Drawing(ContourSet drawn, FillRule rule = FillRule::even_odd);
 
     ContourSet contours;

@@ -70,4 +70,11 @@ std::vector<std::string> leave_out_repetitions(ContourSet& set) {
                                         left_out, first + 1)};
 }
 
+std::vector<std::string> check_and_tidy(ContourSet& set) {
+    check_contours(set);
+    std::vector<std::string> notes = leave_out_lines(set);
+    for (std::string& note : leave_out_repetitions(set)) notes.push_back(std::move(note));
+    return notes;
+}
+
 }  // namespace kontur

@@ -34,4 +34,8 @@ private:
 /// diameter. Returns what was left out in one sentence, if anything was.
 std::vector<std::string> leave_out_repetitions(ContourSet& set);
 
+/// Checks a set (check_contours, which throws), and leaves out of it what says nothing: contours that enclose nothing
+/// (leave_out_lines), then those that repeat others (leave_out_repetitions). Returns the sentences of both.
+std::vector<std::string> check_and_tidy(ContourSet& set);
+
 }  // namespace kontur

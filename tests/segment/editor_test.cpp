@@ -17,6 +17,7 @@
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
 #include "support/random.h"
+#include "support/solids.h"
 
 namespace kontur {
 namespace {
@@ -238,6 +239,29 @@ TEST(Editor, GoesOnAfterContoursThatCannotBeFitted) {
     editor.preview(test::ball_contours());
     EXPECT_KONTUR_ERROR(editor.preview(bad), ErrorKind::invalid_input, "contour 3 has 2 points");
     EXPECT_EQ(editor.preview(test::ball_contours()).solves, 1) << "the tilts of the last good edit are still known";
+}
+
+TEST(Editor, TheSidesOfOpenLinesAreNumberedAsTheContoursCame) {
+    const Body ball = test::ball_solid({0, 0, 0}, 20);
+    const std::vector<Plane> planes{make_plane({0, 0, 0}, {0, 0, 1}), make_plane({0, 0, 8}, {0, 0, 1}),
+                              make_plane({0, 0, 0}, {0, 1, 0})};
+    ContourSet set = draw_sections(ball, planes, 80);
+    ASSERT_EQ(set.contours.size(), 3u);
+    set.contours[2].closed = false;
+    set.contours[2].points.resize(50);
+    set.contours.insert(set.contours.begin() + 1, set.contours[0]);  // a repetition, which is left out
+    Editor editor;
+    for (const EditedSurface& surface : {editor.preview(set), editor.refine(set)}) {
+        ASSERT_EQ(surface.sides.size(), 1u);
+        EXPECT_EQ(surface.sides[0].contour, 3u);
+        EXPECT_TRUE(surface.sides[0].is_sure);
+        const Contour& line = set.contours[3];
+        const Vec3 left = cross(line.plane.normal, line.points[1] - line.points[0]);
+        const bool is_left = dot(surface.function.gradient(line.points[0]), left) > 0;
+        EXPECT_EQ(surface.sides[0].inside, is_left ? Hand::left : Hand::right);
+    }
+    set.contours[3].inside = Hand::left;
+    EXPECT_TRUE(editor.preview(set).sides.empty()) << "it tells";
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ export class Navigation extends Emitter<"planes" | "window" | "layout" | "time">
     this.views = session.views;
     this.order = [session.first_view, ...VIEW_NAMES.filter((view) => view !== session.first_view)];
     this.window = saved?.window ?? { ...session.window };
-    this.crosshair = saved?.crosshair ?? this.onGrid(session.first_view, session.image.center);
+    this.crosshair = saved?.crosshair ?? this.middle();
     for (const view of VIEW_NAMES) this.cameras[view] = saved?.cameras[view] ?? this.initialCamera(view);
     const { state } = session.arrangement; // of a project that is new
     this.layout = saved?.layout ?? LAYOUT_NAMES.find((name) => name === state?.layout) ?? "overview";
@@ -266,7 +266,7 @@ export class Navigation extends Emitter<"planes" | "window" | "layout" | "time">
 
   resetAll(): void {
     for (const view of VIEW_NAMES) this.cameras[view] = this.initialCamera(view);
-    this.crosshair = this.onGrid(this.order[0]!, this.image!.center);
+    this.crosshair = this.middle();
     this.emit("planes");
   }
 
@@ -286,6 +286,12 @@ export class Navigation extends Emitter<"planes" | "window" | "layout" | "time">
   private initialCamera(view: ViewName): Camera {
     const { u, v, normal, origin } = this.views[view].plane;
     return { axes: { u, v, normal }, center: origin, zoom: 1 };
+  }
+
+  /** In the middle of a voxel: of an even number of slices the middle one would be seen between two. */
+  private middle(): Vec3 {
+    const across = this.order.filter((view) => view !== "oblique").reverse(); // the first one last: it has to be met
+    return across.reduce((p, view) => this.onGrid(view, p), this.image!.center);
   }
 
   private onGrid(view: ViewName, p: Vec3): Vec3 {

@@ -229,3 +229,20 @@ test("of an oblique image the slices as they were taken come first, and begin on
   near(navigation.crosshair, [0, 0, 0]);
   assert.equal(contourName(square(1, { plane: { ...usual.views.coronal.plane, origin: [0, 20, 0] } }), navigation), "Acquisition 11");
 });
+
+test("at first all slices are whole ones, where their number is even, too", () => {
+  const even = session();
+  even.image.center = [1, 1, 0]; // between two sagittal and two coronal ones
+  const navigation = new Navigation();
+  navigation.start(even, null);
+  const onSlices = () => {
+    for (const view of ["axial", "sagittal", "coronal"] as const) {
+      const { from, at } = navigation.depth(view);
+      near([Math.abs(((at - from) / navigation.step(view)) % 1)], [0], 1e-9);
+    }
+  };
+  onSlices();
+  navigation.setCrosshair([7.3, 5.1, 3.3]);
+  navigation.resetAll();
+  onSlices();
+});

@@ -39,7 +39,16 @@ TEST(WalkWeight, IsThatBesideTheSurfaceAsFarAsItMoves) {
         less = weight;
     }
     EXPECT_EQ(walk_weight(planes({40, 50, 60}, {40, 48, 58}, {38, 47, 57}), 1), 1) << "a little is enough there";
-    EXPECT_NEAR(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {45, 45, 60}), 1), 0.5, 1e-9) << "as often more as fewer";
+    EXPECT_NEAR(walk_weight(planes({40, 50, 60}, {40, 50, 60}, {45, 45, 60}), 1), 0.25, 1e-9) << "as often more as fewer";
+}
+
+TEST(WalkWeight, IsLessWhereTheContoursAloneAreAsGood) {
+    const std::vector<double> alone{185, 248, 142, 139}, moved{182, 290, 122, 121};  // a sarcoma
+    const double weight = walk_weight(planes(alone, moved, {194, 267, 143, 108}), 1);
+    EXPECT_GT(weight, 0.2);
+    EXPECT_LT(weight, 0.3) << "as often worse as better than the one, and than the other";
+    EXPECT_GT(walk_weight(planes(alone, moved, {174, 247, 123, 88}), 1), 2 * weight);
+    EXPECT_EQ(walk_weight(planes({40, 50, 60}, {60, 75, 90}, {50, 62, 75}), 1), 0) << "better than the moved surface alone";
 }
 
 TEST(WalkWeight, FlipsNowhere) {

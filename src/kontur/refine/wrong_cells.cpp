@@ -82,7 +82,7 @@ double walk_weight(std::span<const WrongCells> planes, double moving) {
     const WrongCells all = sum(planes);
     const double mended = all.alone > 0 ? 1 - all.walked / all.alone : 0;
     const double shown = std::lerp(kSureAlone.at(sureness(over_alone)) * kMendedAlone.at(mended), 1.0, moving);
-    return shown * probability(sureness(over_base));
+    return shown * probability(sureness(over_alone)) * probability(sureness(over_base));
 }
 
 }  // namespace kontur

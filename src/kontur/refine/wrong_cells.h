@@ -21,10 +21,11 @@ WrongCells count_wrong(const ContourSet& left_out, const ImageCells& cells, cons
 
 WrongCells sum(std::span<const WrongCells> planes);
 
-/// How much the walk counts in the result, the rest being the surface through the contours, moved as far as `moving`, 0 to 1:
-/// the probability that it has fewer wrong cells than that, by the mean over planes, which are independent, as their cells
-/// are not. As far as moving has not shown yet that the image helps, the walk has to: by one to two standard errors, and by
-/// a tenth of all wrong cells, give or take half of that. 0 where fewer than three planes tell.
+/// How much the walk counts in the result, the rest being the surface through the contours, moved as far as `moving`, 0 to
+/// 1: the probability that it has fewer wrong cells than that, times the one that it has fewer than the contours alone, each
+/// by the mean over planes, which are independent, as their cells are not. As far as moving has not shown yet that the image
+/// helps, the walk has to: by one to two standard errors, and by a tenth of all wrong cells, give or take half of that. 0
+/// where fewer than three planes tell.
 double walk_weight(std::span<const WrongCells> planes, double moving);
 
 }  // namespace kontur

@@ -20,6 +20,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "facts.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
 #include "kontur/io/atomic_file.h"
@@ -111,10 +112,6 @@ struct Running {
     Clock::time_point start;
     ChildProcess process;
 };
-
-std::string counted(std::size_t count, const char* thing) {
-    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 std::size_t warning_count(const Facts& facts) { return facts.contains("warnings") ? facts["warnings"].size() : 0; }
 

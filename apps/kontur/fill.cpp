@@ -11,6 +11,7 @@
 #include "drawn_on.h"
 #include "facts.h"
 #include "input_digests.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/atomic_file.h"
@@ -125,12 +126,11 @@ FillReport fill_files(const FillCommand& command, Console& console, const Work& 
 
 void run(const FillCommand& command, Console& console) {
     const FillReport report = fill_files(command, console, console.work(command.threads));
-    std::string text =
-        fmt::format("{}: {} label{}\n", command.output.string(), report.labels.size(), report.labels.size() == 1 ? "" : "s");
+    std::string text = fmt::format("{}: {}\n", command.output.string(), counted(report.labels.size(), "label"));
     for (const FilledLabel& one : report.labels) {
         for (const std::string& warning : one.warnings) console.warn(fmt::format("label {}: {}", one.label, warning));
-        text += fmt::format("label {}: {} slices painted; {} voxels painted, {} added\n", one.label, slices_of(one),
-                            one.painted_voxels, one.added_voxels);
+        text += fmt::format("label {}: {} slices painted; {} painted, {} added\n", one.label, slices_of(one),
+                            counted(one.painted_voxels, "voxel"), one.added_voxels);
         if (one.image.verdict != ImageVerdict::none) text += fmt::format("label {}: {}\n", one.label, sentence(one.image));
     }
     console.print(text);

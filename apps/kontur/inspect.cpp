@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "describe.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/mesh.h"
@@ -177,8 +178,8 @@ void run(const InspectCommand& command, Console& console) {
             if (const std::string damage = first_damage(facts); !damage.empty() && !first_error)
                 first_error = Error(ErrorKind::corrupt_file, path.string() + ": " + damage);
             if (const std::size_t errors = error_count(facts); errors > 0 && !first_error)
-                first_error = Error(ErrorKind::invalid_input,
-                                    fmt::format("{} has {} error{}", path.string(), errors, errors == 1 ? "" : "s"));
+                first_error =
+                    Error(ErrorKind::invalid_input, fmt::format("{} has {}", path.string(), counted(errors, "error")));
         } catch (const Error& error) {
             if (error.kind() == ErrorKind::cancelled) throw;
             facts["error"] = error.what();

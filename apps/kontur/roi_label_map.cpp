@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "roi_label_map.h"
+#include "kontur/base/counted.h"
 
 #include <fmt/format.h>
 
@@ -33,9 +34,9 @@ std::vector<std::string> RoiLabelMap::notes(const std::vector<std::string>& name
     std::vector<std::string> notes;
     for (const auto& [labels, voxels] : shared_) {
         const char* const s = voxels == 1 ? "s" : "";
-        notes.push_back(fmt::format(
-            "{} voxel{} of '{}' lie{} in '{}', too, and keep{} its label {}; a DICOM SEG (.dcm) has room for both", voxels,
-            voxels == 1 ? "" : "s", names[labels.second - 1u], s, names[labels.first - 1u], s, labels.first));
+        notes.push_back(
+            fmt::format("{} of '{}' lie{} in '{}', too, and keep{} its label {}; a DICOM SEG (.dcm) has room for both",
+                        counted(voxels, "voxel"), names[labels.second - 1u], s, names[labels.first - 1u], s, labels.first));
     }
     return notes;
 }

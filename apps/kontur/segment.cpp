@@ -12,6 +12,7 @@
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "input_digests.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
 #include "kontur/base/printable.h"
@@ -112,8 +113,8 @@ void check_planes_suffice(const SegmentCommand& command, const ContourSet& conto
     const std::size_t count = DrawnLines(contours).planes().size();
     if (!command.uncertainty.empty() && count < kLeastPlanes)
         throw Error(ErrorKind::invalid_input,
-                    fmt::format("--uncertainty: contours lie in {} different plane{}; of fewer than {} nothing is known",
-                                count, count == 1 ? "" : "s", kLeastPlanes));
+                    fmt::format("--uncertainty: contours lie in {}; of fewer than {} nothing is known",
+                                counted(count, "different plane"), kLeastPlanes));
 }
 
 void write_uncertainty(const fs::path& path, const Inputs& inputs, const Segmentation& result, const Provenance& made,
@@ -139,23 +140,23 @@ private:
 std::string crossings_line(const std::vector<Crossing>& crossings) {
     const Disagreement all = disagreement(crossings);
     const std::string unmatched = all.unmatched > 0 ? fmt::format(", {} unmatched", all.unmatched) : "";
-    return fmt::format("{} crossings of contours{}; disagreement {:.3g} mm (max), {:.3g} mm (rms)\n", all.matched, unmatched,
-                       all.max_mm, all.rms_mm);
+    return fmt::format("{} of contours{}; disagreement {:.3g} mm (max), {:.3g} mm (rms)\n", counted(all.matched, "crossing"),
+                       unmatched, all.max_mm, all.rms_mm);
 }
 
 void print_summary(const SegmentCommand& command, const Segmentation& result, double seconds, Console& console) {
     const SegmentReport& r = result.report;
-    std::string text = fmt::format("{}: {} voxels, {}, {} component{}\n", command.output.string(), r.mask_voxels,
-                                   in_ml(r.mask_volume_ml), r.mask_components, r.mask_components == 1 ? "" : "s");
+    std::string text = fmt::format("{}: {}, {}, {}\n", command.output.string(), counted(r.mask_voxels, "voxel"),
+                                   in_ml(r.mask_volume_ml), counted(r.mask_components, "component"));
     if (!command.rtstruct.empty()) text += command.rtstruct.string() + "\n";
     if (!command.mesh.empty())
-        text += fmt::format("{}: {} triangles, {}\n", command.mesh.string(), result.mesh->triangles.size(),
+        text += fmt::format("{}: {}, {}\n", command.mesh.string(), counted(result.mesh->triangles.size(), "triangle"),
                             in_ml(signed_volume_mm3(*result.mesh) / 1000));
     if (!command.picture.empty()) text += command.picture.string() + "\n";
     for (const fs::path& path : {command.uncertainty, command.report})
         if (!path.empty()) text += path.string() + "\n";
-    text += fmt::format("{} contours, {} points, {} centres; residual {:.3g} mm (max), {:.3g} mm (rms)\n", r.contours,
-                        r.points, r.centres, r.residual.max_mm, r.residual.rms_mm);
+    text += fmt::format("{}, {}, {}; residual {:.3g} mm (max), {:.3g} mm (rms)\n", counted(r.contours, "contour"),
+                        counted(r.points, "point"), counted(r.centres, "centre"), r.residual.max_mm, r.residual.rms_mm);
     if (!r.crossings.empty()) text += crossings_line(r.crossings);
     if (r.image.verdict != ImageVerdict::none) text += sentence(r.image) + "\n";
     text += sentence(r.uncertainty) + "\n";

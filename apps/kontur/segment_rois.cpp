@@ -12,6 +12,7 @@
 #include "dicom_output.h"
 #include "facts.h"
 #include "input_digests.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
@@ -98,9 +99,9 @@ RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, 
 }
 
 std::string sentence(const StructurePair& pair, const std::vector<Roi>& rois) {
-    return fmt::format("'{}' and '{}': {}{}, {} voxel{} claimed by both", rois[pair.first].name, rois[pair.second].name,
+    return fmt::format("'{}' and '{}': {}{}, {} claimed by both", rois[pair.first].name, rois[pair.second].name,
                        pair.relation == Relation::inside ? "the first inside the second" : name(pair.relation),
-                       pair.is_given ? " by rule" : "", pair.shared_voxels, pair.shared_voxels == 1 ? "" : "s");
+                       pair.is_given ? " by rule" : "", counted(pair.shared_voxels, "voxel"));
 }
 
 RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
@@ -115,11 +116,11 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
                                      static_cast<std::uint16_t>(pair.second + 1));
         result.notes.push_back(sentence(pair, drawings.rois));
     }
-    result.notes.push_back(
-        fmt::format("{} voxels between structures that touch were given to the nearest", all.closed_voxels));
+    result.notes.push_back(counted(all.closed_voxels, "voxel") + " between structures that touch " +
+                           (all.closed_voxels == 1 ? "was" : "were") + " given to the nearest");
     if (all.borrowed_points > 0)
-        result.notes.push_back(fmt::format(
-            "{} points of borders that one structure alone has drawn count for its neighbour, too", all.borrowed_points));
+        result.notes.push_back(fmt::format("{} of borders that one structure alone has drawn count{} for its neighbour, too",
+                                           counted(all.borrowed_points, "point"), all.borrowed_points == 1 ? "s" : ""));
     if (!command.mesh.empty()) result.surface = shared_surface(all, work);
     for (std::size_t n = 0; n < all.structures.size(); ++n) {
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
@@ -186,10 +187,11 @@ void segment_rois(const SegmentCommand& command, Console& console) {
         for (const std::string& warning : one.report.warnings)
             console.warn(fmt::format("{}: {}", one.segment.label, warning));
     for (const std::string& note : result.notes) console.warn(note);
-    std::string text = fmt::format("{}: {} structures\n", command.output.string(), all.size());
+    std::string text = fmt::format("{}: {}\n", command.output.string(), counted(all.size(), "structure"));
     for (const FittedRoi& one : all)
-        text += fmt::format("{} {}: {} voxels, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
-                            one.report.mask_voxels, in_ml(one.report.mask_volume_ml), one.report.residual.max_mm);
+        text += fmt::format("{} {}: {}, {}; residual {:.3g} mm (max)\n", one.segment.number, one.segment.label,
+                            counted(one.report.mask_voxels, "voxel"), in_ml(one.report.mask_volume_ml),
+                            one.report.residual.max_mm);
     for (const fs::path& path : {command.rtstruct, command.mesh, command.report})
         if (!path.empty()) text += path.string() + "\n";
     console.print(text);

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "dicom_output.h"
 #include "input_digests.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"
@@ -55,7 +56,9 @@ void run(const TraceCommand& command, Console& console) {
     for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
     const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), work);
     ContourSet set = trace(mask, planes, command.options, work);
-    if (set.contours.empty()) console.warn(fmt::format("none of the {} planes meets the mask", planes.size()));
+    if (set.contours.empty())
+        console.warn(planes.size() == 1 ? "the plane does not meet the mask"
+                                        : fmt::format("none of the {} planes meets the mask", planes.size()));
     set.name = command.name;
 
     const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, work));
@@ -63,8 +66,8 @@ void run(const TraceCommand& command, Console& console) {
     outputs.write(command.output,
                   [&](const std::filesystem::path& path) { console.note(write_contours(path, set, images, write)); });
     outputs.commit();
-    console.print(fmt::format("{}: {} contours with {} points in {} planes\n", command.output.string(), set.contours.size(),
-                              point_count(set), planes.size()));
+    console.print(fmt::format("{}: {} with {} in {}\n", command.output.string(), counted(set.contours.size(), "contour"),
+                              counted(point_count(set), "point"), counted(planes.size(), "plane")));
 }
 
 }  // namespace kontur::app

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "viewer/contour_edits.h"
 #include "viewer/model_json.h"
@@ -207,7 +208,8 @@ json Session::set_contours(const Members& m) {
         const DrawnContour& before = contour_of(project_.state(), id);
         changed.contours.push_back({id, before, as_told(before, m, edges_)});
     }
-    changed.label = fmt::format("{} {} contours", m.has("visible") ? "Show or hide" : "Change", changed.contours.size());
+    changed.label =
+        fmt::format("{} {}", m.has("visible") ? "Show or hide" : "Change", counted(changed.contours.size(), "contour"));
     commit(changed);
     return json::object();
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
 #include "kontur/io/atomic_file.h"
@@ -83,9 +84,10 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     write_image(path, image, options);
     std::vector<std::string> notes;
     for (const auto& [pair, voxels] : shared)
-        notes.push_back(fmt::format("{} voxels lie in {} and in {}: in the label map they belong to {}, the smaller one",
-                                    voxels, all[pair.first].structure.name, all[pair.second].structure.name,
-                                    all[pair.second].structure.name));
+        notes.push_back(fmt::format("{} in {} and in {}: in the label map {} to {}, the smaller one",
+                                    voxels == 1 ? "1 voxel lies" : counted(voxels, "voxel") + " lie",
+                                    all[pair.first].structure.name, all[pair.second].structure.name,
+                                    voxels == 1 ? "it belongs" : "they belong", all[pair.second].structure.name));
     return notes;
 }
 

@@ -3,14 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "kontur/base/counted.h"
+
 namespace kontur::viewer {
-namespace {
-
-std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-}  // namespace
 
 std::vector<std::string> leave_out_unkept(ContourSet& set) {
     std::vector<std::string> notes;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
+#include "kontur/base/counted.h"
 #include "kontur/shape/contour.h"
 
 namespace kontur::python {
@@ -130,8 +131,8 @@ Examples
     contour.def(
         "__eq__", [](const Contour& a, const Contour& b) { return equal(a, b); }, py::is_operator());
     contour.def("__repr__", [](const Contour& c) {
-        return py::str("<Contour of {} points{}{}>")
-            .format(c.points.size(), c.closed ? "" : ", open", c.hole ? ", hole" : "");
+        return py::str("<Contour of {}{}{}>")
+            .format(counted(c.points.size(), "point"), c.closed ? "" : ", open", c.hole ? ", hole" : "");
     });
     picklable(contour, [](const Contour& c) {
         return py::make_tuple(c.points, c.plane, c.closed, c.hole, c.end, c.inside, c.weight);
@@ -226,7 +227,8 @@ Examples
     set.def(
         "__eq__", [](const ContourSet& a, const ContourSet& b) { return equal(a, b); }, py::is_operator());
     set.def("__repr__", [](const ContourSet& s) {
-        return py::str("<ContourSet {!r}: {} contours, {} points>").format(s.name, s.contours.size(), point_count(s));
+        return py::str("<ContourSet {!r}: {}, {}>")
+            .format(s.name, counted(s.contours.size(), "contour"), counted(point_count(s), "point"));
     });
     picklable(set, [](const ContourSet& s) {
         return py::make_tuple(s.contours, s.name, s.interior, s.exterior, s.surface, s.empty_planes);

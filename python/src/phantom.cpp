@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/phantom/phantom.h"
 #include "bindings.h"
+#include "kontur/base/counted.h"
 #include "kontur/phantom/bodies.h"
 #include "kontur/phantom/cases.h"
 
@@ -45,7 +46,7 @@ void bind_phantom(py::module_& m) {
     phantom.def_readonly("normals", &PhantomCase::normals,
                          "list of ndarray, shape (n, 3): the body's at each contour's points.");
     phantom.def("__repr__", [](const PhantomCase& c) {
-        return py::str("<PhantomCase {!r}: {} contours>").format(c.name, c.contours.contours.size());
+        return py::str("<PhantomCase {!r}: {}>").format(c.name, counted(c.contours.contours.size(), "contour"));
     });
 
     py::class_<PhantomVolume> volume(m, "PhantomVolume", "A scan of the phantom.");

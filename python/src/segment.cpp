@@ -3,6 +3,7 @@
 
 #include "bindings.h"
 #include "fields.h"
+#include "kontur/base/counted.h"
 #include "kontur/report.h"
 #include "kontur/view/picture.h"
 #include "provenance.h"
@@ -135,9 +136,9 @@ void bind_report(py::module_& m) {
         "seconds", [](const Report& report) { return py::dict(py::cast(report.seconds)); },
         "dict of str to float: wall time by stage.");
     type.def("__repr__", [](const Report& report) {
-        return py::str("<SegmentReport: {} contours, {} points, {}, residual {:.3g} mm (max), {:.3g} mm (rms), {} warnings>")
-            .format(report.contours, report.points, in_ml(report.mask_volume_ml), report.residual.max_mm,
-                    report.residual.rms_mm, report.warnings.size());
+        return py::str("<SegmentReport: {}, {}, {}, residual {:.3g} mm (max), {:.3g} mm (rms), {}>")
+            .format(counted(report.contours, "contour"), counted(report.points, "point"), in_ml(report.mask_volume_ml),
+                    report.residual.max_mm, report.residual.rms_mm, counted(report.warnings.size(), "warning"));
     });
     bind_json(type);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "kontur/base/counted.h"
 #include "kontur/fit/missed_clicks.h"
 #include "kontur/fit/residual.h"
 #include "kontur/measure/components.h"
@@ -90,8 +91,8 @@ void describe_fit(const PreparedContours& prepared, const FittedFunction& fit, c
         report.warnings.push_back(fmt::format("the solver stopped at an error of {:.3g} mm; {:.3g} mm were asked for",
                                               fit.report.residual, options.solve.tolerance_mm));
     if (!prepared.crossings.empty())
-        report.warnings.push_back(fmt::format(
-            "contours cross themselves at {} points; lobes are filled by the even-odd rule", prepared.crossings.size()));
+        report.warnings.push_back(fmt::format("contours cross themselves at {}; lobes are filled by the even-odd rule",
+                                              counted(prepared.crossings.size(), "point")));
 }
 
 void describe_mask(const SurfaceLattice& surface, const Mask& mask, SegmentReport& report) {
@@ -119,9 +120,8 @@ void describe_thinness(const ContourSet& contours, const Grid& grid, std::vector
         if (norm(doubled) / 2 < face_mm2) ++thin;
     }
     if (thin > 0 && 2 * thin >= closed)
-        warnings.push_back(
-            fmt::format("{} of {} contours enclose{} less than a voxel: smaller voxels would show the object whole", thin,
-                        closed, thin == 1 ? "s" : ""));
+        warnings.push_back(fmt::format("{} of {} enclose{} less than a voxel: smaller voxels would show the object whole",
+                                       thin, counted(closed, "contour"), thin == 1 ? "s" : ""));
 }
 
 /// Where a contour has few points, the surface may leave the line between them.

@@ -4,6 +4,7 @@
 // Everything public, in the order of the flow.
 
 // What all stages share.
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/geometry.h"
 #include "kontur/base/parallel.h"

@@ -231,6 +231,17 @@ def test_a_mask_in_the_images_place_gives_the_grid_alone(folder):
     assert (read_nifti(folder / "out.nii.gz") == mask).all()
 
 
+def test_a_frame_that_was_asked_for_must_be_there(folder):
+    frames = numpy.stack(2 * [ball_array().astype(numpy.int16)], axis=-1)
+    nibabel.save(nibabel.Nifti1Image(frames, nibabel.load(folder / "image.nii.gz").affine), folder / "4d.nii.gz")
+    words = ("segment", folder / "ball.json", "--image", folder / "4d.nii.gz", "--output", folder / "out.nii.gz")
+    refused = kontur(*words, "--frame", "2")
+    assert refused.returncode == 65 and "frame 2" in refused.stderr and "frames 0 to 1" in refused.stderr
+    assert not (folder / "out.nii.gz").exists()
+    unsaid = kontur(*words)
+    assert unsaid.returncode == 0 and "has 2 frames" in unsaid.stderr  # all have one grid
+
+
 def test_of_an_image_that_cannot_be_read_the_grid_will_do(folder, ct):
     whole = gzip.decompress((folder / "ct.nii.gz").read_bytes())
     (folder / "ct.nii.gz").write_bytes(gzip.compress(whole[:5000]))

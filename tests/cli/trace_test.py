@@ -53,7 +53,7 @@ def test_planes_beside_the_object_give_no_contour_and_a_warning(tmp_path):
     planes = write_planes(tmp_path / "planes.json", [plane((12, -7, 25), (0, 0, 1))])
     result = kontur("trace", mask, "--planes", planes, "--output", tmp_path / "out.json")
     assert result.returncode == 0
-    assert result.stderr == "kontur: warning: none of the 1 planes meets the mask\n"
+    assert result.stderr == "kontur: warning: the plane does not meet the mask\n"
     assert contours_of(tmp_path / "out.json") == []
 
 

@@ -134,8 +134,7 @@ TEST(Kinds, HolesInNothingAreReportedAndHolesAloneRefused) {
     const Body body = test::ellipsoid({}, {28, 20, 16});
     ContourSet drawn = draw_sections(body, planes(-10, 10, 5), 100);
     drawn.contours[0].hole = true;
-    EXPECT_TRUE(warns(segment(drawn, grid_over(body, 4)).report,
-                      "1 contours are holes where nothing is drawn around them, the first of them contour 1"));
+    EXPECT_TRUE(warns(segment(drawn, grid_over(body, 4)).report, "contour 1 is a hole where nothing is drawn around it"));
     for (Contour& contour : drawn.contours) contour.hole = true;
     EXPECT_THROW(segment(drawn, grid_over(body, 4)), Error);
 }
@@ -307,7 +306,7 @@ TEST(Kinds, TinyAndHugeContoursSpikesAndRepeatedPoints) {
     points.insert(points.begin() + 20, {points[19] + Vec3{9, 9, 0}, points[19], points[19]});
     const Segmentation cleaned = segment(dirty, grid_over(ball, 2));
     EXPECT_GT(test::dice(cleaned.mask.values, segment(plain, grid_over(ball, 2)).mask.values), 0.997);
-    EXPECT_TRUE(warns(cleaned.report, "repeated points") && warns(cleaned.report, "spikes"));
+    EXPECT_TRUE(warns(cleaned.report, "repeated point") && warns(cleaned.report, "spike"));
 
     ContourSet tiny;
     tiny.contours = {test::contour_in(Plane{}, std::vector<test::Point2>{{0, 0}, {3, 0}, {0, 3}})};

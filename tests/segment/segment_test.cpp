@@ -220,7 +220,7 @@ TEST(Segment, WarnsOfWhatTheUserShouldKnow) {
     EXPECT_TRUE(warns(segment(ball_contours(), test::grid_about(kCenter, {15, 30, 30}, 2)).report, "border"));
     ContourSet repeated = ball_contours();
     repeated.contours[2].points.insert(repeated.contours[2].points.begin() + 5, repeated.contours[2].points[5]);
-    EXPECT_TRUE(warns(segment(repeated, ball_grid()).report, "1 repeated points"));
+    EXPECT_TRUE(warns(segment(repeated, ball_grid()).report, "1 repeated point was left out"));
     ContourSet tiny;
     for (int i = 0; i < 3; ++i)
         tiny.contours.push_back(test::circle(make_plane(kCenter + Vec3{0, 1, 0.03 * i}, {0, 0, 1}), 0.3, 30));

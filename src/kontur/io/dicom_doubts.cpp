@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom_doubts.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/printable.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ private:
 };
 
 std::string count_of_files(std::size_t count, std::string_view kind) {
-    return fmt::format("left out {} {}file{}", count, kind, count == 1 ? "" : "s");
+    return "left out " + counted(count, std::string(kind) + "file");
 }
 
 std::string name_of(const fs::path& file) { return file.filename().string(); }

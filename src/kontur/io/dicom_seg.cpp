@@ -9,6 +9,7 @@
 #include <span>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/io/cie_lab.h"
 #include "kontur/io/dicom_frames.h"
@@ -96,8 +97,8 @@ private:
         std::string text;
         for (const DicomSegment& segment : segments)
             if (segment.shared_voxels > 0)
-                text += fmt::format("{}{} of {} voxels of {} '{}'", text.empty() ? "" : ", ", segment.shared_voxels,
-                                    segment.voxels, segment.number, segment.label);
+                text += fmt::format("{}{} of {} of {} '{}'", text.empty() ? "" : ", ", segment.shared_voxels,
+                                    counted(segment.voxels, "voxel"), segment.number, segment.label);
         return text;
     }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_content.h"
 #include "kontur/io/dicom_doubts.h"
@@ -53,9 +54,9 @@ std::string listed(const std::vector<DicomStack>& stacks) {
         const int volume = ++volume_of_series[series.series_uid];
         if (n == kVolumesListed) text += fmt::format("; and {} more", stacks.size() - n);
         if (n >= kVolumesListed) continue;
-        text += fmt::format("{}{} volume {} ({}{}, {} slices of {} x {}{})", n == 0 ? "" : "; ", series.series_uid, volume,
+        text += fmt::format("{}{} volume {} ({}{}, {} of {} x {}{})", n == 0 ? "" : "; ", series.series_uid, volume,
                             series.modality, series.description.empty() ? "" : " '" + series.description + "'",
-                            series.files.size(), series.columns, series.rows,
+                            counted(series.files.size(), "slice"), series.columns, series.rows,
                             series.distinction.empty() ? "" : ", " + series.distinction);
     }
     return text;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/json_file.h"
@@ -90,7 +91,7 @@ Contour read_curve(const json& markup, bool closed, double tolerance_mm) {
     const std::size_t least = closed ? 3 : 2;
     if (points.size() < least)
         refuse(ErrorKind::invalid_input,
-               fmt::format("has {} points with a position; at least {} are needed", points.size(), least));
+               fmt::format("has {} with a position; at least {} are needed", counted(points.size(), "point"), least));
     if (const std::optional<Plane> plane = fit_plane(points)) {
         check_planar(points, *plane, tolerance_mm);
         contour.plane = *plane;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "kontur/base/counted.h"
 #include "kontur/io/keyhole.h"
 #include "kontur/io/shared_planes.h"
 #include "kontur/shape/contour_nesting.h"
@@ -17,10 +18,6 @@ namespace {
 
 /// Channels of keyholes are drawn there and back along the same points, up to the rounding of the file.
 constexpr double kChannelToleranceMm = 1e-3;
-
-std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 /// The contours under construction and what is to be told about them.
 struct Interpretation {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/dcmtk.h"
@@ -107,8 +108,7 @@ void read_roi_contours(Roi& roi, const std::vector<DcmItem*>& items) {
     if (items.size() > 1)
         roi.notes.push_back(fmt::format("its contours stand in {} items of the file, which are joined", items.size()));
     if (const std::size_t dropped = drop_duplicate_points(roi.contours); dropped > 0)
-        roi.notes.push_back(
-            fmt::format("left out {} repetition{} of a neighbouring point", dropped, dropped == 1 ? "" : "s"));
+        roi.notes.push_back(fmt::format("left out {} of a neighbouring point", counted(dropped, "repetition")));
 }
 
 /// Damage in one ROI says nothing about the others.
@@ -157,7 +157,7 @@ std::string listed(const std::vector<Roi>& rois) {
     std::string text;
     for (const Roi& roi : rois)
         text += fmt::format("{}{} '{}' ({})", text.empty() ? "" : ", ", roi.number, roi.name,
-                            roi.damage.empty() ? fmt::format("{} contours", roi.contours.contours.size()) : "damaged");
+                            roi.damage.empty() ? counted(roi.contours.contours.size(), "contour") : "damaged");
     return text;
 }
 

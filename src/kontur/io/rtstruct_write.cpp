@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/decimal_string.h"
@@ -35,7 +36,7 @@ struct StoredPath {
 void check_contour(const Contour& contour) {
     if (!contour.closed) throw invalid("it is open; only closed contours can be written");
     if (contour.points.size() < 3)
-        throw invalid(fmt::format("it has {} points; at least 3 are needed", contour.points.size()));
+        throw invalid(fmt::format("it has {}; at least 3 are needed", counted(contour.points.size(), "point")));
     if (!std::all_of(contour.points.begin(), contour.points.end(), is_finite))
         throw invalid("it has a NaN or infinite coordinate");
 }

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/io/polydata.h"
 #include "kontur/io/shared_planes.h"
@@ -138,7 +139,7 @@ Contour to_contour(Line line) {
     const std::size_t least = line.closed ? 3 : 2;
     if (line.points.size() < least)
         throw Error(ErrorKind::invalid_input,
-                    fmt::format("has {} points; at least {} are needed", line.points.size(), least));
+                    fmt::format("has {}; at least {} are needed", counted(line.points.size(), "point"), least));
     Contour contour;
     contour.closed = line.closed;
     contour.points = std::move(line.points);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a contour shows by itself.
 #include "kontur/measure/contour_check.h"
+#include "kontur/base/counted.h"
 
 #include <fmt/format.h>
 
@@ -53,9 +54,7 @@ private:
         if (points_.size() >= least) return true;
         const std::optional<Vec3> where = points_.empty() ? std::nullopt : std::optional(points_.front());
         add(FindingKind::too_few_points, Severity::error,
-            fmt::format("has {} different point{}; at least {} are needed", points_.size(), points_.size() == 1 ? "" : "s",
-                        least),
-            where);
+            fmt::format("has {}; at least {} are needed", counted(points_.size(), "different point"), least), where);
         return false;
     }
 

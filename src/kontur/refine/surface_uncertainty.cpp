@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "kontur/base/counted.h"
 #include "kontur/base/parallel.h"
 #include "kontur/refine/quantile.h"
 #include "kontur/refine/uncertainty_model.h"
@@ -108,15 +109,15 @@ constexpr std::size_t kMostCounted = 30;
 
 std::string planes_still(std::size_t planes, std::string_view dice) {
     if (planes > kMostCounted) return fmt::format("; more than {} more planes to {}", kMostCounted, dice);
-    return fmt::format("; about {} more plane{} to {}", planes, planes == 1 ? "" : "s", dice);
+    return fmt::format("; about {} to {}", counted(planes, "more plane"), dice);
 }
 
 }  // namespace
 
 std::string sentence(const SurfaceUncertainty& u) {
     if (!u.is_known)
-        return fmt::format("how sure the surface is, {} plane{} do{} not tell; {} are needed", u.planes,
-                           u.planes == 1 ? "" : "s", u.planes == 1 ? "es" : "", kLeastPlanes);
+        return fmt::format("how sure the surface is, {} do{} not tell; {} are needed", counted(u.planes, "plane"),
+                           u.planes == 1 ? "es" : "", kLeastPlanes);
     std::string text =
         fmt::format("expected Dice {} ({} to {}), volume {} ml ({} to {})", two_digits(u.dice.value), two_digits(u.dice.low),
                     two_digits(u.dice.high), rounded(u.volume_ml), rounded(u.volume_low_ml), rounded(u.volume_high_ml));

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/shape/grid.h"
 
@@ -81,8 +82,7 @@ void check_meaning(const Contour& contour, const std::string& owner) {
 void check_contour(const Contour& contour, const ContourCheckOptions& options, const std::string& owner) {
     const std::size_t least = contour.closed ? 3 : 2;
     if (contour.points.size() < least)
-        refuse(fmt::format("{} has {} point{}; at least {} are needed", owner, contour.points.size(),
-                           contour.points.size() == 1 ? "" : "s", least));
+        refuse(fmt::format("{} has {}; at least {} are needed", owner, counted(contour.points.size(), "point"), least));
     check_all_finite(contour.points, owner);
     check_plane(contour.plane, "the plane of " + owner);
     check_on_plane(contour, std::min(options.plane_tolerance_mm, 0.1 * bounding_box(contour.points).diagonal()), owner);

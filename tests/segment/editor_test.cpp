@@ -244,7 +244,7 @@ TEST(Editor, GoesOnAfterContoursThatCannotBeFitted) {
 TEST(Editor, TheSidesOfOpenLinesAreNumberedAsTheContoursCame) {
     const Body ball = test::ball_solid({0, 0, 0}, 20);
     const std::vector<Plane> planes{make_plane({0, 0, 0}, {0, 0, 1}), make_plane({0, 0, 8}, {0, 0, 1}),
-                              make_plane({0, 0, 0}, {0, 1, 0})};
+                                    make_plane({0, 0, 0}, {0, 1, 0})};
     ContourSet set = draw_sections(ball, planes, 80);
     ASSERT_EQ(set.contours.size(), 3u);
     set.contours[2].closed = false;

@@ -136,7 +136,7 @@ void describe_long_edges(const StageResults& results, const Work& work, std::vec
             between.worst_contour + 1, between.max_mm));
 }
 
-/// No object is as wide as a patient is tall: then a contour mostly lies where nobody meant it to.
+/// Nobody is 3 m tall: a contour that alone makes a drawing so wide mostly lies where it was not meant to.
 void describe_strays(const Drawing& drawing, std::vector<std::string>& warnings) {
     constexpr double kMost_mm = 3000;
     if (drawing.diameter_mm() <= kMost_mm) return;
@@ -152,6 +152,7 @@ void describe_strays(const Drawing& drawing, std::vector<std::string>& warnings)
                                                       contours[other].radius);
         if (std::isfinite(nearest_mm) && nearest_mm > loneliest_mm) loneliest_mm = nearest_mm, stray = c;
     }
+    if (loneliest_mm < drawing.diameter_mm() / 2) return;
     warnings.push_back(
         fmt::format("what was drawn is {:.0f} mm wide, and contour {} is {:.0f} mm from any other; see that no "
                     "contour lies where it does not belong",

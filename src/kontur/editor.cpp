@@ -253,6 +253,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
                        {spacing_mm}, work);
         surface.refined = true;
         surface.residual = residual(surface.function, drawing.contours, work);
+        surface.residual.worst_contour = numbers_before(drawn, drawing.contours).at(surface.residual.worst_contour);
         surface.sides = sides_of(drawing, drawn);
         return surface;
     };

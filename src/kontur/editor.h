@@ -34,7 +34,7 @@ struct EditedSurface {
     ImplicitFunction function;
     TriangleMesh mesh;             ///< in mm, with normals; empty without contours
     double spacing_mm = 0;         ///< of the lattice that the mesh was made on
-    Residual residual;             ///< at all drawn points; refined surfaces only
+    Residual residual;             ///< at all drawn points, contours as they came; refined surfaces only
     std::vector<FoundSide> sides;  ///< of the open contours that do not tell, numbered as they came
     int solves = 0;                ///< how often a linear system was solved for it
     RefineReport image{};          ///< what became of the image; refined surfaces only

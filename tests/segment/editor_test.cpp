@@ -241,6 +241,14 @@ TEST(Editor, GoesOnAfterContoursThatCannotBeFitted) {
     EXPECT_EQ(editor.preview(test::ball_contours()).solves, 1) << "the tilts of the last good edit are still known";
 }
 
+TEST(Editor, TheWorstContourIsNumberedAsTheContoursCame) {
+    ContourSet set = test::ball_contours();
+    Contour& off = set.contours.back();
+    for (Vec3& p : off.points) p = off.plane.origin + 1.2 * (p - off.plane.origin);
+    set.contours.insert(set.contours.begin() + 1, set.contours[0]);  // a repetition, which is left out
+    EXPECT_EQ(Editor().refine(set).residual.worst_contour, set.contours.size() - 1);
+}
+
 TEST(Editor, TheSidesOfOpenLinesAreNumberedAsTheContoursCame) {
     const Body ball = test::ball_solid({0, 0, 0}, 20);
     const std::vector<Plane> planes{make_plane({0, 0, 0}, {0, 0, 1}), make_plane({0, 0, 8}, {0, 0, 1}),

@@ -19,7 +19,8 @@ public:
 
     bool is_one_part() const { return is_one_part_; }
 
-    /// The part's radius over the whole's, in (0, 1].
+    /// The part's radius over the whole's, in (0, 1]. `place` in mm, anywhere; far from all contours it is their distance
+    /// that counts, up to the whole.
     double at(const Vec3& place) const;
 
 private:

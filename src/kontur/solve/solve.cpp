@@ -88,11 +88,11 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
 
 std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double radius_mm) {
     std::vector<double> smoothing(constraints.size(), options.smoothing);
-    const auto extent = [&](std::size_t i) { return constraints.extents.empty() ? 1.0 : constraints.extents[i]; };
-    // On the unit coordinates of a part of that extent the kernel is larger by the cube of it.
-    for (std::size_t i = 0; i < constraints.extents.size(); ++i) smoothing[i] *= std::pow(extent(i), 3);
+    // On the unit coordinates of a part of the extent e, the kernel is 1 / e^3 times as large, and noise / e as large.
+    for (std::size_t i = 0; i < constraints.extents.size(); ++i) smoothing[i] *= std::pow(constraints.extents[i], 3);
     for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
-        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / radius_mm) * extent(i);
+        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / radius_mm) *
+                        (constraints.extents.empty() ? 1.0 : constraints.extents[i]);
     for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
         smoothing[i] /= constraints.trust[i];
         if (!std::isfinite(smoothing[i]))

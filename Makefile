@@ -66,7 +66,7 @@ bench: build ## time the paper's cases and show the tables (some minutes)
 	@build/release/bin/kontur_bench --json build/bench.json
 	@bench/tables.py build/bench.json
 
-accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, into build/organs (an hour; docs/accuracy.md)
+accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, into build/organs (an hour; docs/accuracy/organs.md)
 	@test -d "$(DATA)" || { echo "make accuracy: say where the scans are: make accuracy DATA=FOLDER"; exit 1; }
 	@/usr/bin/python3 bench/organs.py "$(DATA)" build/organs --kontur build/release/bin/kontur --jobs $(JOBS)
 	@cat build/organs/tables.md

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well masks made from a few contours agree with the truth: kontur's defaults, the paper's method as printed and, where
-// the true surface is known, a fit that is told its tilts. docs/accuracy.md is made of the output.
+// the true surface is known, a fit that is told its tilts. docs/accuracy/drawings.md is made of the output.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 Every structure belongs to an object; images and structures of one object stay together in one set. Objects of the scans are, sorted
 by name, `report` and `tune` in turns. Structures of FRESH are `fresh`: nothing was ever chosen on their patients, but for
-sarcomas 031 and 037, of which three drawings showed what to mend (docs/accuracy.md).
+sarcomas 031 and 037, of which three drawings showed what to mend (docs/decisions/0008-image-error.md).
 
 FRESH is a folder of public data:
 - sarcoma/STS_NNN/{CT,MR_T1,PET}_{image,mask}.nii.gz: ibsi_validation/nifti of github.com/theibsi/data_sets (CC BY 3.0), hand-drawn;

@@ -10,7 +10,7 @@ SCANS, FRESH and NEW are laid out as image_sources.py says; what is not there is
 orthogonal and oblique planes; 3, 4, 5, 7, 10 of them; exact and by hand) --share 3 takes every third, another third for the next
 structure. --shift-mm moves each image by so much beside what is drawn (along x and y, half of it along z): it should not be used
 then. Rows already in FILE are not measured again, so a run that was stopped goes on. --tables prints the tables of
-docs/accuracy.md.
+docs/accuracy/image.md.
 """
 import argparse
 import collections

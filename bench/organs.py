@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Structures of real scans, drawn in many ways and segmented by kontur and by its peers: docs/accuracy.md, "Organs".
+"""Structures of real scans, drawn in many ways and segmented by kontur and by its peers: docs/accuracy/organs.md.
 
 Usage: bench/organs.py DATA OUTPUT --kontur build/release/bin/kontur [--hands-every 4] [--jobs N] [--seed TEXT] [--keep]
 

@@ -5,7 +5,7 @@
 Usage: bench/paper_steps.py --kontur build/release/bin/kontur [--every N] [--variants NAME...] FOLDER... > steps.csv
 
 FOLDER is as kontur_accuracy takes it; of all structures, sorted by name, every N-th is taken. Prints the Dice of each drawing
-and variant as CSV. `docs/accuracy.md` says what came out.
+and variant as CSV. `docs/accuracy/organs.md` says what came out.
 """
 import argparse
 import csv

@@ -11,7 +11,7 @@ import csv
 import json
 import pathlib
 
-BEHIND = 0.002  # less says little: docs/accuracy.md, "How much of it is chance"
+BEHIND = 0.002  # less says little: docs/accuracy/drawings.md, "How much of it is chance"
 
 
 def read_csv(path):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulated annotators draw bodies whose truth is known, plane by plane, in several ways: docs/accuracy.md, "How sure the
-// surface is, and where to draw next". A line of JSON for each state.
+// Simulated annotators draw bodies whose truth is known, plane by plane, in several ways:
+// docs/accuracy/sureness.md. A line of JSON for each state.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

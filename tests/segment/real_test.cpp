@@ -50,7 +50,7 @@ TEST_P(RealContours, DefaultOptionsReachTheKnownAgreementFromEverySetOfPlanes) {
     }
 }
 
-/// A quarter of the points, so that it takes seconds; all of them: docs/accuracy.md.
+/// A quarter of the points, so that it takes seconds; all of them: docs/accuracy/drawings.md.
 Segmentation of_a_quarter(const ContourSet& contours, const Grid& grid) {
     SegmentOptions options;
     options.quality = 0.25;

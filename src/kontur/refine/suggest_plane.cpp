@@ -22,7 +22,7 @@ constexpr double kAlikeCosine = 0.94;     // 20 degrees
 constexpr double kParallelCosine = 0.94;  // drawn planes that tell nothing of the direction across them
 constexpr std::size_t kLeastInCut = 12;   // samples, 1 %; fewer are a tip that a contour could hardly be drawn around
 
-// After two planes: as many through clusters of far places, which were worth more than the greedy choice (docs/accuracy.md).
+// After two planes: as many through clusters of far places, which were worth more than the greedy choice (docs/accuracy/sureness.md).
 constexpr std::size_t kFirstByClusters = 2, kByClusters = 2;
 constexpr double kClusterReach = 0.06;  // of the diameter: from one place of a cluster to the next
 

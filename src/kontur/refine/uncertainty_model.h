@@ -5,7 +5,7 @@ namespace kontur {
 
 // Constants of the band, of the expected Dice and of the volume's interval, all fitted by
 // bench/annotators/uncertainty_fit.py to 1198 drawings of 39 structures by simulated annotators, the half `tune`
-// (docs/accuracy.md, "How sure the surface is"). Lengths are in sizes of the surface (SurfaceEvidence::size_mm), so
+// (docs/accuracy/sureness.md). Lengths are in sizes of the surface (SurfaceEvidence::size_mm), so
 // that results turn and scale with the drawing.
 
 /// A surface is never said to be nearer than this to a line, and |grad f| is taken within these limits.

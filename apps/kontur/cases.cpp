@@ -15,9 +15,9 @@
 #include "files.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
-#include "kontur/base/sha256.h"
 #include "kontur/io/dicom_folder.h"
 #include "kontur/io/image_files.h"
+#include "kontur/shape/sha256.h"
 #include "outputs.h"
 
 namespace kontur::app {

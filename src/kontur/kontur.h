@@ -9,7 +9,7 @@
 #include "kontur/base/geometry.h"
 #include "kontur/base/parallel.h"
 #include "kontur/base/printable.h"
-#include "kontur/base/sha256.h"
+#include "kontur/shape/sha256.h"
 #include "kontur/base/smallest_ball.h"
 #include "kontur/base/work.h"
 

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "kontur/base/error.h"
-#include "kontur/base/sha256.h"
 #include "kontur/io/dicom_folder.h"
+#include "kontur/shape/sha256.h"
 
 namespace kontur {
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "kontur/base/sha256.h"
+#include "kontur/shape/sha256.h"
 
 namespace kontur {
 namespace {

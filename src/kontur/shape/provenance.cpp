@@ -4,7 +4,7 @@
 #include <bit>
 #include <span>
 
-#include "kontur/base/sha256.h"
+#include "kontur/shape/sha256.h"
 
 namespace kontur {
 namespace {

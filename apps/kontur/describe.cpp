@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "describe.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -158,6 +160,23 @@ Facts describe(const ContourSet& set) {
         {"extent_mm", extent(bounding_box(set))},
         {"problems", contour_problems(set)},
     };
+}
+
+Facts describe(const StructureAttributes& attributes) {
+    Facts facts = Facts::object();
+    const auto words = [](const CodedConcept& code) {
+        return fmt::format("{} ({}, {})", code.meaning, code.value, code.scheme);
+    };
+    if (attributes.number) facts["number"] = *attributes.number;
+    if (!attributes.interpreted_type.empty()) facts["type"] = attributes.interpreted_type;
+    if (attributes.color) facts["color"] = *attributes.color;
+    if (!attributes.generation_algorithm.empty()) facts["generation_algorithm"] = attributes.generation_algorithm;
+    if (!attributes.description.empty()) facts["description"] = attributes.description;
+    if (attributes.category) facts["category"] = words(*attributes.category);
+    if (attributes.code) facts["code"] = words(*attributes.code);
+    for (const PhysicalProperty& one : attributes.physical_properties)
+        facts["physical_properties"][one.property] = one.value;
+    return facts;
 }
 
 Facts describe(const TriangleMesh& mesh) {

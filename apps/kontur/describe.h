@@ -20,6 +20,9 @@ Facts describe(const Image& image);
 /// Planes, contours, points, holes, extent in mm, and the problems that would keep the set from being segmented.
 Facts describe(const ContourSet& set);
 
+/// What is said of a structure, as far as it is.
+Facts describe(const StructureAttributes& attributes);
+
 /// Points, triangles, closedness, orientation, Euler number, components and, of a closed and oriented one, the enclosed
 /// volume and whether its faces look inwards.
 Facts describe(const TriangleMesh& mesh);

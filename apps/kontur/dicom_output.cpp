@@ -30,8 +30,7 @@ std::string parameters(const SegmentReport& report, const Provenance& provenance
 std::vector<LabelName> label_names(const std::vector<DicomSegment>& segments) {
     std::vector<LabelName> names;
     for (const DicomSegment& segment : segments) {
-        const auto color = segment.color.value_or(kStructureColor);
-        names.push_back({segment.number, segment.label, {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0}});
+        names.push_back({segment.number, segment.label, to_levels(segment.color.value_or(kStructureColor))});
     }
     return names;
 }
@@ -86,20 +85,20 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
     }
     Roi roi;
     roi.name = set.name;
-    roi.color = kStructureColor;
-    roi.generation_algorithm = "SEMIAUTOMATIC";
     roi.contours = set;
+    if (!set.attributes.color) roi.contours.attributes.color = kStructureColor;
     return write_rtstruct(path, {"kontur", {roi}}, series_of(images), options);
 }
 
-std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const ImageInput& images,
-                                    const WriteMaskOptions& options, const Work& work) {
+std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const StructureAttributes& attributes,
+                                    const ImageInput& images, const WriteMaskOptions& options, const Work& work) {
     if (!is_dicom_name(path)) {
         kontur::write_mask(path, result.mask, options);
         return {};
     }
-    const DicomSegment segment{
-        .label = options.segment_name, .algorithm_name = "kontur", .color = to_rgb8(options.segment_color)};
+    DicomSegment segment = segment_like(attributes);
+    segment.label = options.segment_name;
+    segment.color = to_rgb8(options.segment_color);
     const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
                                    parameters(result.report, options.provenance)};
     return write_dicom_seg(path, {result.mask.grid, result.mask.values}, {segment}, series_of(images),

@@ -40,8 +40,9 @@ std::vector<std::string> frame_of_reference_notes(const std::string& uid, const 
 std::vector<std::string> write_contours(const std::filesystem::path& path, const ContourSet& set, const ImageInput& images,
                                         const WriteRtstructOptions& options);
 
-/// Writes the mask of a fit in the format of the name; in .dcm with the way it was made.
-std::vector<std::string> write_mask(const std::filesystem::path& path, const Segmentation& result, const ImageInput& images,
+/// Writes the mask of a fit in the format of the name; in .dcm with the way it was made and what is said of the structure.
+std::vector<std::string> write_mask(const std::filesystem::path& path, const Segmentation& result,
+                                    const StructureAttributes& attributes, const ImageInput& images,
                                     const WriteMaskOptions& options, const Work& work);
 
 /// Writes an image read from `source` in the format of the name; in .dcm and .seg.nrrd with one segment for each label,

@@ -13,6 +13,7 @@
 #include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/measure/contour_check.h"
+#include "structures.h"
 
 namespace kontur::app {
 namespace {
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) {
     const DicomSegmentation found = read_dicom_segmentation(path, command.read.max_voxels);
     Facts segments = Facts::array();
-    for (const DicomSegment& s : found.segments)
+    for (const DicomSegment& s : found.segments) {
         segments.push_back({{"number", s.number},
                             {"name", s.label},
                             {"algorithm_type", s.algorithm_type},
@@ -30,6 +31,10 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
                             {"voxels", s.voxels},
                             {"shared_voxels", s.shared_voxels},
                             {"volume_ml", number(static_cast<double>(s.voxels) * found.grid.voxel_volume_mm3() / 1000)}});
+        StructureAttributes said = attributes_of(s);
+        said.generation_algorithm.clear();  // told above
+        segments.back().update(describe(said));
+    }
     Facts facts = {{"kind", "segmentation"}};
     facts.update(describe(found.grid));
     facts["segments"] = segments;
@@ -111,8 +116,10 @@ Facts inspect_structure_set(const InspectCommand& command, const fs::path& path)
     const StructureSet set = read_rtstruct(path);
     Facts rois = Facts::array();
     for (const Roi& roi : set.rois) {
-        Facts facts = {{"number", roi.number}, {"name", roi.contours.name}, {"type", roi.interpreted_type}};
+        Facts facts = {
+            {"number", roi.number}, {"name", roi.contours.name}, {"type", roi.contours.attributes.interpreted_type}};
         facts.update(describe(roi.contours));
+        facts.update(describe(roi.contours.attributes));
         facts.erase("interior_points");  // which RTSTRUCT does not know
         facts.erase("exterior_points");
         facts.erase("empty_planes");
@@ -135,6 +142,7 @@ Facts inspect_contours(const InspectCommand& command, const fs::path& path) {
     Facts facts = {{"kind", "contours"}};
     const ContourSet contours = read_contours(path).contours;
     facts.update(describe(contours));
+    facts.update(describe(contours.attributes));
     if (command.check) append_findings(contours, "", facts);
     return facts;
 }

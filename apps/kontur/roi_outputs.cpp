@@ -48,8 +48,7 @@ std::vector<std::string> write_label_map(const fs::path& path, const RoiResults&
     std::vector<std::string> words;
     for (const FittedRoi& one : result.all) {
         words.push_back(one.segment.label);
-        const auto& color = *one.segment.color;
-        names.push_back({one.segment.number, one.segment.label, {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0}});
+        names.push_back({one.segment.number, one.segment.label, to_levels(*one.segment.color)});
     }
     kontur::write_image(path, result.labels.image(), {names, made});
     return result.labels.notes(words);

@@ -34,8 +34,9 @@ struct RoiResults {
     std::vector<std::string> notes;
 
     void add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box) {
+        outlines.name = one.roi.name;
+        outlines.attributes = std::move(one.roi.contours.attributes);
         one.roi.contours = std::move(outlines);
-        one.roi.contours.name = one.roi.name;
         all.push_back(std::move(one));
         if (!is_dicom_name(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
         structures.segments.push_back(all.back().segment);

@@ -102,6 +102,7 @@ void write_structure_set(const fs::path& path, const SegmentCommand& command, co
                          const Provenance& made, const Work& work) {
     ContourSet set = slice_contours(result.mask, result.function, work);
     set.name = inputs.contours.name;
+    set.attributes = fitted_attributes(inputs.contours.attributes);
     for (std::string& note : write_contours(path, set, command.image, rtstruct_options(command.holes, made)))
         result.report.warnings.push_back(std::move(note));
 }
@@ -217,6 +218,7 @@ void run(const SegmentCommand& words, Console& console) {
 
     WriteMaskOptions mask = command.mask;
     if (!inputs.contours.name.empty()) mask.segment_name = inputs.contours.name;
+    if (const auto& color = inputs.contours.attributes.color) mask.segment_color = to_levels(*color);
     mask.provenance = provenance(inputs.contours, inputs.grid, report);
     for (auto& digest : digests.get()) mask.provenance.push_back(std::move(digest));
     if (command.date) mask.provenance.emplace_back("date", utc_date());
@@ -227,7 +229,7 @@ void run(const SegmentCommand& words, Console& console) {
         work.check();
     };
     write(command.output, [&](const fs::path& path) {
-        for (std::string& note : write_mask(path, result, command.image, mask, work))
+        for (std::string& note : write_mask(path, result, inputs.contours.attributes, command.image, mask, work))
             report.warnings.push_back(std::move(note));
     });
     write(command.rtstruct,

@@ -64,18 +64,18 @@ ContourSet slice_outlines(const BoxedMask& object, const Grid& grid) {
 /// What is said about a structure beside its voxels.
 FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& result) {
     const Roi& roi = drawings.rois[n];
+    StructureAttributes attributes = fitted_attributes(roi.contours.attributes);
+    if (!attributes.color) attributes.color = kColors[n % kColors.size()];
     FittedRoi fitted;
-    fitted.segment = {.number = static_cast<std::int64_t>(n + 1),
-                      .label = roi.name,
-                      .algorithm_name = "kontur",
-                      .color = roi.color.value_or(kColors[n % kColors.size()])};
+    fitted.segment = segment_like(attributes);
+    fitted.segment.number = static_cast<std::int64_t>(n + 1);
+    fitted.segment.label = roi.name;
     fitted.made = provenance(roi.contours, drawings.grid, result.report);
     fitted.report = std::move(result.report);
     fitted.report.warnings.insert(fitted.report.warnings.begin(), roi.notes.begin(), roi.notes.end());
     fitted.roi.name = roi.name;
-    fitted.roi.interpreted_type = roi.interpreted_type;
-    fitted.roi.color = fitted.segment.color;
-    fitted.roi.generation_algorithm = "SEMIAUTOMATIC";
+    fitted.roi.number = roi.number;
+    fitted.roi.contours.attributes = std::move(attributes);
     return fitted;
 }
 

@@ -75,6 +75,32 @@ std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& color) {
     return result;
 }
 
+std::array<double, 3> to_levels(const std::array<std::uint8_t, 3>& color) {
+    return {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0};
+}
+
+DicomSegment segment_like(const StructureAttributes& attributes) {
+    return {.label = "",
+            .algorithm_name = "kontur",
+            .color = attributes.color,
+            .description = attributes.description,
+            .category = attributes.category,
+            .code = attributes.code};
+}
+
+StructureAttributes fitted_attributes(StructureAttributes drawn) {
+    drawn.generation_algorithm = "SEMIAUTOMATIC";
+    return drawn;
+}
+
+StructureAttributes attributes_of(const DicomSegment& segment) {
+    return {.color = segment.color,
+            .generation_algorithm = segment.algorithm_type,
+            .description = segment.description,
+            .category = segment.category,
+            .code = segment.code};
+}
+
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work) {
     if (label && is_dicom_seg(input.path)) {
         DicomSeg found = read_dicom_seg(input.path, label, input.options.max_voxels, work);

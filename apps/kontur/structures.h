@@ -20,6 +20,18 @@ constexpr std::array<std::uint8_t, 3> kStructureColor{230, 179, 77};  ///< that 
 /// From levels between 0 and 1.
 std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& color);
 
+/// The same from 0 to 1.
+std::array<double, 3> to_levels(const std::array<std::uint8_t, 3>& color);
+
+/// A segment of a structure whose surface kontur fits: what is said of it, without name, number and default colour.
+DicomSegment segment_like(const StructureAttributes& attributes);
+
+/// What a fitted structure's ROI says: the same as the drawn one's, but for how it was made.
+StructureAttributes fitted_attributes(StructureAttributes drawn);
+
+/// What a segment says of its structure.
+StructureAttributes attributes_of(const DicomSegment& segment);
+
 /// The image; with `label` its voxels of that value alone, the others 0. Throws Error(invalid_input) when it has none.
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work);
 

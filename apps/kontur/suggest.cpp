@@ -87,9 +87,10 @@ DrawnOn drawn_on(const SuggestCommand& command, const ContourSet& contours, cons
 }
 
 /// The predicted outlines: to be corrected, not to be believed.
-ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const std::string& name) {
+ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh, const ContourSet& drawn) {
     ContourSet sketch;
-    sketch.name = name;
+    sketch.name = drawn.name;
+    sketch.attributes = drawn.attributes;
     for (const Plane& plane : planes)
         for (Polyline& line : outline(mesh, plane))
             if (line.closed && line.points.size() >= 3) {
@@ -132,7 +133,7 @@ void run(const SuggestCommand& command, Console& console) {
                       [&](const std::filesystem::path& path) { write_planes_json(path, planes, contours.name); });
     if (!command.sketch.empty())
         outputs.write(command.sketch, [&](const std::filesystem::path& path) {
-            write_contour_json(path, sketch_of(planes, *made.mesh, contours.name));
+            write_contour_json(path, sketch_of(planes, *made.mesh, contours));
         });
     outputs.commit();
 

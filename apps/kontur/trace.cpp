@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 #include "commands.h"
 #include "dicom_output.h"
@@ -10,6 +12,7 @@
 #include "kontur/base/printable.h"
 #include "kontur/io/contour_json.h"
 #include "outputs.h"
+#include "structures.h"
 
 namespace kontur::app {
 namespace {
@@ -37,6 +40,15 @@ Provenance provenance_of(const TraceCommand& command, const Work& work) {
                    work);
 }
 
+/// The one of a DICOM SEG or a .seg.nrrd that is traced; of several the chosen one.
+std::optional<DicomSegment> traced_segment(const TraceCommand& command) {
+    const std::vector<DicomSegment> named = named_segments({command.mask, command.read});
+    if (!command.label) return named.size() == 1 ? std::optional(named.front()) : std::nullopt;
+    const auto found =
+        std::find_if(named.begin(), named.end(), [&](const DicomSegment& s) { return s.number == *command.label; });
+    return found == named.end() ? std::nullopt : std::optional(*found);
+}
+
 /// Whatever can be refused before any work is done.
 void check(const TraceCommand& command) {
     check_utf8(command.name, "the name");
@@ -59,7 +71,12 @@ void run(const TraceCommand& command, Console& console) {
     if (set.contours.empty())
         console.warn(planes.size() == 1 ? "the plane does not meet the mask"
                                         : fmt::format("none of the {} planes meets the mask", planes.size()));
-    set.name = command.name;
+    set.attributes = fitted_attributes({});
+    if (const auto segment = traced_segment(command)) {
+        set.name = segment->label;
+        set.attributes = attributes_of(*segment);
+    }
+    if (!command.name.empty()) set.name = command.name;
 
     const WriteRtstructOptions write = rtstruct_options(command.holes, provenance_of(command, work));
     Outputs outputs;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/file_names.h"
 
+#include <fmt/format.h>
+
 namespace kontur::viewer {
 
 std::string plain_name(const std::string& name) {
@@ -15,8 +17,19 @@ std::string plain_name(const std::string& name) {
 
 std::array<double, 3> rgb(const std::string& color) {
     std::array<double, 3> parts{};
-    for (std::size_t i = 0; i < 3; ++i) parts[i] = std::stoi(color.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+    for (std::size_t i = 0; i < 3; ++i) parts[i] = rgb8(color)[i] / 255.0;
     return parts;
+}
+
+std::array<std::uint8_t, 3> rgb8(const std::string& color) {
+    std::array<std::uint8_t, 3> levels{};
+    for (std::size_t i = 0; i < 3; ++i)
+        levels[i] = static_cast<std::uint8_t>(std::stoi(color.substr(1 + 2 * i, 2), nullptr, 16));
+    return levels;
+}
+
+std::string color_text(const std::array<std::uint8_t, 3>& levels) {
+    return fmt::format("#{:02x}{:02x}{:02x}", levels[0], levels[1], levels[2]);
 }
 
 }  // namespace kontur::viewer

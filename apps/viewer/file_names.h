@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 namespace kontur::viewer {
@@ -11,5 +12,9 @@ std::string plain_name(const std::string& name);
 
 /// Red, green and blue from 0 to 1 of "#rrggbb".
 std::array<double, 3> rgb(const std::string& color);
+
+/// The same from 0 to 255, and back.
+std::array<std::uint8_t, 3> rgb8(const std::string& color);
+std::string color_text(const std::array<std::uint8_t, 3>& levels);
 
 }  // namespace kontur::viewer

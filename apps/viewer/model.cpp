@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kontur/base/error.h"
+#include "viewer/file_names.h"
 
 namespace kontur::viewer {
 namespace {
@@ -61,8 +62,14 @@ Contour as_contour(const DrawnContour& contour) {
             .inside = contour.inside};
 }
 
+StructureAttributes attributes_of(const Structure& structure) {
+    StructureAttributes attributes = structure.attributes;
+    attributes.color = rgb8(structure.color);
+    return attributes;
+}
+
 ContourSet without_contours(const Structure& s) {
-    return {s.name, {}, s.interior, s.exterior, s.surface_points, s.empty_planes};
+    return {s.name, {}, s.interior, s.exterior, s.surface_points, s.empty_planes, attributes_of(s)};
 }
 
 ContourSet contour_set(const State& state, Id structure) {

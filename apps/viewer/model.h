@@ -62,6 +62,7 @@ struct Structure {
     std::optional<double> smoothing{};           ///< of the fit (SegmentOptions); unset: the usual one
     std::vector<SurfacePoint> surface_points{};  ///< that its surface passes
     std::vector<Vec3> interior{}, exterior{};    ///< points that lie inside, outside of it
+    StructureAttributes attributes{};            ///< what its file said of it, for exports; without the colour, see above
 
     friend bool operator==(const Structure&, const Structure&) = default;
 };
@@ -73,6 +74,9 @@ struct State {
     Borders borders;
     bool use_image = true;  ///< between the contours, where it helps
 };
+
+/// What files say of the structure, its colour among it.
+StructureAttributes attributes_of(const Structure& structure);
 
 /// What is known of the structure beside its contours, as the library takes it.
 ContourSet without_contours(const Structure& structure);

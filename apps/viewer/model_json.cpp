@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
+#include "kontur/io/attributes_json.h"
 #include "kontur/io/check_json.h"
 
 namespace kontur::viewer {
@@ -109,6 +110,7 @@ json to_json(const SurfacePoint& point) {
 json to_json(const Structure& s) {
     json told{{"id", s.id}, {"name", s.name}, {"color", s.color}, {"visible", s.visible}};
     if (s.smoothing) told["smoothing"] = *s.smoothing;
+    if (s.attributes != StructureAttributes{}) told["attributes"] = json::parse(to_json(s.attributes));
     for (const Plane& plane : s.empty_planes) told["empty_planes"].push_back(to_json(plane));
     for (const SurfacePoint& point : s.surface_points) told["surface_points"].push_back(to_json(point));
     if (!s.interior.empty()) told["interior"] = to_json(s.interior);
@@ -274,6 +276,7 @@ Structure structure_from_json(const json& value) {
     if (m.has("surface_points")) structure.surface_points = m.surface_points("surface_points");
     if (m.has("interior")) structure.interior = m.points("interior");
     if (m.has("exterior")) structure.exterior = m.points("exterior");
+    if (m.has("attributes")) structure.attributes = attributes_from_json(m.at("attributes").dump());
     return structure;
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "kontur/base/error.h"
+#include "viewer/file_names.h"
 #include "viewer/model_json.h"
 #include "viewer/session.h"
 #include "viewer/single_points.h"
@@ -97,6 +99,8 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
         structure.surface_points = set.surface;
         structure.interior = set.interior;
         structure.exterior = set.exterior;
+        structure.attributes = set.attributes;
+        if (const auto& color = std::exchange(structure.attributes.color, {})) structure.color = color_text(*color);
         if (structure.name.empty()) structure.name = free_name(state);
         state.structures[structure.id] = structure;
         added.structures.push_back({structure.id, {}, structure});

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -28,12 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using All = std::vector<FittedStructure>;
-
-std::array<std::uint8_t, 3> rgb8(const std::string& color) {
-    std::array<std::uint8_t, 3> levels{};
-    for (std::size_t i = 0; i < 3; ++i) levels[i] = static_cast<std::uint8_t>(std::lround(255 * rgb(color)[i]));
-    return levels;
-}
 
 std::int64_t voxels_of(const Mask& mask) { return std::accumulate(mask.values.begin(), mask.values.end(), std::int64_t{0}); }
 
@@ -96,10 +89,14 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
     std::vector<DicomSegment> segments;
     for (const FittedStructure& one : all) {
         masks.push_back(one.made.mask);
+        const StructureAttributes& attributes = one.set.attributes;
         segments.push_back({.number = static_cast<std::int64_t>(segments.size() + 1),
                             .label = one.structure.name,
                             .algorithm_name = "kontur",
-                            .color = rgb8(one.structure.color)});
+                            .color = attributes.color,
+                            .description = attributes.description,
+                            .category = attributes.category,
+                            .code = attributes.code});
     }
     return write_dicom_seg_masks(
         path, masks, segments, images,
@@ -111,11 +108,11 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
     for (const FittedStructure& one : all) {
         Roi roi;
         roi.name = one.structure.name;
-        roi.color = rgb8(one.structure.color);
-        roi.generation_algorithm = "SEMIAUTOMATIC";
         roi.contours =
             one.shares_border ? slice_outlines(one.made.mask) : slice_contours(one.made.mask, one.made.function, work);
         roi.contours.name = one.structure.name;
+        roi.contours.attributes = one.set.attributes;
+        roi.contours.attributes.generation_algorithm = "SEMIAUTOMATIC";
         set.rois.push_back(std::move(roi));
     }
     WriteRtstructOptions options;

@@ -33,6 +33,7 @@ void bind_pictures(py::module_& m);
 void bind_livewire(py::module_& m);
 void bind_files(py::module_& m);
 void bind_images(py::module_& m);
+void bind_attributes(py::module_& m);
 void bind_dicom(py::module_& m);
 void bind_segmentations(py::module_& m);
 void bind_phantom(py::module_& m);

@@ -40,7 +40,7 @@ bool equal(const Contour& a, const Contour& b) {
 
 bool equal(const ContourSet& a, const ContourSet& b) {
     return a.name == b.name && a.interior == b.interior && a.exterior == b.exterior && a.surface == b.surface &&
-           a.empty_planes == b.empty_planes &&
+           a.empty_planes == b.empty_planes && a.attributes == b.attributes &&
            std::equal(a.contours.begin(), a.contours.end(), b.contours.begin(), b.contours.end(),
                       [](const Contour& x, const Contour& y) { return equal(x, y); });
 }
@@ -67,11 +67,11 @@ py::object contour_at(const py::object& self, py::ssize_t index) {
     return py::cast(&contours[static_cast<std::size_t>(from_start)], py::return_value_policy::reference_internal, self);
 }
 
-/// The set with these contours alone; name, single points and empty planes stay.
+/// The set with these contours alone; all else stays.
 ContourSet contours_at(const ContourSet& set, const py::slice& slice) {
     std::size_t start = 0, stop = 0, step = 0, count = 0;
     if (!slice.compute(set.contours.size(), &start, &stop, &step, &count)) throw py::error_already_set();
-    ContourSet some{set.name, {}, set.interior, set.exterior, set.surface, set.empty_planes};
+    ContourSet some{set.name, {}, set.interior, set.exterior, set.surface, set.empty_planes, set.attributes};
     for (std::size_t n = 0; n < count; ++n, start += step) some.contours.push_back(set.contours[start]);
     return some;
 }
@@ -169,7 +169,7 @@ outward : array_like, shape (3,), optional
 void bind_contour_set(py::module_& m) {
     py::class_<ContourSet> set(m, "ContourSet", R"(Everything drawn for one object. Immutable.
 
-A sequence of its contours; a slice is a set of some of them with the same name, single points and empty planes.
+A sequence of its contours; a slice is a set of some of them, with all else the same.
 
 Parameters
 ----------
@@ -181,6 +181,8 @@ interior, exterior : array_like, shape (n, 3), optional
 surface : sequence of SurfacePoint
 empty_planes : sequence of Plane
     Planes that were looked at, and in which nothing of the object is seen.
+attributes : StructureAttributes, optional
+    What files say of the object beside its name.
 
 Examples
 --------
@@ -194,22 +196,24 @@ Examples
         set,
         [](std::vector<Contour> contours, std::string name, const std::optional<std::vector<Vec3>>& interior,
            const std::optional<std::vector<Vec3>>& exterior, std::vector<SurfacePoint> surface,
-           std::vector<Plane> empty_planes) {
+           std::vector<Plane> empty_planes, std::optional<StructureAttributes> attributes) {
             return ContourSet{std::move(name),
                               std::move(contours),
                               interior.value_or(std::vector<Vec3>{}),
                               exterior.value_or(std::vector<Vec3>{}),
                               std::move(surface),
-                              std::move(empty_planes)};
+                              std::move(empty_planes),
+                              std::move(attributes).value_or(StructureAttributes{})};
         },
         py::arg("contours"), py::arg("name") = "", py::arg("interior") = py::none(), py::arg("exterior") = py::none(),
-        py::arg("surface") = py::tuple(), py::arg("empty_planes") = py::tuple());
+        py::arg("surface") = py::tuple(), py::arg("empty_planes") = py::tuple(), py::arg("attributes") = py::none());
     set.def_property_readonly("contours", &contours_of, "tuple of Contour");
     set.def_readonly("name", &ContourSet::name, "str: may be empty.");
     set.def_readonly("interior", &ContourSet::interior, "ndarray, shape (n, 3), float64: mm.");
     set.def_readonly("exterior", &ContourSet::exterior, "ndarray, shape (n, 3), float64: mm.");
     set.def_readonly("surface", &ContourSet::surface, "list of SurfacePoint");
     set.def_readonly("empty_planes", &ContourSet::empty_planes, "list of Plane: in which nothing of the object is seen.");
+    set.def_readonly("attributes", &ContourSet::attributes, "StructureAttributes: what files say of the object.");
     set.def_property_readonly("point_count", &point_count, "int: over all contours.");
     set.def_property_readonly(
         "bounding_box", [](const ContourSet& s) { return bounding_box(s); },
@@ -231,7 +235,7 @@ Examples
             .format(s.name, counted(s.contours.size(), "contour"), counted(point_count(s), "point"));
     });
     picklable(set, [](const ContourSet& s) {
-        return py::make_tuple(s.contours, s.name, s.interior, s.exterior, s.surface, s.empty_planes);
+        return py::make_tuple(s.contours, s.name, s.interior, s.exterior, s.surface, s.empty_planes, s.attributes);
     });
 }
 

@@ -51,10 +51,11 @@ Roi roi_from(ContourSet contours, std::string name, const std::optional<std::arr
     Roi roi;
     roi.number = number;
     roi.name = std::move(name);
-    roi.interpreted_type = std::move(interpreted_type);
-    roi.generation_algorithm = std::move(generation_algorithm);
-    roi.color = color;
     roi.contours = std::move(contours);
+    StructureAttributes& attributes = roi.contours.attributes;
+    if (!interpreted_type.empty()) attributes.interpreted_type = std::move(interpreted_type);
+    if (!generation_algorithm.empty()) attributes.generation_algorithm = std::move(generation_algorithm);
+    if (color) attributes.color = color;
     return roi;
 }
 
@@ -67,22 +68,29 @@ contours : ContourSet
 name : str
     Empty: the contour set's name.
 color : (int, int, int), optional
-    Red, green, blue, 0 to 255.
+    Red, green, blue, 0 to 255. Here and in the next two: what is left out, or empty, is that of ``contours.attributes``.
 interpreted_type : str
-    'ORGAN', 'GTV', ...; may be empty.
+    'ORGAN', 'GTV', ...
 generation_algorithm : {'', 'AUTOMATIC', 'SEMIAUTOMATIC', 'MANUAL'}
 number : int
-    0: the next free one.
+    0: that of ``contours.attributes``, else the next free one.
 )");
     constructor(roi, &roi_from, py::arg("contours"), py::arg("name") = "", py::arg("color") = py::none(),
                 py::arg("interpreted_type") = "", py::arg("generation_algorithm") = "", py::arg("number") = 0);
-    roi.def_readonly("generation_algorithm", &Roi::generation_algorithm, "str: may be empty.");
+    roi.def_property_readonly(
+        "generation_algorithm", [](const Roi& r) { return r.contours.attributes.generation_algorithm; },
+        "str: may be empty.");
     roi.def_readonly("number", &Roi::number, "int");
     roi.def_readonly("name", &Roi::name, "str");
-    roi.def_readonly("interpreted_type", &Roi::interpreted_type, "str: 'GTV', 'ORGAN', ...; may be empty.");
+    roi.def_property_readonly(
+        "interpreted_type", [](const Roi& r) { return r.contours.attributes.interpreted_type; },
+        "str: 'GTV', 'ORGAN', ...; may be empty.");
     roi.def_readonly("frame_of_reference_uid", &Roi::frame_of_reference_uid, "str");
-    roi.def_readonly("color", &Roi::color, "list of 3 int (red, green, blue, 0 to 255), or None.");
-    roi.def_readonly("contours", &Roi::contours, "ContourSet: may be empty.");
+    roi.def_property_readonly(
+        "color", [](const Roi& r) { return r.contours.attributes.color; },
+        "list of 3 int (red, green, blue, 0 to 255), or None.");
+    roi.def_readonly("contours", &Roi::contours,
+                     "ContourSet: may be empty; what else the file says of the ROI is in its attributes.");
     roi.def_readonly("notes", &Roi::notes, "list of str: how the stored contours were interpreted.");
     roi.def_readonly("damage", &Roi::damage, "str: why its contours cannot be read; empty when they can.");
     roi.def("__repr__", [](const Roi& r) { return py::str("<Roi {}: {!r}>").format(r.number, r.name); });

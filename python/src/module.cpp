@@ -45,6 +45,7 @@ PYBIND11_MODULE(_core, m) {
     m.def("_error_kinds", &kontur::python::error_kinds);
     bind_grids(m);
     bind_planes(m);
+    bind_attributes(m);
     bind_contours(m);
     bind_crossings(m);
     bind_curves(m);

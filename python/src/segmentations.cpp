@@ -10,12 +10,16 @@ namespace {
 namespace fs = std::filesystem;
 
 DicomSegment segment_from(std::int64_t number, std::string label, std::string algorithm_type, std::string algorithm_name,
-                          const std::optional<std::array<std::uint8_t, 3>>& color) {
+                          const std::optional<std::array<std::uint8_t, 3>>& color, std::string description,
+                          std::optional<CodedConcept> category, std::optional<CodedConcept> code) {
     return {.number = number,
             .label = std::move(label),
             .algorithm_type = std::move(algorithm_type),
             .algorithm_name = std::move(algorithm_name),
-            .color = color};
+            .color = color,
+            .description = std::move(description),
+            .category = std::move(category),
+            .code = std::move(code)};
 }
 
 void bind_types(py::module_& m) {
@@ -31,16 +35,23 @@ algorithm_type : {'SEMIAUTOMATIC', 'AUTOMATIC', 'MANUAL'}
 algorithm_name : str
 color : (int, int, int), optional
     Red, green, blue, 0 to 255.
+description : str
+category, code : CodedConcept, optional
+    What sort of thing it is, and what it is; written as "tissue" where they are left out.
 )");
     const DicomSegment defaults;
     constructor(segment, &segment_from, py::arg("number") = defaults.number, py::arg("label") = defaults.label,
                 py::arg("algorithm_type") = defaults.algorithm_type, py::arg("algorithm_name") = defaults.algorithm_name,
-                py::arg("color") = py::none());
+                py::arg("color") = py::none(), py::arg("description") = "", py::arg("category") = py::none(),
+                py::arg("code") = py::none());
     segment.def_readonly("number", &DicomSegment::number, "int");
     segment.def_readonly("label", &DicomSegment::label, "str");
     segment.def_readonly("algorithm_type", &DicomSegment::algorithm_type, "str");
     segment.def_readonly("algorithm_name", &DicomSegment::algorithm_name, "str: may be empty.");
     segment.def_readonly("color", &DicomSegment::color, "list of 3 int (red, green, blue, 0 to 255), or None.");
+    segment.def_readonly("description", &DicomSegment::description, "str: may be empty.");
+    segment.def_readonly("category", &DicomSegment::category, "CodedConcept, or None: what sort of thing it is.");
+    segment.def_readonly("code", &DicomSegment::code, "CodedConcept, or None: what it is.");
     segment.def_readonly("voxels", &DicomSegment::voxels, "int: set by reading.");
     segment.def_readonly("shared_voxels", &DicomSegment::shared_voxels,
                          "int: those of them that lie in other segments, too; set by reading.");

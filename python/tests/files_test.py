@@ -34,6 +34,16 @@ def test_contours_come_back(tmp_path, case):
     kontur.write_contours(tmp_path / "a.mrk.json", case.contours)
     curves = kontur.read_markups(tmp_path / "a.mrk.json", plane_tolerance_mm=0.01)
     assert curves.point_count == case.contours.point_count
+    told = kontur.ContourSet(
+        case.contours.contours, "kidney",
+        attributes=kontur.StructureAttributes(color=(1, 2, 255), interpreted_type="ORGAN", number=3, code=kontur.CodedConcept("64033007", "SCT", "Kidney")),
+    )
+    kontur.write_contours(tmp_path / "told.json", told)
+    assert kontur.read_contours(tmp_path / "told.json") == told
+    roi = kontur.Roi(told, interpreted_type="AVOIDANCE")
+    assert (roi.color, roi.interpreted_type, roi.contours.attributes.code) == ([1, 2, 255], "AVOIDANCE", told.attributes.code)
+    with pytest.raises(TypeError):
+        kontur.StructureAttributes(color=(0, 0, 256))
     both = kontur.read_contours([tmp_path / "a.json", tmp_path / "a.mrk.json"])
     assert len(both) == 12
 

@@ -350,6 +350,10 @@ def test_a_mesh_must_fit_together():
 def test_values_can_be_copied_and_pickled(case, kidney, clone):
     assert clone(case.grid) == case.grid
     assert clone(case.contours) == case.contours
+    about = kontur.StructureAttributes((1, 2, 255), "GTV", "MANUAL", "in words", 7, kontur.CodedConcept("1", "SCT", "a"),
+                                       kontur.CodedConcept("2", "SCT"), [kontur.PhysicalProperty("REL_ELEC_DENSITY", 1.2)])
+    told = kontur.ContourSet(case.contours.contours, attributes=about)
+    assert clone(about) == about and clone(told).attributes == told[::2].attributes == about and told != case.contours
     assert numpy.array_equal(clone(kidney.mask).values, kidney.mask.values)
     image = kontur.Image(kidney.mask.values * 1000.0, case.grid)
     assert numpy.array_equal(clone(image).samples, image.samples)

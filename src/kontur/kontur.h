@@ -27,6 +27,7 @@
 #include "kontur/shape/section.h"
 #include "kontur/shape/self_contacts.h"
 #include "kontur/shape/spline.h"
+#include "kontur/shape/structure_attributes.h"
 #include "kontur/shape/volume.h"
 
 // Files to shapes.

@@ -97,6 +97,105 @@ def test_a_structure_set_survives_the_way_through_kontur(tmp_path):
     assert numpy.abs(numpy.array(points[0]) - numpy.array(points[1])).max() < 1e-4
 
 
+SAID = {
+    "number": 17,
+    "interpreted_type": "GTV",
+    "color": [10, 200, 255],
+    "description": "seen in \"MR\"\nsecond line, ä",
+    "generation_algorithm": "MANUAL",
+    "code": {"value": "4147007", "scheme": "SCT", "meaning": "Mass"},
+    "physical_properties": [{"property": "REL_ELEC_DENSITY", "value": 1.25}],
+}
+
+
+def said_in(path):
+    """What a contour file says of its structure beside its name."""
+    document = json.loads(path.read_text())
+    return {key: value for key, value in document.items() if key not in ("version", "frame", "structure", "planes", "provenance")}
+
+
+def seen_by_a_planner(path):
+    """The same of the first ROI of a structure set, as pydicom reads it."""
+    structures = pydicom.dcmread(path)
+    entry, roi, about = structures.StructureSetROISequence[0], structures.ROIContourSequence[0], structures.RTROIObservationsSequence[0]
+    [code], [density] = about.RTROIIdentificationCodeSequence, about.ROIPhysicalPropertiesSequence
+    return {
+        "number": entry.ROINumber,
+        "interpreted_type": about.RTROIInterpretedType,
+        "color": list(roi.ROIDisplayColor),
+        "description": entry.ROIDescription.replace("\r\n", "\n"),
+        "generation_algorithm": entry.ROIGenerationAlgorithm,
+        "code": {"value": code.CodeValue, "scheme": code.CodingSchemeDesignator, "meaning": code.CodeMeaning},
+        "physical_properties": [{"property": density.ROIPhysicalProperty, "value": density.ROIPhysicalPropertyValue}],
+    }
+
+
+@pytest.fixture
+def said(tmp_path):
+    """A ball's contours of which much is said."""
+    document = json.loads(ball_contours(tmp_path / "ball.json").read_text())
+    document["planes"] = document["planes"][-3:]  # on slices
+    (tmp_path / "said.json").write_text(json.dumps(document | SAID))
+    return tmp_path / "said.json"
+
+
+def test_what_is_said_of_a_structure_survives_the_way_to_rtstruct_and_back(tmp_path, images, said):
+    assert kontur("convert", said, tmp_path / "rs.dcm", "--image", images).returncode == 0
+    assert seen_by_a_planner(tmp_path / "rs.dcm") == SAID
+    checked(tmp_path / "rs.dcm", images)
+    assert kontur("convert", tmp_path / "rs.dcm", tmp_path / "again.json").returncode == 0
+    assert said_in(tmp_path / "again.json") == SAID
+    assert kontur("convert", tmp_path / "rs.dcm", tmp_path / "rs2.dcm", "--image", images).returncode == 0
+    assert seen_by_a_planner(tmp_path / "rs2.dcm") == SAID
+
+
+def test_what_segment_makes_says_the_same_and_that_kontur_made_it(tmp_path, images, said):
+    words = ["--image", images, "--rtstruct", tmp_path / "rs.dcm", "--output"]
+    assert kontur("segment", said, *words, tmp_path / "seg.dcm").returncode == 0
+    made = SAID | {"generation_algorithm": "SEMIAUTOMATIC"}
+    assert seen_by_a_planner(tmp_path / "rs.dcm") == made
+    [segment] = pydicom.dcmread(tmp_path / "seg.dcm").SegmentSequence
+    assert segment.SegmentedPropertyTypeCodeSequence[0].CodeMeaning == "Mass"
+    assert segment.SegmentDescription.replace("\r\n", "\n") == SAID["description"]
+    rs = tmp_path / "rs.dcm"
+    assert kontur("segment", rs, "--all-rois", "--image", images, "-o", tmp_path / "m.nii.gz", "--rtstruct", tmp_path / "all.dcm").returncode == 0
+    assert seen_by_a_planner(tmp_path / "all.dcm") == made
+    # Through SEG and .seg.nrrd, which have room for less.
+    assert kontur("trace", tmp_path / "seg.dcm", "--image", images, "-o", tmp_path / "traced.json").returncode == 0
+    kept = {key: made[key] for key in ("color", "description", "generation_algorithm", "code")}
+    traced = said_in(tmp_path / "traced.json")
+    assert traced.pop("category")["meaning"] == "Tissue"
+    assert numpy.abs(numpy.array(traced.pop("color")) - kept.pop("color")).max() <= 1, "CIELab rounds"
+    assert traced == kept
+    assert json.loads((tmp_path / "traced.json").read_text())["structure"] == "ball"
+    assert kontur("segment", said, "--image", images, "-o", tmp_path / "m.seg.nrrd").returncode == 0
+    assert kontur("trace", tmp_path / "m.seg.nrrd", "--image", images, "-o", tmp_path / "traced.json").returncode == 0
+    assert said_in(tmp_path / "traced.json") == {"color": SAID["color"], "generation_algorithm": "SEMIAUTOMATIC"}
+    assert kontur("convert", said, tmp_path / "ball.mrk.json").returncode == 0
+    assert kontur("convert", tmp_path / "ball.mrk.json", tmp_path / "again.json").returncode == 0
+    assert said_in(tmp_path / "again.json") == {"color": SAID["color"]}
+
+
+def test_a_real_structure_set_keeps_what_it_says(tmp_path):
+    folder = real_data("09_rtstruct_breast_dicompyler")
+    before = pydicom.dcmread(folder / "rtss.dcm")
+
+    def rois(structures):
+        observations = {o.ReferencedROINumber: o for o in structures.RTROIObservationsSequence}
+        colors = {r.ReferencedROINumber: r.get("ROIDisplayColor") for r in structures.ROIContourSequence if "ContourSequence" in r}
+        return {
+            s.ROINumber: (s.ROIName, s.ROIGenerationAlgorithm, colors[s.ROINumber], observations[s.ROINumber].RTROIInterpretedType,
+                          [c.CodeValue for c in observations[s.ROINumber].get("RTROIIdentificationCodeSequence", [])])
+            for s in structures.StructureSetROISequence if s.ROINumber in colors
+        }
+
+    for number, said in rois(before).items():
+        words = ["--roi", number]
+        assert kontur("convert", folder / "rtss.dcm", tmp_path / "one.json", *words).returncode == 0
+        assert kontur("convert", tmp_path / "one.json", tmp_path / "one.dcm", "--image", folder / "ct.0.dcm").returncode == 0
+        assert rois(pydicom.dcmread(tmp_path / "one.dcm")) == {number: said}
+
+
 @pytest.mark.parametrize("encoding, kind", [("keyhole", "CLOSED_PLANAR"), ("xor", "CLOSEDPLANAR_XOR"), ("nested", "CLOSED_PLANAR")])
 def test_holes_are_stored_as_asked(tmp_path, images, encoding, kind):
     plane = circle("z", 0, center=CENTER, radius=RADIUS)

@@ -278,6 +278,43 @@ TEST_F(ContourJson, WritingAndReadingGivesTheSameDoubles) {
     EXPECT_EQ(content_of(folder_ / "out.json"), first) << "the bytes settle at once";
 }
 
+TEST_F(ContourJson, KeepsWhatFilesSayOfTheStructure) {
+    ContourSet set = read(kSmall);
+    EXPECT_EQ(set.attributes, StructureAttributes{}) << "of a file that says nothing";
+    const auto without_attributes = content_of((write_contour_json(folder_ / "plain.json", set), folder_ / "plain.json"));
+    EXPECT_EQ(without_attributes.find("color"), std::string::npos);
+    set.attributes = {.color = {{0, 128, 255}},
+                      .interpreted_type = "GTV",
+                      .generation_algorithm = "MANUAL",
+                      .description = "\"L\xC3\xA4sion\"\nsecond line \\",
+                      .number = 17,
+                      .category = {{"49755003", "SCT", "Morphologically Altered Structure"}},
+                      .code = {{"4147007", "SCT", "Mass"}},
+                      .physical_properties = {{"REL_ELEC_DENSITY", 1.1}, {"EFFECTIVE_Z", 7}}};
+    const ContourSet again = written_and_read(set);
+    EXPECT_EQ(again.attributes, set.attributes);
+    expect_same(again, set);
+}
+
+TEST_F(ContourJson, RefusesAttributesThatMakeNoSense) {
+    const auto refused = [&](std::string_view members) {
+        return refusal(replaced("\"structure\": \"liver\"", members)).substr((folder_ / "in.json").string().size() + 2);
+    };
+    EXPECT_EQ(refused(R"("color": "red")"), "color: is no list of red, green and blue");
+    EXPECT_EQ(refused(R"("color": [0, 0, 256])"), "color: has the level 256; whole numbers from 0 to 255 are possible");
+    EXPECT_EQ(refused(R"("color": [0, 0, 0.5])"), "color: has the level 0.5; whole numbers from 0 to 255 are possible");
+    EXPECT_EQ(refused(R"("number": "3")"), "number: is \"3\", not a whole number");
+    EXPECT_EQ(refused(R"("number": 18446744073709551615)"), "number: is 18446744073709551615, not a whole number");
+    EXPECT_EQ(refused(R"("code": {"value": "1"})"), "code: has no value or no scheme");
+    EXPECT_EQ(refused(R"("physical_properties": [{"property": "A", "value": null}])"),
+              "physical_properties: item 1: the value is null, not a number");
+    ContourSet set = read(kSmall);
+    set.attributes.physical_properties = {{"A", std::numeric_limits<double>::infinity()}};
+    EXPECT_THROW(written_and_read(set), Error);
+    set.attributes = {.description = "Leb\xe4r"};
+    EXPECT_THROW(written_and_read(set), Error);
+}
+
 TEST_F(ContourJson, AnEmptySetIsWrittenAndRead) { expect_same(ContourSet{}, written_and_read(ContourSet{})); }
 
 TEST_F(ContourJson, NeighboursOnOnePlaneShareAnEntryAndALineEach) {

@@ -35,7 +35,7 @@ TEST_P(SarcomaSeries, RasterizedStructureSetEqualsTheSuppliedMask) {
     KONTUR_REQUIRE_DATA(GetParam().folder);
     const Roi roi = select_roi(read_rtstruct(folder() / "RTSTRUCT_RS.dcm"));
     EXPECT_EQ(roi.contours.contours.size(), GetParam().contours);
-    EXPECT_EQ(roi.interpreted_type, "GTV");
+    EXPECT_EQ(roi.contours.attributes.interpreted_type, "GTV");
     EXPECT_NO_THROW(check_contours(roi.contours));
     const Grid grid = read_dicom_grid(folder() / "image").grid;
     const Image supplied = read_nifti(folder() / GetParam().mask);

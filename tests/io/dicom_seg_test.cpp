@@ -54,7 +54,13 @@ protected:
     static std::vector<DicomSegment> three_segments() {
         return {{.number = 1, .label = "L\xC3\xA4sion \xD0\x96", .algorithm_name = "kontur", .color = {{255, 0, 0}}},
                 {.number = 2, .label = "two", .algorithm_type = "AUTOMATIC", .algorithm_name = "net"},
-                {.number = 3, .label = "three", .algorithm_name = "kontur", .color = {{10, 200, 30}}}};
+                {.number = 3,
+                 .label = "three",
+                 .algorithm_name = "kontur",
+                 .color = {{10, 200, 30}},
+                 .description = "third\nsegment",
+                 .category = {{"123037004", "SCT", "Anatomical Structure"}},
+                 .code = {{"10200004", "SCT", "Liver"}}}};
     }
 
     test::TemporaryFolder folder_;
@@ -117,6 +123,10 @@ TEST_F(WriteDicomSeg, KeepsWhatIsSaidAboutSegments) {
     EXPECT_EQ(found.segments[1].algorithm_name, "net");
     EXPECT_EQ(found.segments[1].color, std::nullopt);
     EXPECT_EQ(found.segments[2].color, (std::array<std::uint8_t, 3>{10, 200, 30}));
+    EXPECT_EQ(found.segments[1].code, (CodedConcept{"85756007", "SCT", "Tissue"})) << "of which nothing was said";
+    EXPECT_EQ(found.segments[2].category, (CodedConcept{"123037004", "SCT", "Anatomical Structure"}));
+    EXPECT_EQ(found.segments[2].code, (CodedConcept{"10200004", "SCT", "Liver"}));
+    EXPECT_EQ(found.segments[2].description, "third\nsegment");
     EXPECT_EQ(found.frame_of_reference_uid, series_.frame_of_reference_uid);
     EXPECT_EQ(found.referenced_series_uid, series_.series_uid);
     EXPECT_EQ(found.segments[0].voxels, count_labels(random_labels()).at(1));

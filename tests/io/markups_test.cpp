@@ -197,6 +197,14 @@ TEST_F(Markups, WritingAndReadingGivesTheSamePointsHolesAndName) {
     }
 }
 
+TEST_F(Markups, KeepsTheColourUnlessItIsTheOneOfAllMarkups) {
+    ContourSet set = test::three_circles();
+    set.attributes = {.color = {{0, 128, 255}}, .interpreted_type = "GTV"};
+    EXPECT_EQ(written_and_read(set).attributes, (StructureAttributes{.color = {{0, 128, 255}}}));
+    set.attributes.color = {{255, 128, 128}};
+    EXPECT_EQ(written_and_read(set).attributes, StructureAttributes{});
+}
+
 TEST_F(Markups, NamesSurviveNumbersOfTheirOwn) {
     ContourSet set = test::three_circles();
     for (const char* name : {"", "L5", "CC_1"}) {

@@ -63,8 +63,8 @@ TEST_F(RtstructTest, ReadsNamesNumbersColoursAndPoints) {
     EXPECT_EQ(plain.number, 1);
     EXPECT_EQ(plain.name, "plain");
     EXPECT_EQ(plain.contours.name, "plain");
-    EXPECT_EQ(plain.interpreted_type, "ORGAN");
-    EXPECT_EQ(plain.color, (std::array<std::uint8_t, 3>{1, 2, 255}));
+    EXPECT_EQ(plain.contours.attributes.interpreted_type, "ORGAN");
+    EXPECT_EQ(plain.contours.attributes.color, (std::array<std::uint8_t, 3>{1, 2, 255}));
     EXPECT_TRUE(plain.notes.empty());
     ASSERT_EQ(plain.contours.contours.size(), 2u);
     EXPECT_EQ(plain.contours.contours[1].points, (std::vector<Vec3>{{0, 0, 3}, {10, 0, 3}, {10, 10, 3}, {0, 10, 3}}));
@@ -155,7 +155,7 @@ TEST_F(RtstructTest, JoinsTheItemsThatHoldContoursOfOneRoi) {
         const Roi plain = select_roi(read_rtstruct(make(name)), "plain");
         EXPECT_EQ(plain.contours.contours.size(), contours) << name;
         EXPECT_EQ(plain.notes, (std::vector<std::string>{"its contours stand in 2 items of the file, which are joined"}));
-        EXPECT_EQ(plain.color, (std::array<std::uint8_t, 3>{1, 2, 255})) << name;
+        EXPECT_EQ(plain.contours.attributes.color, (std::array<std::uint8_t, 3>{1, 2, 255})) << name;
     }
 }
 
@@ -177,7 +177,7 @@ TEST_F(RtstructTest, DamageInOneRoiLeavesTheOthers) {
 
 TEST_F(RtstructTest, LeavesOutObservationsOfNoListedRoi) {
     const fs::path path = make("orphan");
-    EXPECT_EQ(select_roi(read_rtstruct(path), "plain").interpreted_type, "");
+    EXPECT_EQ(select_roi(read_rtstruct(path), "plain").contours.attributes.interpreted_type, "");
     const std::vector<std::string> notes{"left out an observation of ROI 99, which is not listed"};
     EXPECT_EQ(read_rtstruct(path).notes, notes);
     EXPECT_EQ(read_contours(path, {.roi = "plain"}).notes, notes);

@@ -50,13 +50,20 @@ protected:
         set.contours.push_back({.plane = plane, .points = ring(plane, u, v, radius, points)});
     }
 
+    static StructureAttributes attributes() {
+        return {.color = {{10, 20, 255}},
+                .interpreted_type = "GTV",
+                .generation_algorithm = "SEMIAUTOMATIC",
+                .description = "a\\b, \xC3\xA4 and\na second line",
+                .code = {{"10200004", "SCT", "Liver"}},
+                .physical_properties = {{"REL_ELEC_DENSITY", 1.25}, {"EFFECTIVE_Z", 7}}};
+    }
+
     /// Slice 2: a disc with two holes, an island in one of them, and another disc; slice 3: a disc.
     Roi holes() const {
         Roi roi;
         roi.name = "L\xC3\xA4sion \xD0\x96";
-        roi.interpreted_type = "GTV";
-        roi.generation_algorithm = "SEMIAUTOMATIC";
-        roi.color = {10, 20, 255};
+        roi.contours.attributes = attributes();
         add(roi.contours, slice(2), 4.03, 4.11, 3.47);
         add(roi.contours, slice(2), 2.53, 4.07, 1.2);
         add(roi.contours, slice(2), 2.53, 4.07, 0.5);
@@ -116,9 +123,9 @@ TEST_F(WriteRtstruct, ComesBackTheSameWithHolesInEachEncoding) {
             const Roi& again = set.rois.front();
             EXPECT_EQ(again.name, roi.name);
             EXPECT_EQ(again.number, 1);
-            EXPECT_EQ(again.interpreted_type, "GTV");
-            EXPECT_EQ(again.generation_algorithm, "SEMIAUTOMATIC");
-            EXPECT_EQ(again.color, roi.color);
+            StructureAttributes attributes = roi.contours.attributes;
+            attributes.number = 1;
+            EXPECT_EQ(again.contours.attributes, attributes);
             EXPECT_EQ(again.frame_of_reference_uid, series_.frame_of_reference_uid);
             EXPECT_EQ(again.contours.contours.size(), 6u);
             EXPECT_EQ(point_count(again.contours), point_count(roi.contours));
@@ -135,6 +142,10 @@ TEST_F(WriteRtstruct, IsUnderstoodByOthers) {
         write(holes());
         const std::string seen = verdict();
         EXPECT_NE(seen.find("1 L\xC3\xA4sion \xD0\x96 GTV SEMIAUTOMATIC 10,20,255"), std::string::npos) << seen;
+        EXPECT_NE(seen.find("DESCRIPTION a\\b, \xC3\xA4 and\r\na second line\n"), std::string::npos) << seen;
+        EXPECT_NE(seen.find("CODE 10200004 SCT Liver\nPROPERTY REL_ELEC_DENSITY 1.25\nPROPERTY EFFECTIVE_Z 7\n"),
+                  std::string::npos)
+            << seen;
         EXPECT_EQ(count(seen, "CLOSED_PLANAR 76 "), 1) << "the disc with its two holes and two channels: 3 x 24 + 4";
         EXPECT_EQ(count(seen, "CLOSED_PLANAR 24 "), 3) << "the island, the other disc, the next slice";
         EXPECT_EQ(count(seen, " -\n"), 0) << "each names its slice";
@@ -183,6 +194,50 @@ TEST_F(WriteRtstruct, NumbersRoisThatHaveNone) {
     verdict();
     set.rois[1].number = 2;
     EXPECT_KONTUR_ERROR(write_rtstruct(path(), set, series_), ErrorKind::invalid_input, "two ROIs have the number 2");
+}
+
+TEST_F(WriteRtstruct, NumbersRoisAsTheirAttributesSayWhereTheNumberIsFree) {
+    use_images("axial");
+    StructureSet set{"", {holes(), holes(), holes(), holes()}};
+    set.rois[0].number = 7;
+    for (const std::size_t n : {1u, 2u}) set.rois[n].contours.attributes.number = 1;
+    set.rois[3].contours.attributes.number = 7;
+    write_rtstruct(path(), set, series_);
+    std::vector<std::int64_t> numbers;
+    for (const Roi& roi : read_rtstruct(path()).rois) numbers.push_back(roi.number);
+    EXPECT_EQ(numbers, (std::vector<std::int64_t>{7, 1, 2, 3}));
+    set.rois[0].number = std::int64_t{1} << 31;
+    EXPECT_KONTUR_ERROR(write_rtstruct(path(), set, series_), ErrorKind::invalid_input, "a ROI has the number 2147483648");
+}
+
+TEST_F(WriteRtstruct, SaysWhichAttributesDicomHasNoRoomFor) {
+    use_images("axial");
+    Roi roi = holes();
+    StructureAttributes& attributes = roi.contours.attributes;
+    attributes.interpreted_type = "Organ";
+    attributes.generation_algorithm = "by hand, of course";
+    attributes.description = std::string(1025, 'x');
+    attributes.code = {{"1", std::string(17, 's'), "no scheme"}};
+    attributes.physical_properties = {{"density!", 1}};
+    const std::vector<std::string> notes = write(roi);
+    ASSERT_EQ(notes.size(), 4u);
+    const std::string of_roi = " of ROI 'L\xC3\xA4sion \xD0\x96' ";
+    EXPECT_EQ(notes[0], "the generation algorithm" + of_roi +
+                            "is 'by hand, of course' and left out: DICOM has room for 16 capitals, digits, blanks and "
+                            "underscores");
+    EXPECT_EQ(notes[1], "the description" + of_roi +
+                            "is longer than the 1024 characters for which DICOM has room; its end is left out");
+    EXPECT_NE(notes[2].find("is '1' of 'sssssssssssssssss' and left out"), std::string::npos) << notes[2];
+    EXPECT_NE(notes[3].find("'density!' and left out"), std::string::npos) << notes[3];
+    const StructureAttributes again = read_rtstruct(path()).rois.front().contours.attributes;
+    EXPECT_EQ(again.interpreted_type, "ORGAN");
+    EXPECT_EQ(again.description, std::string(1024, 'x'));
+    EXPECT_EQ(again.generation_algorithm, "");
+    verdict();
+    attributes.physical_properties = {{"REL_ELEC_DENSITY", NAN}};
+    EXPECT_KONTUR_ERROR(write(roi), ErrorKind::invalid_input, "is no number");
+    attributes.description = "Leb\xe4r";
+    EXPECT_KONTUR_ERROR(write(roi), ErrorKind::invalid_input, "is not UTF-8");
 }
 
 TEST_F(WriteRtstruct, TellsNamesApartThatDicomWouldMakeEqual) {

@@ -2,7 +2,8 @@
 """check_rtstruct.py FILE IMAGES: what pydicom and dciodvfy say about a structure set made on the images in a folder.
 
 Fails when a reference leads nowhere, a contour does not lie on the slice that it names, a count is wrong, or dciodvfy finds
-an error. Prints a line "NUMBER NAME TYPE ALGORITHM R,G,B" for each ROI and one "GEOMETRY POINTS ENCLOSED_MM2 SLICE_OR_-" for
+an error. Prints a line "NUMBER NAME TYPE ALGORITHM R,G,B" for each ROI, lines for its
+description, code and physical properties where it has them, and one "GEOMETRY POINTS ENCLOSED_MM2 SLICE_OR_-" for
 each of its contours.
 """
 
@@ -39,12 +40,19 @@ def enclosed_mm2(points):
 
 
 contours_of = {r.ReferencedROINumber: r for r in structures.ROIContourSequence}
-type_of = {o.ReferencedROINumber: o.RTROIInterpretedType for o in structures.RTROIObservationsSequence}
+observation_of = {o.ReferencedROINumber: o for o in structures.RTROIObservationsSequence}
+type_of = {number: o.RTROIInterpretedType for number, o in observation_of.items()}
 for roi in structures.StructureSetROISequence:
     assert roi.ReferencedFrameOfReferenceUID == any_image.FrameOfReferenceUID
     stored = contours_of[roi.ROINumber]
     color = ",".join(map(str, stored.get("ROIDisplayColor", [])))
     print(roi.ROINumber, roi.ROIName, type_of[roi.ROINumber] or "-", roi.ROIGenerationAlgorithm or "-", color)
+    if "ROIDescription" in roi:
+        print("DESCRIPTION", roi.ROIDescription)
+    for code in observation_of[roi.ROINumber].get("RTROIIdentificationCodeSequence", []):
+        print("CODE", code.CodeValue, code.CodingSchemeDesignator, code.CodeMeaning)
+    for one in observation_of[roi.ROINumber].get("ROIPhysicalPropertiesSequence", []):
+        print("PROPERTY", one.ROIPhysicalProperty, one.ROIPhysicalPropertyValue)
     for contour in stored.get("ContourSequence", []):
         points = np.array(contour.ContourData, float).reshape(-1, 3)
         assert len(points) == contour.NumberOfContourPoints

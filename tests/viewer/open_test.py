@@ -780,6 +780,10 @@ def test_an_rtstruct_brings_every_region_that_has_contours(server, tmp_path):
     ids = json.loads(body)["structures"]
     names = {page.structures[i]["name"] for i in ids}
     assert {"plain", "nested", "keyhole"} <= names and "empty" not in names
+    (plain,) = (page.structures[i] for i in ids if page.structures[i]["name"] == "plain")
+    assert plain["color"] == "#0102ff" and plain["attributes"] == {"number": 1, "interpreted_type": "ORGAN"}
+    contours = json.loads(server.request("GET", f"/api/export/contours.json?structure={plain['id']}")[2])
+    assert (contours["color"], contours["interpreted_type"], contours["number"]) == ([1, 2, 255], "ORGAN", 1)
     assert page.do("undo")["label"] == "Import contours" and not set(ids) & page.structures.keys()
 
 

@@ -9,6 +9,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
+#include "kontur/io/attributes_members.h"
 #include "kontur/io/json_file.h"
 #include "kontur/io/patient_frame.h"
 
@@ -161,6 +162,7 @@ ContourSet read_set(const json& document) {
                       [&](const json& contour) { set.contours.push_back(read_contour(contour, plane, frame)); });
     });
     set.name = text_member(document, "structure", "");
+    set.attributes = read_attributes(document);
     set.interior = read_constraints(document, "interior");
     set.exterior = read_constraints(document, "exterior");
     set.surface = read_surface(document);
@@ -218,14 +220,21 @@ std::string planes_text(const std::vector<Contour>& contours) {
     return contours.empty() ? text : text + "\n  ]}\n";
 }
 
-/// The document up to its planes' end.
-std::string document_of(const std::string& name, const std::string& planes) {
-    return fmt::format("{{\n\"version\": {},\n\"frame\": \"LPS mm\",\n\"structure\": {},\n\"planes\": [\n{}]", kVersion,
-                       json(name).dump(), planes);
+std::string members_of(const StructureAttributes& attributes) {
+    const nlohmann::ordered_json members = attribute_members(attributes);
+    std::string text;
+    for (const auto& [key, value] : members.items()) text += fmt::format(",\n\"{}\": {}", key, value.dump());
+    return text;
+}
+
+/// The document up to its planes' end; `more` members follow the name.
+std::string document_of(const std::string& name, const std::string& more, const std::string& planes) {
+    return fmt::format("{{\n\"version\": {},\n\"frame\": \"LPS mm\",\n\"structure\": {}{},\n\"planes\": [\n{}]", kVersion,
+                       json(name).dump(), more, planes);
 }
 
 std::string to_document(const ContourSet& set, const Provenance& provenance) {
-    std::string text = document_of(set.name, planes_text(set.contours));
+    std::string text = document_of(set.name, members_of(set.attributes), planes_text(set.contours));
     if (!set.interior.empty()) text += ",\n\"interior\": " + to_text(set.interior);
     if (!set.exterior.empty()) text += ",\n\"exterior\": " + to_text(set.exterior);
     if (!set.surface.empty()) text += ",\n\"surface\": " + to_text(set.surface);
@@ -254,7 +263,7 @@ void write_planes_json(const std::filesystem::path& path, const std::vector<Plan
     check_utf8(name, "the structure's name");
     std::string text;
     for (const Plane& plane : planes) text += (text.empty() ? "" : ",\n") + plane_head(plane) + "  ]}";
-    write_file_atomically(path, document_of(name, text + (planes.empty() ? "" : "\n")) + "\n}\n");
+    write_file_atomically(path, document_of(name, "", text + (planes.empty() ? "" : "\n")) + "\n}\n");
 }
 
 void write_contour_json(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance) {

@@ -100,6 +100,7 @@ ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContour
     for (const fs::path& path : paths) {
         const ReadContours one = read_contours(path, is_structure_set(path) ? options : of_others);
         if (all.contours.name.empty()) all.contours.name = one.contours.name;
+        if (all.contours.attributes == StructureAttributes{}) all.contours.attributes = one.contours.attributes;
         if (all.frame_of_reference_uid.empty()) all.frame_of_reference_uid = one.frame_of_reference_uid;
         append(all.contours.contours, one.contours.contours);
         append(all.contours.interior, one.contours.interior);

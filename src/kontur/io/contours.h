@@ -30,8 +30,8 @@ struct ReadContours {
 /// what the format's own reader throws.
 ReadContours read_contours(const std::filesystem::path& path, const ReadContoursOptions& options = {});
 
-/// The contours of several files as one object, in the order of the files, named after the first that has a name. Notes
-/// begin with their file's name.
+/// The contours of several files as one object, in the order of the files, named after the first that has a name, with the
+/// attributes of the first that has any. Notes begin with their file's name.
 ReadContours read_contours(const std::vector<std::filesystem::path>& paths, const ReadContoursOptions& options = {});
 
 /// Writes 3D Slicer's markups to a name that ends in .mrk.json and kontur's contour file to any other .json. Throws

@@ -222,13 +222,32 @@ Syntax syntax_of(DcmFileFormat& file) {
     return {syntax.getXferID(), syntax.getXferName(), true};
 }
 
-std::string text(DcmItem& item, const DcmTagKey& tag) {
+namespace {
+
+std::string utf8_text(DcmItem& item, const DcmTagKey& tag) {
     constexpr char kEscape = '\x1b';  // with which ISO 2022 turns ASCII into other characters
     const std::string value = raw_text(item, tag);
     const bool ascii =
         std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80 && c != kEscape; });
     const std::string utf8 = ascii ? value : to_utf8(item, value);
-    return printable_utf8(is_utf8(utf8) ? utf8 : latin1_to_utf8(utf8));
+    return is_utf8(utf8) ? utf8 : latin1_to_utf8(utf8);
+}
+
+}  // namespace
+
+std::string text(DcmItem& item, const DcmTagKey& tag) { return printable_utf8(utf8_text(item, tag)); }
+
+std::string lines(DcmItem& item, const DcmTagKey& tag) {
+    std::string all;
+    std::string_view rest;
+    const std::string whole = utf8_text(item, tag);
+    for (rest = whole; !rest.empty();) {
+        const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+        all += printable_utf8(rest.substr(0, end));
+        if (end < rest.size()) all += '\n';
+        rest.remove_prefix(std::min(end + (rest.substr(end).starts_with("\r\n") ? 2 : 1), rest.size()));
+    }
+    return all;
 }
 
 std::optional<std::int64_t> integer(DcmItem& item, const DcmTagKey& tag) {

@@ -38,6 +38,9 @@ Syntax syntax_of(DcmFileFormat& file);
 /// or of any where none is declared, are taken for UTF-8, else for Latin-1.
 std::string text(DcmItem& item, const DcmTagKey& tag);
 
+/// The same of free text, whose lines end with '\n'.
+std::string lines(DcmItem& item, const DcmTagKey& tag);
+
 /// First value of an integer element (US, SS, IS, ...); nullopt when absent or empty. Throws Error(corrupt_file) naming the
 /// element when it is no integer.
 std::optional<std::int64_t> integer(DcmItem& item, const DcmTagKey& tag);

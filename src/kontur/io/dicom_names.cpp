@@ -15,9 +15,12 @@ namespace {
 constexpr std::size_t kMostCharacters = 64;  ///< of VR LO, PS3.5 table 6.2-1
 constexpr std::size_t kMostQuoted = 160;
 
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+
 std::size_t characters_of(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return !is_continuation(c); }));
 }
 
 /// Blanks at both ends mean nothing in DICOM.
@@ -47,6 +50,23 @@ std::string noted_value(std::string_view text, std::size_t max_characters, const
             ? fmt::format("has {} characters, of which DICOM has room for {}", characters, max_characters)
             : std::string("has backslashes or control characters, which DICOM cannot hold there");
     notes.push_back(fmt::format("{} {}; it is written as '{}'", what, reason, stored));
+    return stored;
+}
+
+std::string noted_text(std::string_view text, std::size_t max_characters, const std::string& what,
+                       std::vector<std::string>& notes) {
+    check_utf8(text, what);
+    std::string stored;
+    std::size_t characters = 0;
+    for (const char c : text) {
+        const std::string_view written = c == '\n' ? "\r\n" : is_control(c) ? " " : std::string_view(&c, 1);
+        if (!is_continuation(c)) characters += written.size();
+        if (characters > max_characters) break;
+        stored += written;
+    }
+    if (characters > max_characters)
+        notes.push_back(fmt::format("{} is longer than the {} characters for which DICOM has room; its end is left out",
+                                    what, max_characters));
     return stored;
 }
 

@@ -16,6 +16,11 @@ namespace kontur::dcmtk {
 std::string noted_value(std::string_view text, std::size_t max_characters, const std::string& what,
                         std::vector<std::string>& notes);
 
+/// The same for free text, which may have backslashes and several lines, ended in DICOM's way. Throws Error(invalid_input)
+/// for no UTF-8.
+std::string noted_text(std::string_view text, std::size_t max_characters, const std::string& what,
+                       std::vector<std::string>& notes);
+
 /// Names as they are stored, of which two are equal only if they were before: what was cut to the same characters gets a
 /// number in brackets. `what` is what has the names, such as "ROI"; it is counted from 1. Throws
 /// Error(invalid_input) for a name that is no UTF-8.

@@ -12,6 +12,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/io/cie_lab.h"
+#include "kontur/io/dicom_code.h"
 #include "kontur/io/dicom_frames.h"
 #include "kontur/io/dicom_seg_pixels.h"
 
@@ -136,6 +137,9 @@ private:
             segment.algorithm_type = dcmtk::text(*item, DCM_SegmentAlgorithmType);
             segment.algorithm_name = dcmtk::text(*item, DCM_SegmentAlgorithmName);
             segment.color = read_color(*item);
+            segment.description = dcmtk::lines(*item, DCM_SegmentDescription);
+            segment.category = dcmtk::read_code(*item, DCM_SegmentedPropertyCategoryCodeSequence);
+            segment.code = dcmtk::read_code(*item, DCM_SegmentedPropertyTypeCodeSequence);
             if (kind_ == Kind::label_map && segment.number == background_) continue;
             if (kind_ == Kind::label_map && segment.number == 0)
                 refuse("its segment 0 cannot be told from what lies in no segment");

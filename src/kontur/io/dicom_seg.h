@@ -11,6 +11,7 @@
 #include "kontur/base/work.h"
 #include "kontur/io/dicom_series.h"
 #include "kontur/shape/provenance.h"
+#include "kontur/shape/structure_attributes.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -22,6 +23,9 @@ struct DicomSegment {
     std::string algorithm_type = "SEMIAUTOMATIC";  ///< or "AUTOMATIC" or "MANUAL"
     std::string algorithm_name = "";
     std::optional<std::array<std::uint8_t, 3>> color = std::nullopt;  ///< sRGB
+    std::string description = "";                                     ///< in words; may be empty
+    std::optional<CodedConcept> category = std::nullopt;              ///< what sort of thing it is; "tissue" where unset
+    std::optional<CodedConcept> code = std::nullopt;                  ///< what it is; "tissue" where unset
     std::int64_t voxels = 0;                                          ///< set by reading
     std::int64_t shared_voxels = 0;  ///< those of them that lie in other segments, too; set by reading
 };
@@ -80,7 +84,8 @@ struct WriteDicomSegOptions {
 /// voxels lie on theirs. Throws Error(invalid_input) when they do not, naming the distance in voxels, and how many lie
 /// outside of the images, for a value without a segment and for a segment without voxels; Error(too_large) beyond DICOM's 4
 /// GiB; Error(io). Names have room for 64 characters, none of them a backslash; two that would become equal get a number.
-/// Returns what the user should know, one sentence each: names that were changed. Source: DICOM PS3.3 A.51 and C.8.20.
+/// Returns what the user should know, one sentence each: names, descriptions and codes that were changed. Source: DICOM
+/// PS3.3 A.51 and C.8.20.
 std::vector<std::string> write_dicom_seg(const std::filesystem::path& path, const Image& labels,
                                          const std::vector<DicomSegment>& segments, const DicomSeries& images,
                                          const WriteDicomSegOptions& options = {}, const Work& work = {});

@@ -12,6 +12,7 @@
 #include "kontur/base/error.h"
 #include "kontur/io/cie_lab.h"
 #include "kontur/io/decimal_string.h"
+#include "kontur/io/dicom_code.h"
 #include "kontur/io/dicom_document.h"
 #include "kontur/io/dicom_names.h"
 #include "kontur/io/dicom_seg.h"
@@ -26,6 +27,7 @@ using dcmtk::put_code;
 using dcmtk::put_file_reference;
 using dcmtk::put_image_reference;
 
+constexpr std::size_t kMostDescription = 1024;               ///< characters, of VR ST
 constexpr dcmtk::Code kTissue{"85756007", "SCT", "Tissue"};  // what other programs write for want of a better word
 constexpr dcmtk::Code kSegmentation{"113076", "DCM", "Segmentation"};
 constexpr dcmtk::Code kSource{"121322", "DCM", "Source image for image processing operation"};
@@ -170,16 +172,25 @@ public:
     void put_overlap(bool overlap) { put(document_, DCM_SegmentsOverlap, overlap ? "YES" : "NO"); }
 
     void put_segment(const DicomSegment& segment, const std::string& name, std::size_t number,
-                     const DicomAlgorithm& algorithm) {
+                     const DicomAlgorithm& algorithm, std::vector<std::string>& notes) {
         DcmItem& item = append_item(document_, DCM_SegmentSequence);
         put(item, DCM_SegmentNumber, static_cast<std::int64_t>(number));
         put(item, DCM_SegmentLabel, name);
+        const auto of_segment = [&](const char* what) { return fmt::format("the {} of segment '{}'", what, name); };
+        if (!segment.description.empty())
+            put(item, DCM_SegmentDescription,
+                dcmtk::noted_text(segment.description, kMostDescription, of_segment("description"), notes));
         put(item, DCM_SegmentAlgorithmType, segment.algorithm_type);
         if (segment.algorithm_type != "MANUAL")
             put(item, DCM_SegmentAlgorithmName,
                 dcmtk::one_value(segment.algorithm_name.empty() ? "unknown" : segment.algorithm_name, 64));
-        put_code(item, DCM_SegmentedPropertyCategoryCodeSequence, kTissue);
-        put_code(item, DCM_SegmentedPropertyTypeCodeSequence, kTissue);
+        const auto put_property = [&](const DcmTagKey& tag, std::optional<CodedConcept> property, const char* what) {
+            if (property) property = dcmtk::storable(*property, of_segment(what), notes);
+            if (property) put_code(item, tag, *property);
+            else put_code(item, tag, kTissue);
+        };
+        put_property(DCM_SegmentedPropertyCategoryCodeSequence, segment.category, "category");
+        put_property(DCM_SegmentedPropertyTypeCodeSequence, segment.code, "code");
         if (segment.color) put_color(item, *segment.color);
         if (!algorithm.name.empty())
             put_algorithm(append_item(item, DCM_SegmentationAlgorithmIdentificationSequence), algorithm);
@@ -328,7 +339,7 @@ std::vector<std::string> write_segments(const std::filesystem::path& path, const
     std::vector<bool> taken(static_cast<std::size_t>(grid.voxel_count()));
     bool overlap = false;
     for (std::size_t s = 0; s < segments.size(); ++s) {
-        writer.put_segment(segments[s], names[s], s + 1, options.algorithm);
+        writer.put_segment(segments[s], names[s], s + 1, options.algorithm, notes);
         const std::vector<bool> inside = voxels_of(s);
         for (std::int64_t k = 0; k < grid.size.k; ++k) {
             work.report("write frames", static_cast<double>(k) / static_cast<double>(grid.size.k));

@@ -2,6 +2,8 @@
 #include "kontur/io/markups.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "kontur/base/counted.h"
@@ -18,6 +20,7 @@ using nlohmann::json;
 constexpr std::string_view kSchema =
     "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
     "markups-schema-v1.0.3.json#";
+constexpr std::array<std::uint8_t, 3> kGivenToAll{255, 128, 128};  ///< colour of 3D Slicer's markups
 constexpr std::string_view kHole = "hole", kInside = "inside", kOutside = "outside";
 
 [[noreturn]] void refuse(ErrorKind kind, const std::string& message) { throw Error(kind, message); }
@@ -137,6 +140,22 @@ void append_markup(const json& markup, const ReadMarkupsOptions& options, Contou
                "is a markup of type \"" + type + "\"; closed and open curves and point lists are supported");
 }
 
+/// In which 3D Slicer shows the markup, whose points are selected until someone chooses. The one that it gives to all
+/// markups was not chosen for this structure.
+std::optional<std::array<std::uint8_t, 3>> read_color(const json& markup) {
+    const json display = markup.value("display", json::object());
+    if (!display.is_object()) return std::nullopt;
+    const json levels = display.value("selectedColor", display.value("color", json()));
+    if (!levels.is_array() || levels.size() != 3) return std::nullopt;
+    std::array<std::uint8_t, 3> color{};
+    for (std::size_t n = 0; n < 3; ++n) {
+        if (!levels[n].is_number() || !(levels[n] >= 0) || !(levels[n] <= 1)) return std::nullopt;
+        color[n] = static_cast<std::uint8_t>(std::lround(255 * levels[n].get<double>()));
+    }
+    if (color == kGivenToAll) return std::nullopt;
+    return color;
+}
+
 /// What several numbered names have in common: "liver 1", "liver 12" give "liver".
 std::string common_name(const std::vector<std::string>& names) {
     if (names.empty()) return {};
@@ -158,6 +177,7 @@ ContourSet read_set(const json& document, const ReadMarkupsOptions& options) {
     for_each_item(markups, "markup", [&](const json& markup) {
         const std::size_t before = set.contours.size();
         append_markup(markup, options, set);
+        if (!set.attributes.color) set.attributes.color = read_color(markup);
         if (set.contours.size() > before) names.push_back(text_member(markup, "name", ""));
     });
     for (std::size_t c = 0; c < set.contours.size(); ++c)
@@ -206,24 +226,35 @@ std::vector<ControlPoint> single_points_of(const ContourSet& set) {
     return controls;
 }
 
+/// Levels from 0 to 1. Both keys: 3D Slicer shows points, and the curves through them, as selected until someone chooses.
+std::string display_member(const std::optional<std::array<std::uint8_t, 3>>& color) {
+    if (!color) return "";
+    const std::string levels =
+        fmt::format("[{:.6f}, {:.6f}, {:.6f}]", (*color)[0] / 255.0, (*color)[1] / 255.0, (*color)[2] / 255.0);
+    return fmt::format("\"display\": {{\"color\": {0}, \"selectedColor\": {0}}}, ", levels);
+}
+
 std::string name_member(const std::string& name) { return name.empty() ? "" : "\"name\": " + json(name).dump() + ", "; }
 
-std::string to_text(std::string_view type, const std::string& name, const std::vector<ControlPoint>& controls) {
+std::string to_text(std::string_view type, const std::string& name, const std::string& display,
+                    const std::vector<ControlPoint>& controls) {
     return fmt::format(
-        "\n  {{\"type\": \"{}\", {}\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", "
+        "\n  {{\"type\": \"{}\", {}\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", {}"
         "\"controlPoints\": [{}]}}",
-        type, name_member(name), to_text(controls));
+        type, name_member(name), display, to_text(controls));
 }
 
 std::string to_document(const ContourSet& set, const Provenance& provenance) {
     std::vector<std::string> markups;
+    const std::string display = display_member(set.attributes.color);
     for (std::size_t i = 0; i < set.contours.size(); ++i) {
         const bool alone = set.name.empty() || set.contours.size() == 1;
         markups.push_back(to_text(set.contours[i].closed ? "ClosedCurve" : "Curve",
-                                  alone ? set.name : fmt::format("{} {}", set.name, i + 1), controls_of(set.contours[i])));
+                                  alone ? set.name : fmt::format("{} {}", set.name, i + 1), display,
+                                  controls_of(set.contours[i])));
     }
     if (const auto points = single_points_of(set); !points.empty())
-        markups.push_back(to_text("Fiducial", set.name.empty() ? "" : set.name + " points", points));
+        markups.push_back(to_text("Fiducial", set.name.empty() ? "" : set.name + " points", display, points));
     const std::string made = provenance.empty() ? "" : fmt::format(" \"kontur\": {},\n", to_json(provenance));
     return fmt::format("{{\"@schema\": \"{}\",\n{} \"markups\": [{}]}}\n", kSchema, made, fmt::join(markups, ","));
 }

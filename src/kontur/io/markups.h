@@ -17,7 +17,7 @@ struct ReadMarkupsOptions {
 /// A closed curve with a control point described as "hole" is a hole. Control points are taken as vertices, because the file
 /// does not tell the curve between them; those without a defined position are left out. Each curve's plane is fitted; a
 /// straight open curve takes the direction of another's. The set is named after its curve, or after what the names of
-/// several have in common.
+/// several have in common, and has the colour of the first that has another than 3D Slicer gives to all.
 /// Throws Error naming file, markup and control point: unsupported (another type of markup, unit or schema), invalid_input
 /// (too few points, a tolerance below 0, points on one line, a curve that is not planar, with the distance and the limit),
 /// corrupt_file.
@@ -25,9 +25,9 @@ ContourSet read_markups(const std::filesystem::path& path, const ReadMarkupsOpti
 
 /// Writes one curve per contour and one point list for all single points, in LPS and mm, whole or not at all. 3D Slicer
 /// draws a spline through the points, so contours should be drawn finely. What the format has no place for is lost: the
-/// contours' `end`, `inside` and `weight`, the surface points' `outward`. `provenance` goes into the key "kontur", which 3D
-/// Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates and a name that is
-/// no UTF-8.
+/// contours' `end`, `inside` and `weight`, the surface points' `outward`, all attributes but the colour. `provenance` goes
+/// into the key "kontur", which 3D Slicer passes over. Throws Error(invalid_input) for NaN or infinite coordinates and a
+/// name that is no UTF-8.
 void write_markups(const std::filesystem::path& path, const ContourSet& set, const Provenance& provenance = {});
 
 }  // namespace kontur

@@ -12,6 +12,7 @@
 #include "kontur/io/dcmtk.h"
 #include "kontur/io/decimal_string.h"
 #include "kontur/io/dicom_header.h"
+#include "kontur/io/roi_attributes.h"
 #include "kontur/io/roi_contours.h"
 
 namespace kontur {
@@ -60,14 +61,6 @@ void append_contours(DcmItem& roi_contour, std::vector<StoredContour>& contours)
     }
 }
 
-std::optional<std::array<std::uint8_t, 3>> read_color(DcmItem& roi_contour) {
-    const std::vector<double> values = dcmtk::decimals(roi_contour, DCM_ROIDisplayColor);
-    const auto is_level = [](double v) { return v >= 0 && v <= 255; };
-    if (values.size() != 3 || !std::all_of(values.begin(), values.end(), is_level)) return std::nullopt;
-    const auto level = [&](std::size_t n) { return static_cast<std::uint8_t>(values[n]); };
-    return std::array{level(0), level(1), level(2)};
-}
-
 std::int64_t required_number(DcmItem& item, const DcmTagKey& tag) {
     const std::optional<std::int64_t> number = dcmtk::integer(item, tag);
     if (!number) throw corrupt(dcmtk::tag_name(tag) + " is missing");
@@ -81,7 +74,8 @@ std::vector<Roi> read_roi_list(DcmItem& dataset) {
         roi.number = required_number(*item, DCM_ROINumber);
         roi.name = roi.contours.name = dcmtk::text(*item, DCM_ROIName);
         roi.frame_of_reference_uid = dcmtk::text(*item, DCM_ReferencedFrameOfReferenceUID);
-        roi.generation_algorithm = dcmtk::text(*item, DCM_ROIGenerationAlgorithm);
+        roi.contours.attributes.number = roi.number;
+        read_entry(*item, roi.contours.attributes);
         if (std::any_of(rois.begin(), rois.end(), [&](const Roi& other) { return other.number == roi.number; }))
             throw corrupt(fmt::format("two ROIs have the number {}", roi.number));
         rois.push_back(std::move(roi));
@@ -98,7 +92,7 @@ Roi* find_roi(std::vector<Roi>& rois, std::int64_t number) {
 void read_roi_contours(Roi& roi, const std::vector<DcmItem*>& items) {
     std::vector<StoredContour> stored;
     for (DcmItem* item : items) {
-        if (const auto color = read_color(*item)) roi.color = color;
+        read_roi_contour(*item, roi.contours.attributes);
         append_contours(*item, stored);
     }
     InterpretedContours interpreted = interpret_contours(stored);
@@ -133,7 +127,7 @@ void read_all_contours(StructureSet& set, DcmItem& dataset) {
 void read_observations(StructureSet& set, DcmItem& dataset) {
     for (DcmItem* item : dcmtk::items(dataset, DCM_RTROIObservationsSequence)) {
         const std::int64_t number = required_number(*item, DCM_ReferencedROINumber);
-        if (Roi* roi = find_roi(set.rois, number)) roi->interpreted_type = dcmtk::text(*item, DCM_RTROIInterpretedType);
+        if (Roi* roi = find_roi(set.rois, number)) read_observation(*item, roi->contours.attributes, roi->notes);
         else set.notes.push_back(fmt::format("left out an observation of ROI {}, which is not listed", number));
     }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -18,13 +17,10 @@ namespace kontur {
 struct Roi {
     std::int64_t number = 0;
     std::string name;
-    std::string interpreted_type;      ///< "GTV", "ORGAN", "EXTERNAL", ...; may be empty
-    std::string generation_algorithm;  ///< "AUTOMATIC", "SEMIAUTOMATIC", "MANUAL" or empty
     std::string frame_of_reference_uid;
-    std::optional<std::array<std::uint8_t, 3>> color;  ///< red, green, blue
-    ContourSet contours;                               ///< `contours.name` is the ROI's name; may be empty
-    std::vector<std::string> notes;                    ///< how the stored contours were interpreted, and what was left out
-    std::string damage;  ///< why its contours cannot be read, naming ROI and contour; "" when they can
+    ContourSet contours;  ///< may be empty; its `name` is the ROI's, and its `attributes` what else the file says of it
+    std::vector<std::string> notes;  ///< how the stored contours were interpreted, and what was left out
+    std::string damage;              ///< why its contours cannot be read, naming ROI and contour; "" when they can
 };
 
 struct StructureSet {
@@ -66,14 +62,15 @@ struct WriteRtstructOptions {
 };
 
 /// Writes a DICOM RT structure set (Implicit VR Little Endian, UTF-8) that refers to the images it was made on: patient,
-/// study, frame of reference, and for each contour its slice. ROIs are numbered from 1 where their number is 0; their frame
-/// of reference and notes are not used. Contours nested on one plane are filled even-odd, whatever their `hole` says.
-/// Coordinates are exact to 1e-9 mm. Names have room for 64 characters, none of them a backslash; two that would
-/// become equal get a number. Returns what the user should know, one sentence each: names that were changed, contours that
-/// lie on no slice, and images without a frame of reference, for which a new one is named.
-/// Throws Error(invalid_input), naming ROI and contour, for open contours, fewer than 3 points, coordinates that are not
-/// finite and a hole that nothing encloses, for two ROIs with one number and for names that are no UTF-8; Error(unsupported)
-/// for interior, exterior or surface points; Error(io). Source: DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.
+/// study, frame of reference, and for each contour its slice. A ROI whose number is 0 has that of its attributes, or where
+/// these name none, or another ROI has it, the lowest free one from 1 on; frames of reference and notes are not used.
+/// Contours nested on one plane are filled even-odd, whatever their `hole` says. Coordinates are exact to 1e-9 mm. Names
+/// have room for 64 characters, none of them a backslash; two that would become equal get a number. Returns what the user
+/// should know, one sentence each: names and attributes that were changed, contours that lie on no slice, and images without
+/// a frame of reference, for which a new one is named. Throws Error(invalid_input), naming ROI and contour, for open
+/// contours, fewer than 3 points, coordinates that are not finite and a hole that nothing encloses, for two ROIs with one
+/// number and for texts that are no UTF-8; Error(unsupported) for interior, exterior or surface points; Error(io). Source:
+/// DICOM PS3.3 A.19 and C.8.8.5 to C.8.8.8.
 std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const StructureSet& set,
                                         const DicomSeries& images, const WriteRtstructOptions& options = {});
 

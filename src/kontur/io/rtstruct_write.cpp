@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "kontur/base/counted.h"
@@ -11,6 +12,7 @@
 #include "kontur/io/dicom_document.h"
 #include "kontur/io/dicom_names.h"
 #include "kontur/io/keyhole.h"
+#include "kontur/io/roi_attributes.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/shape/contour_nesting.h"
 
@@ -145,28 +147,28 @@ public:
     RoiWriter(DcmItem& document, const std::vector<DicomHeader>& slices, HoleEncoding holes)
         : document_(document), slices_(slices), holes_(holes) {}
 
-    void write(const Roi& roi, const std::string& name, std::int64_t number) {
+    void write(const Roi& roi, const std::string& name, std::int64_t number, std::vector<std::string>& notes) {
         if (!roi.damage.empty()) throw invalid("its contours could not be read: " + roi.damage);
-        put_entry(roi, name, number);
+        const StructureAttributes attributes = storable(roi.contours.attributes, name, notes);
+        put_listed(attributes, name, number);
         DcmItem& item = append_item(document_, DCM_ROIContourSequence);
         put(item, DCM_ReferencedROINumber, number);
-        if (roi.color)
-            put(item, DCM_ROIDisplayColor, fmt::format("{}\\{}\\{}", (*roi.color)[0], (*roi.color)[1], (*roi.color)[2]));
+        put_roi_contour(item, attributes);
         std::int64_t contour_number = 0;
         for (const StoredPath& path : stored_paths(roi.contours, holes_)) put_contour(item, path, ++contour_number);
-        put_observation(roi, number);
+        put_observed(attributes, number);
     }
 
     /// Contours without a slice so far.
     std::size_t off_slices() const { return off_slices_; }
 
 private:
-    void put_entry(const Roi& roi, const std::string& name, std::int64_t number) {
+    void put_listed(const StructureAttributes& attributes, const std::string& name, std::int64_t number) {
         DcmItem& entry = append_item(document_, DCM_StructureSetROISequence);
         put(entry, DCM_ROINumber, number);
         put(entry, DCM_ReferencedFrameOfReferenceUID, dcmtk::text(document_, DCM_FrameOfReferenceUID));
         put(entry, DCM_ROIName, name);
-        put(entry, DCM_ROIGenerationAlgorithm, roi.generation_algorithm);
+        put_entry(entry, attributes);
     }
 
     void put_contour(DcmItem& roi, const StoredPath& path, std::int64_t number) {
@@ -180,12 +182,11 @@ private:
         put(item, DCM_ContourData, contour_data(path.points));
     }
 
-    void put_observation(const Roi& roi, std::int64_t number) {
+    void put_observed(const StructureAttributes& attributes, std::int64_t number) {
         DcmItem& item = append_item(document_, DCM_RTROIObservationsSequence);
         put(item, DCM_ObservationNumber, number);
         put(item, DCM_ReferencedROINumber, number);
-        put(item, DCM_RTROIInterpretedType, roi.interpreted_type);
-        put(item, DCM_ROIInterpreter, "");
+        put_observation(item, attributes);
     }
 
     DcmItem& document_;
@@ -194,19 +195,30 @@ private:
     std::size_t off_slices_ = 0;
 };
 
-/// The ROIs' own numbers; where they are 0 the lowest free ones.
+/// Of VR IS.
+void check_number(std::int64_t number) {
+    constexpr std::int64_t kLeast = std::numeric_limits<std::int32_t>::min(),
+                           kMost = std::numeric_limits<std::int32_t>::max();
+    if (number < kLeast || number > kMost)
+        throw invalid(fmt::format("a ROI has the number {}; {} to {} are possible", number, kLeast, kMost));
+}
+
+/// The ROIs' own numbers, else those of their attributes, else the lowest free ones.
 std::vector<std::int64_t> roi_numbers(const std::vector<Roi>& rois) {
-    std::vector<std::int64_t> numbers;
+    std::vector<std::int64_t> numbers(rois.size());
     std::set<std::int64_t> taken;
-    for (const Roi& roi : rois)
-        if (roi.number != 0 && !taken.insert(roi.number).second)
-            throw invalid(fmt::format("two ROIs have the number {}", roi.number));
-    for (const Roi& roi : rois) {
-        std::int64_t number = roi.number;
-        if (number == 0)
-            for (number = 1; !taken.insert(number).second;) ++number;
-        numbers.push_back(number);
-    }
+    const auto take = [&](std::size_t n, std::int64_t number) {
+        if (number == 0 || !taken.insert(number).second) return false;
+        check_number(numbers[n] = number);
+        return true;
+    };
+    for (std::size_t n = 0; n < rois.size(); ++n)
+        if (rois[n].number != 0 && !take(n, rois[n].number))
+            throw invalid(fmt::format("two ROIs have the number {}", rois[n].number));
+    for (std::size_t n = 0; n < rois.size(); ++n)
+        if (numbers[n] == 0) take(n, rois[n].contours.attributes.number.value_or(0));
+    for (std::size_t n = 0; n < rois.size(); ++n)
+        for (std::int64_t number = 1; numbers[n] == 0; ++number) take(n, number);
     return numbers;
 }
 
@@ -239,7 +251,7 @@ std::vector<std::string> write_rtstruct(const std::filesystem::path& path, const
     RoiWriter writer(document, slices, options.holes);
     for (std::size_t n = 0; n < set.rois.size(); ++n) {
         try {
-            writer.write(set.rois[n], names[n], numbers[n]);
+            writer.write(set.rois[n], names[n], numbers[n], notes);
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI {} '{}'", numbers[n], set.rois[n].name));
         }

@@ -9,6 +9,7 @@
 
 #include "kontur/base/geometry.h"
 #include "kontur/base/smallest_ball.h"
+#include "kontur/shape/structure_attributes.h"
 
 namespace kontur {
 
@@ -57,6 +58,7 @@ struct ContourSet {
     std::vector<Vec3> exterior;  ///< mm; points that must lie outside of the object
     std::vector<SurfacePoint> surface{};
     std::vector<Plane> empty_planes{};  ///< that were looked at, and in which nothing of the object is seen
+    StructureAttributes attributes{};   ///< what files say of it, carried along
 };
 
 /// Number of points over all contours.

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kontur {
+
+/// A term of a coding scheme, such as {"10200004", "SCT", "Liver"} (DICOM PS3.3 section 8).
+struct CodedConcept {
+    std::string value;
+    std::string scheme;
+    std::string meaning;  ///< in words
+
+    friend bool operator==(const CodedConcept&, const CodedConcept&) = default;
+};
+
+/// What dose calculation takes for a structure in place of what the CT shows (ROIPhysicalProperty).
+struct PhysicalProperty {
+    std::string property;  ///< "REL_ELEC_DENSITY", "REL_MASS_DENSITY", ...
+    double value = 0;
+
+    friend bool operator==(const PhysicalProperty&, const PhysicalProperty&) = default;
+};
+
+/// What files say about a structure beside its name and where it is. kontur carries it from file to file and computes
+/// nothing with it.
+struct StructureAttributes {
+    std::optional<std::array<std::uint8_t, 3>> color{};  ///< red, green, blue
+    std::string interpreted_type{};                      ///< "GTV", "ORGAN", "EXTERNAL", ...; may be empty
+    std::string generation_algorithm{};                  ///< "AUTOMATIC", "SEMIAUTOMATIC", "MANUAL" or empty
+    std::string description{};                           ///< in words; may be empty
+    std::optional<std::int64_t> number{};                ///< of its ROI, by which plans and dose files name it
+    std::optional<CodedConcept> category{};              ///< what sort of thing it is, such as tissue
+    std::optional<CodedConcept> code{};                  ///< what it is, such as the liver
+    std::vector<PhysicalProperty> physical_properties{};
+
+    friend bool operator==(const StructureAttributes&, const StructureAttributes&) = default;
+};
+
+}  // namespace kontur

@@ -41,9 +41,16 @@ std::optional<int> hex_digit(char c) {
     return std::nullopt;
 }
 
-std::optional<std::string> decoded(std::string_view text) {
+/// In a query a space is a "+", as forms write it.
+enum class Part { path, query };
+
+std::optional<std::string> decoded(std::string_view text, Part part) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '+' && part == Part::query) {
+            result += ' ';
+            continue;
+        }
         if (text[i] != '%') {
             result += text[i];
             continue;
@@ -92,7 +99,7 @@ std::optional<std::string> Target::parameter(std::string_view name) const {
 std::optional<Target> parse_target(std::string_view target) {
     if (!target.starts_with('/')) return std::nullopt;
     const std::size_t mark = target.find('?');
-    const auto path = decoded(target.substr(0, mark));
+    const auto path = decoded(target.substr(0, mark), Part::path);
     if (!path) return std::nullopt;
     Target result{*path, {}};
     std::string_view rest = mark == std::string_view::npos ? std::string_view() : target.substr(mark + 1);
@@ -100,8 +107,9 @@ std::optional<Target> parse_target(std::string_view target) {
         const std::size_t end = rest.find('&');
         const std::string_view item = rest.substr(0, end);
         const std::size_t equals = item.find('=');
-        const auto key = decoded(item.substr(0, equals));
-        const auto value = decoded(equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1));
+        const auto key = decoded(item.substr(0, equals), Part::query);
+        const auto value =
+            decoded(equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1), Part::query);
         if (!key || !value) return std::nullopt;
         result.query.emplace_back(*key, *value);
         rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);

@@ -93,6 +93,13 @@ TEST(ParseTarget, DecodesPathAndQuery) {
     EXPECT_EQ(target->parameter("none"), std::nullopt);
 }
 
+TEST(ParseTarget, HasSpacesInQueriesAsFormsWriteThem) {
+    const auto target = parse_target("/a+b?path=/my+scans%20%2B+old");
+    ASSERT_TRUE(target);
+    EXPECT_EQ(target->path, "/a+b");
+    EXPECT_EQ(target->parameter("path"), "/my scans + old");
+}
+
 TEST(ParseTarget, RefusesWhatIsNoPath) {
     for (const char* target : {"", "a", "http://127.0.0.1/", "*", "/%", "/%4", "/%gg", "/?a=%f"})
         EXPECT_FALSE(parse_target(target)) << target;

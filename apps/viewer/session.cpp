@@ -38,6 +38,7 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
       range_(value_range(*image_)),
       shows_borders_(range_.first < range_.second && !is_label_map(*image_)),
       edges_(image_),
+      fits_(image_),
       notes_(std::move(opened.notes)),
       project_(project, opened.reference),
       surfaces_(

@@ -18,6 +18,7 @@
 #include "kontur/view/reslice.h"
 #include "viewer/further_image.h"
 #include "viewer/imports.h"
+#include "viewer/kept_fits.h"
 #include "viewer/opened_image.h"
 #include "viewer/project.h"
 #include "viewer/sketch.h"
@@ -231,6 +232,7 @@ private:
     const std::pair<double, double> range_;
     const bool shows_borders_;  ///< no label map, nor the same value everywhere
     SliceEdges edges_;
+    KeptFits fits_;
     mutable std::mutex listener_mutex_;
     std::function<void(const std::string&)> listener_;
 

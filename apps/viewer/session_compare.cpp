@@ -27,9 +27,9 @@ std::string Session::compare(Id first, Id second, const std::stop_token& stop) {
             throw Error(ErrorKind::invalid_input,
                         fmt::format("{} has 0 contours; at least 1 is needed to compare it", one.name));
     const StatusLine line(status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));
-    const auto mask_of = [&](Id id) { return fit_structure(now, id, *image_, false, line.work(stop)).made.mask; };
-    const Mask in_a = mask_of(first), in_b = mask_of(second);
-    const Comparison found = kontur::compare(in_a, in_b, line.work(stop));
+    const auto fitted = [&](Id id) { return fits_.one(now, id, line.work(stop)); };
+    const auto fit_a = fitted(first), fit_b = fitted(second);
+    const Comparison found = kontur::compare(fit_a->made.mask, fit_b->made.mask, line.work(stop));
     nlohmann::json told{{"first", first},
                         {"second", second},
                         {"dice", found.dice},

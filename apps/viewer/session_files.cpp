@@ -83,8 +83,8 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         project_.copy_to(path);
         download.file_name = file_name(project_.path().stem().string(), name);
     } else if (is_export_of_all(name)) {
-        const auto all = fit_structures(state(), *image_, name.ends_with(".zip"), line.work(stop));
-        for (const std::string& note : write_structures(path, name, all, series_, line.work(stop))) notice("info", note);
+        const KeptFits::Fits all = fits_.all(state(), line.work(stop));
+        for (const std::string& note : write_structures(path, name, *all, series_, line.work(stop))) notice("info", note);
         download.file_name = plain_name(project_path().stem().string()) + "_" + name;
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
@@ -94,13 +94,11 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
         }();
         const Structure& chosen = structure_asked_for(now, *structure);
         const ContourSet set = contour_set(now, *structure);
-        const auto made = [&, &now = now](bool with_mesh) {
-            return fit_structure(now, *structure, *image_, with_mesh, line.work(stop));
-        };
-        if (is_one_of(name, kMasks)) write_mask_file(path, made(false));
-        else if (is_one_of(name, kMeshes)) write_mesh_file(path, made(true));
+        const auto made = [&, &now = now] { return fits_.one(now, *structure, line.work(stop)); };
+        if (is_one_of(name, kMasks)) write_mask_file(path, *made());
+        else if (is_one_of(name, kMeshes)) write_mesh_file(path, *made());
         else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
-        else if (name == "picture.png") write_picture(path, made(true), *image_);
+        else if (name == "picture.png") write_picture(path, *made(), *image_);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
         download.file_name = file_name(chosen.name, name);
     }

@@ -14,7 +14,6 @@
 #include "viewer/image_samples.h"
 #include "viewer/message_checks.h"
 #include "viewer/model_json.h"
-#include "viewer/proposed_lines.h"
 #include "viewer/session.h"
 
 // What a view shows: the image on its plane, and where surfaces and contours meet it.
@@ -242,18 +241,6 @@ std::string Session::slice(std::string_view text) {
     if (sent.samples) reply.add<std::uint16_t>("values", coded.codes);
     if (sent.shades) reply.add<std::uint8_t>("pixels", shades(*image, request));
     return reply.bytes();
-}
-
-/// Of a slice that no view shows yet.
-json Session::outline_of(const Members& m) {
-    const Id structure = m.id("structure");
-    const Plane plane = m.plane("plane");
-    const auto surfaces = surfaces_.all();
-    const auto found = surfaces.find(structure);
-    json lines = json::array();
-    if (found != surfaces.end() && found->second->mesh)
-        for (const Polyline& line : proposed_lines(*found->second->mesh, plane)) lines.push_back(to_json(line.points));
-    return {{"lines", std::move(lines)}};
 }
 
 }  // namespace kontur::viewer

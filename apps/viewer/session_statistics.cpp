@@ -34,6 +34,8 @@ json row_json(const FittedStructure& one, const Image& image) {
                 {"diameter_mm", found.diameter_mm},
                 {"diameter", {to_json(found.from), to_json(found.to)}},
                 {"extent_mm", to_json(found.extent_mm)}});
+    if (const SurfaceUncertainty& sure = one.made.report.uncertainty; sure.is_known)
+        row["volume_90_ml"] = {sure.volume_low_ml, sure.volume_high_ml};
     return row;
 }
 
@@ -43,7 +45,8 @@ std::string Session::statistics(const std::stop_token& stop) {
     const StatusLine line(status_teller(), "Measuring");
     const State now = state();
     const std::shared_ptr<const FurtherImage> second = second_image();
-    const std::vector<FittedStructure> all = fit_structures(now, *image_, true, line.work(stop));
+    const KeptFits::Fits fits = fits_.all(now, line.work(stop));
+    const std::vector<FittedStructure>& all = *fits;
     json rows = json::array();
     for (const FittedStructure& one : all) rows.push_back(row_json(one, *image_));
     json told{{"unit", unit()}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "kontur/base/error.h"
@@ -7,15 +8,74 @@
 #include "viewer/model_json.h"
 #include "viewer/proposed_lines.h"
 #include "viewer/session.h"
+#include "viewer/snapped_line.h"
 
-// Where to draw next.
+// Where to draw next, and what is proposed there.
 
 namespace kontur::viewer {
 namespace {
 
 using nlohmann::json;
 
+constexpr double kMostSlicesApart = 4;  ///< beyond, an image looks no more like itself
+
+double apart_mm(const DrawnContour& contour, const Plane& plane) {
+    return std::abs(plane.distance_to(contour.plane.origin));
+}
+
+/// On average from the line's points to the contour's next ones, seen along the plane's normal.
+double mean_distance_mm(const std::vector<Vec3>& line, const DrawnContour& contour, const Plane& plane) {
+    double sum = 0;
+    for (const Vec3& p : line) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Vec3& q : contour.points) {
+            const Vec3 away = q - p;
+            nearest = std::min(nearest, norm(away - dot(away, plane.normal) * plane.normal));
+        }
+        sum += nearest;
+    }
+    return sum / static_cast<double>(line.size());
+}
+
+/// Of the structure's contours on the nearest parallel slice with any the one that runs along the line; null: there is none.
+const DrawnContour* neighbour_of(const std::vector<Vec3>& line, Id structure, const Plane& plane, const State& state,
+                                 double most_mm) {
+    std::vector<const DrawnContour*> near;
+    double least_mm = most_mm;
+    for (const auto& [id, contour] : state.contours) {
+        if (contour->structure != structure || !contour->closed || !contour->visible) continue;
+        if (std::abs(dot(contour->plane.normal, plane.normal)) < 1 - 1e-6) continue;
+        const double mm = apart_mm(*contour, plane);
+        if (mm > least_mm + 1e-3 || mm < 1e-3) continue;
+        if (mm < least_mm - 1e-3) near.clear(), least_mm = mm;
+        near.push_back(contour.get());
+    }
+    const auto nearest = std::ranges::min_element(
+        near, {}, [&](const DrawnContour* contour) { return mean_distance_mm(line, *contour, plane); });
+    return nearest == near.end() ? nullptr : *nearest;
+}
+
 }  // namespace
+
+/// What is fitted on a slice that no view shows yet.
+json Session::outline_of(const Members& m) {
+    const Id structure = m.id("structure");
+    const Plane plane = m.plane("plane");
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    json lines = json::array();
+    if (found == surfaces.end() || !found->second->mesh) return {{"lines", std::move(lines)}};
+    const State now = state();
+    const bool snaps = m.flag_or("snap", false) && shows_borders_ && now.use_image;
+    const Vec3 spacing = image_->grid.spacing_mm();
+    const double most_mm = kMostSlicesApart * std::max({spacing.x, spacing.y, spacing.z});
+    for (Polyline& line : proposed_lines(*found->second->mesh, plane)) {
+        const DrawnContour* beside = snaps ? neighbour_of(line.points, structure, plane, now, most_mm) : nullptr;
+        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *image_), 0.1);
+        lines.push_back(to_json(line.points));
+    }
+    return {{"lines", std::move(lines)}};
+}
 
 SurfaceEvidence Session::evidence_of(const Surface& surface) const {
     SurfaceEvidence evidence = *surface.evidence;

@@ -97,7 +97,7 @@ export class Proposals extends Emitter<"proposal"> {
   async propose(structure: number, plane: Plane, instead?: Contour): Promise<void> {
     this.asked = plane;
     try {
-      const { lines } = await this.services.call("outline", { structure, plane });
+      const { lines } = await this.services.call("outline", { structure, plane, snap: true });
       if (this.asked !== plane) return; // another one was asked for, or none is wanted any more
       const there = lines.filter((line) => line.length >= 3);
       const laid = instead?.points.map((p) => projected(plane, p));

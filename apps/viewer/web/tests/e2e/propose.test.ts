@@ -38,6 +38,35 @@ const proposed = () => viewer.page.locator(".hint", { hasText: "A proposal" });
 const slice = () => viewer.slice("axial");
 
 describe("the outline of the next slice", () => {
+  test("is moved to where the image looks as it does beside the contour: from one contour of a ball that narrows", async () => {
+    const { page } = viewer;
+    for (const left of [1, 0]) {
+      await page.keyboard.press("Control+z");
+      await viewer.waitForContours(left);
+    }
+    await page.mouse.move(...(await viewer.at("axial", 0, 0)));
+    const before = await slice();
+    for (let i = 1; i <= 7; ++i) {
+      await page.mouse.wheel(0, 100);
+      await page.waitForSelector(`[data-view=axial][data-slice="${before + i}"]`);
+    }
+    await viewer.slicesShown();
+    const z = DRAWN_MM - 28;
+    await page.keyboard.press("f");
+    await viewer.drag("axial", circle(await viewer.pixels("axial", Math.sqrt(BALL_RADIUS_MM ** 2 - z ** 2)), 36));
+    await viewer.waitForContours(1);
+    await viewer.surfaceShown();
+    await page.keyboard.press("c");
+    await proposed().waitFor();
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(2);
+    await viewer.saved();
+    const radii = await radiiAt(z - 4);
+    const mean = radii.reduce((sum, r) => sum + r, 0) / radii.length;
+    const expected = Math.sqrt(BALL_RADIUS_MM ** 2 - (z - 4) ** 2); // 4 mm less than on the slice before
+    assert.ok(Math.abs(mean - expected) < 1, `${mean} mm on average, ${expected} expected`);
+  });
+
   test("is proposed by C, is a contour by Enter, and one undo takes that back", async () => {
     const { page } = viewer;
     const before = await slice();

@@ -10,6 +10,7 @@ const row = {
   name: 'Liver, "left"',
   contours: 3,
   volume_ml: 1.25,
+  volume_90_ml: [1, 1.5] as [number, number],
   surface_cm2: 2,
   diameter_mm: 3,
   diameter: [
@@ -26,8 +27,10 @@ const row = {
 test("a table of statistics has names with commas and quotes in one field, and units in the head", () => {
   const [head, liver, end] = asCsv({ unit: "HU", structures: [row] }).split("\r\n");
   assert.ok(head!.startsWith('Structure,Contours,"Volume, ml"') && head!.includes('"Mean, HU"'));
-  assert.equal(liver, '"Liver, ""left""",3,1.25,2,3,3,2,1,-1,2,-4,5,7');
+  assert.equal(liver, '"Liver, ""left""",3,1.25,1,1.5,2,3,3,2,1,-1,2,-4,5,7');
   assert.equal(end, "");
+  const { volume_90_ml: _, ...little } = row;
+  assert.ok(asCsv({ unit: "HU", structures: [little] }).includes(",3,1.25,,,2,3"), "too little is drawn to tell");
 });
 
 test("the image says whose it is, or else its file's name; what DICOM leaves out leaves no gap", () => {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/kept_fits.h"
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "viewer/drawn_contours.h"
+
+namespace kontur::viewer {
+namespace {
+
+/// Two balls beside each other, of one circle each.
+State two_circles(bool shares_borders) {
+    State state;
+    state.borders.shared = shares_borders;
+    for (const Id id : {3, 4}) {
+        state.structures[id] = {.id = id, .name = id == 3 ? "Left" : "Right"};
+        DrawnContour contour = as_drawn({test::kPlane, test::circle(40, 6), true, false});
+        for (Vec3& p : contour.points) p.x += id == 3 ? -8 : 8;
+        for (ControlPoint& c : contour.control) c.at.x += id == 3 ? -8 : 8;
+        contour.id = id + 10;
+        contour.structure = id;
+        state.contours[contour.id] = std::make_shared<const DrawnContour>(contour);
+    }
+    return state;
+}
+
+State with_larger_left(State state) {
+    DrawnContour contour = *state.contours.at(13);
+    for (Vec3& p : contour.points) p.y = 20 + 1.2 * (p.y - 20);
+    state.contours[13] = std::make_shared<const DrawnContour>(contour);
+    return state;
+}
+
+TEST(KeptFits, WhatIsDrawnTheSameIsFittedOnce) {
+    for (const bool shares : {false, true}) {
+        KeptFits fits(test::flat_image());
+        const State state = two_circles(shares);
+        const KeptFits::Fits first = fits.all(state, {});
+        ASSERT_EQ(first->size(), 2u);
+        EXPECT_EQ(fits.all(two_circles(shares), {}), first) << "other contours of the same points";
+        const KeptFits::Fits second = fits.all(with_larger_left(state), {});
+        EXPECT_NE(second, first);
+        EXPECT_NE(second->front().made.mask.values, first->front().made.mask.values);
+        EXPECT_EQ(fits.all(state, {}), first) << "after undo";
+    }
+}
+
+TEST(KeptFits, AStructureIsTheOneOfAllWhereBordersAreShared) {
+    KeptFits fits(test::flat_image());
+    const State state = two_circles(true);
+    const KeptFits::Fits all = fits.all(state, {});
+    EXPECT_EQ(fits.one(state, 4, {}).get(), &all->back());
+}
+
+TEST(KeptFits, AStructureAloneStaysWhileOthersChange) {
+    KeptFits fits(test::flat_image());
+    const State state = two_circles(false);
+    const auto right = fits.one(state, 4, {});
+    EXPECT_EQ(right->structure.name, "Right");
+    EXPECT_EQ(fits.one(with_larger_left(state), 4, {}), right);
+    State renamed = state;
+    renamed.structures.at(4).name = "Other";
+    EXPECT_EQ(fits.one(renamed, 4, {})->structure.name, "Other");
+}
+
+TEST(KeptFits, TellsWhatHasNoContours) {
+    KeptFits fits(test::flat_image());
+    State state = two_circles(false);
+    state.contours.clear();
+    EXPECT_KONTUR_ERROR(fits.all(state, {}), ErrorKind::invalid_input, "no structure has contours");
+    EXPECT_THROW(fits.one(state, 3, {}), Error);
+}
+
+}  // namespace
+}  // namespace kontur::viewer

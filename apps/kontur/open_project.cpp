@@ -17,10 +17,10 @@
 #include "kontur/io/frame_needed.h"
 #include "kontur/io/image.h"
 #include "kontur/shape/repeated_contours.h"
-#include "viewer/unkept.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
 #include "viewer/same_space.h"
+#include "viewer/unkept.h"
 
 namespace kontur::app {
 namespace {
@@ -83,13 +83,14 @@ bool is_example(const fs::path& path) {
 
 /// A 4D file or a folder of several volumes is the same one when the project is opened again.
 viewer::ImageChoice choice_of(const ReadImageOptions& options) {
-    return {options.dicom.series_uid, options.dicom.volume, options.frame};
+    return {options.dicom.series_uid, options.dicom.volume, options.frame, options.prefer};
 }
 
 void choose(ReadImageOptions& options, const viewer::ImageChoice& choice) {
     options.dicom.series_uid = choice.series_uid;
     options.dicom.volume = choice.volume;
     options.frame = choice.frame;
+    options.prefer = choice.prefer;
 }
 
 ImageInput input_of(const fs::path& path, const viewer::ImageChoice& choice) {

@@ -13,6 +13,7 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/frame_needed.h"
+#include "kontur/io/transform_needed.h"
 #include "viewer/gzip.h"
 #include "viewer/message_checks.h"
 #include "viewer/model_json.h"
@@ -59,6 +60,13 @@ HttpReply compressed(std::string_view bytes) {
     return reply;
 }
 
+/// The file can be read once something is chosen, which `more` names.
+HttpReply choice_reply(const Error& error, const json& more) {
+    json told{{"kind", name(error.kind())}, {"message", error.what()}};
+    told.update(more);
+    return {status_of(error.kind()), "application/json", to_text({{"error", std::move(told)}}), {}};
+}
+
 template <class Make>
 HttpReply guarded(Make make) {
     try {
@@ -66,10 +74,9 @@ HttpReply guarded(Make make) {
     } catch (const json::exception&) {
         return error_reply(400, "invalid_input", "the request is no JSON that kontur understands");
     } catch (const FrameNeeded& error) {
-        HttpReply reply{status_of(error.kind()), "application/json", "", {}};
-        reply.body =
-            to_text({{"error", {{"kind", name(error.kind())}, {"message", error.what()}, {"frames", error.frames()}}}});
-        return reply;
+        return choice_reply(error, {{"frames", error.frames()}});
+    } catch (const TransformNeeded& error) {
+        return choice_reply(error, {{"transforms", true}});
     } catch (const StructureRemoved&) {
         return nothing();
     } catch (const Error& error) {

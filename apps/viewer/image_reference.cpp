@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kontur/base/error.h"
 #include "viewer/model_json.h"
 
 namespace kontur::viewer {
@@ -20,6 +21,7 @@ json to_json(const ImageChoice& choice) {
     if (choice.series_uid) object["series"] = *choice.series_uid;
     if (choice.volume) object["volume"] = *choice.volume;
     if (choice.frame) object["frame"] = *choice.frame;
+    if (choice.prefer) object["prefer"] = *choice.prefer == NiftiTransform::sform ? "sform" : "qform";
     return object;
 }
 
@@ -36,6 +38,12 @@ ImageChoice choice_from_json(const json& object) {
     if (m.has("series")) choice.series_uid = m.text("series", kLongestUid);
     if (m.has("volume")) choice.volume = static_cast<int>(m.integer("volume", 1, kMost));
     if (m.has("frame")) choice.frame = m.integer("frame", 0, kMost);
+    if (m.has("prefer")) {
+        const std::string word = m.text("prefer", 5);
+        if (word != "sform" && word != "qform")
+            throw Error(ErrorKind::invalid_input, "'prefer' is neither \"sform\" nor \"qform\"");
+        choice.prefer = word == "sform" ? NiftiTransform::sform : NiftiTransform::qform;
+    }
     return choice;
 }
 

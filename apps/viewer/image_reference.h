@@ -6,13 +6,16 @@
 #include <optional>
 #include <string>
 
+#include "kontur/io/read_image_options.h"
+
 namespace kontur::viewer {
 
 /// Which of the volumes of a path; nothing where there is only one.
 struct ImageChoice {
     std::optional<std::string> series_uid{};
-    std::optional<int> volume{};          ///< of the series, from 1
-    std::optional<std::int64_t> frame{};  ///< from 0
+    std::optional<int> volume{};             ///< of the series, from 1
+    std::optional<std::int64_t> frame{};     ///< from 0
+    std::optional<NiftiTransform> prefer{};  ///< of two that differ
 
     friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
 };
@@ -26,7 +29,7 @@ struct ImageReference {
     friend bool operator==(const ImageReference&, const ImageReference&) = default;
 };
 
-// As requests and project files have them: members `series`, `volume`, `frame`, beside a reference's `path` and
+// As requests and project files have them: members `series`, `volume`, `frame`, `prefer`, beside a reference's `path` and
 // `fingerprint`. Reading throws Error(invalid_input) as `Members` does.
 
 nlohmann::json to_json(const ImageChoice& choice);

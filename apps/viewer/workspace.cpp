@@ -9,6 +9,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/frame_needed.h"
+#include "kontur/io/transform_needed.h"
 #include "viewer/model_json.h"
 #include "viewer/status_line.h"
 
@@ -185,7 +186,10 @@ void Workspace::read(const Open& open, const std::function<void(std::exception_p
         adopt(open(work));  // a stop that comes later finds a project that is there: it counts as opened
     } catch (const FrameNeeded& error) {
         failure = std::current_exception();
-        fail(name(error.kind()), error.what(), error.frames());
+        fail(name(error.kind()), error.what(), {{"frames", error.frames()}});
+    } catch (const TransformNeeded& error) {
+        failure = std::current_exception();
+        fail(name(error.kind()), error.what(), {{"transforms", true}});
     } catch (const Error& error) {
         failure = std::current_exception();
         fail(name(error.kind()), error.what());
@@ -217,7 +221,7 @@ void Workspace::adopt(std::shared_ptr<Session> session) {
     tell(to_text({{"event", "opened"}}));
 }
 
-void Workspace::fail(std::string_view kind, const std::string& sentence, std::optional<std::int64_t> frames) {
+void Workspace::fail(std::string_view kind, const std::string& sentence, const json& to_choose) {
     {
         const std::scoped_lock lock(mutex_);
         opening_.reset();
@@ -225,7 +229,7 @@ void Workspace::fail(std::string_view kind, const std::string& sentence, std::op
     }
     finished_.notify_all();
     json error = error_json(kind, sentence);
-    if (frames) error["frames"] = *frames;
+    error.update(to_choose);
     tell(to_text({{"event", "failed"}, {"error", std::move(error)}}));
 }
 

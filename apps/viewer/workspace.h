@@ -115,8 +115,9 @@ private:
     void read(const Open& open, const std::function<void(std::exception_ptr)>& done, const std::stop_token& stop);
     void adopt(std::shared_ptr<Session> session);
     void remember(const Session& session);
-    /// `frames`: how many the file has, where one of them has to be chosen.
-    void fail(std::string_view kind, const std::string& sentence, std::optional<std::int64_t> frames = {});
+    /// `to_choose`: further members of the error, where the file can be read once something is chosen.
+    void fail(std::string_view kind, const std::string& sentence,
+              const nlohmann::json& to_choose = nlohmann::json::object());
     void tell_progress(std::string_view stage, double fraction);
     void tell(const std::string& message);
 

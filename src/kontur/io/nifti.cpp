@@ -20,6 +20,7 @@
 #include "kontur/io/image_files.h"
 #include "kontur/io/nifti_header.h"
 #include "kontur/io/text_header.h"
+#include "kontur/io/transform_needed.h"
 #include "kontur/io/voxel_stream.h"
 
 namespace kontur {
@@ -174,9 +175,9 @@ Affine3 chosen_affine(const NiftiHeader& header, const Index3& size, const fs::p
         check_both(by_sform, by_qform, header, path);
         const double difference = corner_distance_mm(by_sform, by_qform);
         if (!(difference <= kAgreementMm))
-            fail_unsupported(
-                path, "its sform and qform differ by " + millimetres(difference) +
-                          " at a corner (limit 0.1 mm); say which one counts with the option prefer (sform or qform)");
+            throw TransformNeeded(
+                path.string() + ": its sform and qform differ by " + millimetres(difference) +
+                " at a corner (limit 0.1 mm); say which one counts with the option prefer (sform or qform)");
     }
     if (has_sform && has_qform && options.prefer == NiftiTransform::qform) return by_qform.index_to_mm;
     if (has_sform) return by_sform.index_to_mm;

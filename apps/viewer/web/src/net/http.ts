@@ -17,6 +17,8 @@ export class ServerError extends Error {
     readonly edits = false,
     /** So many are in the file, and one has to be named. */
     readonly frames?: number,
+    /** Of two ways in which a NIfTI file says where it lies one has to be named. */
+    readonly transforms?: boolean,
   ) {
     super(message);
   }
@@ -156,8 +158,8 @@ export class Http {
 
 async function errorOf(reply: Response): Promise<ServerError> {
   try {
-    const { error } = (await reply.json()) as { error: { kind: string; message: string; frames?: number } };
-    return new ServerError(error.kind, error.message, false, error.frames);
+    const { error } = (await reply.json()) as { error: { kind: string; message: string; frames?: number; transforms?: boolean } };
+    return new ServerError(error.kind, error.message, false, error.frames, error.transforms);
   } catch {
     return new ServerError("io", `kontur answered with status ${reply.status}.`);
   }

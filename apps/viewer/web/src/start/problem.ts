@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { OpenRequest } from "../net/protocol";
-import { el } from "../ui/dom";
+import { button, el } from "../ui/dom";
 import { frameChoice } from "./frame_choice";
 
 /** Where a chooser of images says what stands in the way, and asks for what is missing. */
@@ -14,7 +14,7 @@ export class Problem {
   /** A sentence, whose first letter and full stop may be missing; "": there is nothing to say. */
   set(sentence: string): void {
     this.element.hidden = sentence === "";
-    this.element.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/\.?$/, ".");
+    this.element.textContent = sentence && sentence.charAt(0).toUpperCase() + sentence.slice(1).replace(/[.?]?$/, (end) => end || ".");
   }
 
   /** What is said already stays. */
@@ -35,7 +35,25 @@ export class Problem {
       this.element.append(choice.element);
     };
     const choice = frameChoice(frames, (frame) => goOn({ ...request, frame }), say);
-    say(`${request.path} has ${frames} frames. Which one is ${is}`);
+    say(`${request.path} has ${frames} frames. Which one is ${is}?`);
     choice.focus();
+  }
+
+  /** Asks which of two that differ says where the image lies. */
+  askTransform(request: OpenRequest, goOn: (request: OpenRequest) => void): void {
+    this.set(
+      `${request.path} says in two ways where it lies in the patient, which differ. Programs mostly go by the sform; the qform is what the scanner wrote.`,
+    );
+    const by = (prefer: "sform" | "qform") =>
+      button({
+        label: `By the ${prefer}`,
+        title: `Open it by its ${prefer}`,
+        class: "choice",
+        test: `by-${prefer}`,
+        click: () => goOn({ ...request, prefer }),
+      });
+    const first = by("sform");
+    this.element.append(" ", first, " ", by("qform"));
+    first.focus();
   }
 }

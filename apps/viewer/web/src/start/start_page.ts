@@ -81,9 +81,10 @@ export class StartPage {
     else this.openingBar.removeAttribute("value");
   }
 
-  failed({ kind, message, frames }: Failed["error"]): void {
+  failed({ kind, message, frames, transforms }: Failed["error"]): void {
     this.setOpening(null);
     if (frames !== undefined && this.asked) return this.problem.askFrame(this.asked, frames, "to be opened", (chosen) => void this.open(chosen));
+    if (transforms && this.asked) return this.problem.askTransform(this.asked, (chosen) => void this.open(chosen));
     this.problem.set(kind === "cancelled" ? "" : message);
   }
 

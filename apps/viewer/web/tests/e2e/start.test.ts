@@ -160,7 +160,7 @@ describe("the start page", () => {
     const script = process.env["KONTUR_DICOM_SERIES"];
     if (!python || !script) return t.skip("no script that writes DICOM files");
     for (const [name, into] of [
-      ["other_series", "a"],
+      ["other_series", "a + b"], // names are written otherwise in addresses
       ["echoes", "b"],
     ] as const) {
       const made: { status: number | null; stderr: string } = spawnSync(python, [script, name, join(home, "study", into)], { encoding: "utf8" });
@@ -191,10 +191,44 @@ describe("the start page", () => {
     await viewer.page.close();
   });
 
+  test("opens what lies in a folder whose name has spaces", async () => {
+    mkdirSync(join(home, "study", "my scans + old"), { recursive: true });
+    copyFileSync(join(home, "scans", "ball.nii"), join(home, "study", "my scans + old", "a ball.nii"));
+    const viewer = await visit();
+    await goHome(viewer);
+    await enter(viewer, "study");
+    await enter(viewer, "my scans + old");
+    await entry(viewer, "a ball.nii").click();
+    await viewer.ready();
+    assert.match((await viewer.page.locator(".file-title").textContent())!, /^a ball/);
+    await viewer.page.close();
+  });
+
   test("is where a folder of several series leads, named on the command line", async (t) => {
     if (!process.env["KONTUR_DICOM_SERIES"]) return t.skip("no script that writes DICOM files");
     const viewer = await visit(join(home, "study"));
     await viewer.page.locator("[data-test=volume]").first().waitFor();
+    await viewer.page.close();
+  });
+
+  test("asks which of two transforms that differ counts, and the project remembers", async () => {
+    const file = readFileSync(join(home, "scans", "ball.nii"));
+    file.writeInt16LE(1, 252); // the qform counts, too: no rotation, 7 mm from where the sform is
+    [2, 2, 4].forEach((spacing, axis) => file.writeFloatLE(spacing, 80 + 4 * axis));
+    [0, 1, 2].forEach((axis) => file.writeFloatLE(file.readFloatLE(292 + 16 * axis) + 7, 268 + 4 * axis));
+    writeFileSync(join(home, "study", "torn.nii"), file);
+    const viewer = await visit();
+    await goHome(viewer);
+    await enter(viewer, "study");
+    await entry(viewer, "torn.nii").click();
+    await viewer.page.locator("[data-test=start-problem]", { hasText: "in two ways where it lies" }).waitFor();
+    await viewer.page.click("[data-test=by-qform]");
+    await viewer.ready();
+    await viewer.page.click("[data-test=another]");
+    await viewer.page.locator("[data-test=recent]", { hasText: "torn.nii" }).click();
+    await viewer.ready();
+    assert.match(await viewer.page.title(), /^torn\.nii/);
+    assert.deepEqual(viewer.complaints, []);
     await viewer.page.close();
   });
 
@@ -204,7 +238,7 @@ describe("the start page", () => {
     await goHome(viewer);
     await enter(viewer, "study");
     await entry(viewer, "beating.nii").click();
-    await viewer.page.locator("[data-test=start-problem]", { hasText: "has 3 frames. Which one is to be opened" }).waitFor();
+    await viewer.page.locator("[data-test=start-problem]", { hasText: "has 3 frames. Which one is to be opened?" }).waitFor();
     await viewer.type(viewer.page.locator("[data-test=frame]"), "7");
     await viewer.page.keyboard.press("Enter");
     await viewer.page.locator("[data-test=start-problem]", { hasText: "There is no frame 7; frames are numbered from 0 to 2" }).waitFor();

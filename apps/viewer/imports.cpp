@@ -24,6 +24,7 @@
 #include "kontur/extract/trace.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/dicom_seg.h"
 #include "kontur/io/image.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/shape/repeated_contours.h"
@@ -138,8 +139,37 @@ Imported read_rtstruct_of(const fs::path& path) {
     return imported;
 }
 
-Imported read_contours_of(const fs::path& path) {
+/// Adds what a mask becomes, or why it becomes nothing.
+void add_traced(Imported& imported, const Mask& mask, const std::string& name, const TraceRequest& request) {
+    ContourSet set = traced(mask, request);
+    set.name = name;
+    if (set.contours.empty()) imported.notes.push_back(fmt::format("{} is too small to be traced", name));
+    else imported.sets.push_back(std::move(set));
+}
+
+/// Every segment of a DICOM segmentation, they may overlap.
+Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
+    const DicomSegmentation about = read_dicom_segmentation(path);
+    if (about.segments.size() > kMostImportedLabels)
+        throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} segments; the limit is {}",
+                                                      about.segments.size(), kMostImportedLabels));
+    Imported imported{{}, about.notes, about.frame_of_reference_uid};
+    const std::vector<Mask> masks = read_dicom_seg_masks(path);
+    for (std::size_t n = 0; n < masks.size(); ++n) {
+        const DicomSegment& segment = about.segments[n];
+        add_traced(imported, masks[n], segment.label.empty() ? fmt::format("Segment {}", segment.number) : segment.label,
+                   request);
+    }
+    if (imported.sets.empty())
+        throw Error(ErrorKind::invalid_input, "the segmentation has nothing that is large enough to trace");
+    imported.notes.push_back(
+        fmt::format("segments were traced into contours on up to {} planes along each axis", request.planes));
+    return imported;
+}
+
+Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
     if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
+    if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
     ReadContours read = read_contours(path);
     for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
     for (std::string& note : leave_out_unkept(read.contours)) read.notes.push_back(std::move(note));
@@ -151,12 +181,9 @@ Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
     const auto counts = count_labels(labels, kMostImportedLabels);
     if (counts.empty()) throw Error(ErrorKind::invalid_input, "the mask is empty");
     Imported imported;
-    for (const auto& [label, voxels] : counts) {
-        ContourSet set = traced(select_label(labels, static_cast<double>(label)), request);
-        set.name = counts.size() == 1 ? "Imported mask" : fmt::format("Label {}", label);
-        if (set.contours.empty()) imported.notes.push_back(fmt::format("{} is too small to be traced", set.name));
-        else imported.sets.push_back(std::move(set));
-    }
+    for (const auto& [label, voxels] : counts)
+        add_traced(imported, select_label(labels, static_cast<double>(label)),
+                   counts.size() == 1 ? "Imported mask" : fmt::format("Label {}", label), request);
     if (imported.sets.empty()) throw Error(ErrorKind::invalid_input, "the mask has nothing that is large enough to trace");
     return imported;
 }
@@ -164,7 +191,7 @@ Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
 json result_of(const Upload& upload) {
     const fs::path path = "upload" + upload.extension;
     const Imported imported =
-        upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path);
+        upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
     for (std::size_t i = 0; i < imported.sets.size(); ++i) write_contours(fmt::format("{}.json", i), imported.sets[i]);
     return {{"sets", imported.sets.size()}, {"notes", imported.notes}, {"frame", imported.frame_of_reference_uid}};
 }

@@ -344,6 +344,7 @@ export class App {
   }
 
   private connected(state: ConnectionState): void {
+    if (state === "lost") this.status.setWork("", null); // nobody tells any more when it is done
     this.saving.connected(state);
     this.startPage.connected(state);
   }

@@ -27,7 +27,7 @@ export function openImport(services: ImportServices): void {
     el(
       "p",
       {},
-      "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH) is traced into contours. You can also drop a file onto the page.",
+      "Contours (kontur or 3D Slicer JSON, VTK's lines) become a new structure, each region of an RTSTRUCT one of its own. A mask (NIfTI, NRRD, MetaImage, FreeSurfer's MGH) and each segment of a DICOM SEG are traced into contours. You can also drop a file onto the page.",
     ),
     input,
   );

@@ -61,6 +61,12 @@ export class StatusBar {
   }
 }
 
+/** What kontur says of an image or an error begins small; names of files, and its own, stay as they are. */
+export function asSentence(text: string): string {
+  const word = /^[a-z]+(?=[ :,])/.exec(text)?.[0];
+  return word && word !== "kontur" ? text.charAt(0).toUpperCase() + text.slice(1) : text;
+}
+
 const NOTICE_MS = 6000;
 const REMEDY_MS = 15_000; // to read, and to reach for the button
 const MOST_NOTICES = 4;
@@ -75,7 +81,7 @@ export class Notices {
     const notice = el(
       "div",
       { class: `notice ${level}`, title: "Click to close", "data-text": text, on: { click: () => notice.remove() } },
-      el("span", {}, text),
+      el("span", {}, asSentence(text)),
     );
     if (remedy) notice.append(button({ label: remedy.label, title: remedy.label, class: "choice", test: "remedy", click: remedy.act }));
     this.element.append(notice);

@@ -130,7 +130,7 @@ export class StructureList {
   private nameLabel({ id, name }: Structure, isActive: boolean): Piece {
     return buttonPiece({
       label: name,
-      title: "Double click or F2: rename",
+      title: `${name} (double click or F2: rename)`,
       class: "name",
       part: "name",
       click: () => undefined, // its row's

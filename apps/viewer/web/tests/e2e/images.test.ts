@@ -80,6 +80,20 @@ describe("kontur open", () => {
         writeFileSync(kept, file.bytes);
         run("inspect", kept);
       }
+      await page.dblclick(".structure-row button.name");
+      await page.keyboard.type("Drawn");
+      await page.keyboard.press("Enter");
+      await viewer.saved();
+      const volume = await viewer.volume();
+      const seg = join(folder.path, "again.dcm");
+      writeFileSync(seg, (await viewer.export("seg.dcm")).bytes);
+      await viewer.import(seg);
+      await page.locator("[data-test=import-notes]", { hasText: "traced into contours" }).waitFor();
+      await page.keyboard.press("Escape");
+      assert.deepEqual(await page.locator(".structure-row button.name").allTextContents(), ["Drawn", "Drawn"]);
+      await viewer.surfaceShown();
+      const again = await viewer.volume(); // of an object a few voxels large
+      assert.ok(Math.abs(again / volume - 1) < 0.5, `${again} ml came back of ${volume}`);
     });
   });
 

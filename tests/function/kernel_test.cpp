@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "kontur/function/implicit_function.h"
 #include "support/expect_error.h"
 #include "support/random.h"
@@ -188,6 +191,22 @@ TEST(ScreenedKernel, TakesNoExponentialToBeSummed) {
         if (r > kScreenedReach) continue;
         const double even_powers = 3 * std::pow(kScreeningLength, 3) - 1.5 * kScreeningLength * r * r;
         EXPECT_NEAR(even_powers + kernel_value(Kernel::screened, r), expected, 1e-12) << r;
+    }
+}
+
+TEST(ImplicitFunction, HasNoValueNowhere) {
+    const PointArrays centers(std::vector<Vec3>{{0, 0, 0}, {0.5, 0, 0}});
+    for (const Kernel kernel : {Kernel::screened, Kernel::triharmonic, Kernel::biharmonic}) {
+        const ImplicitFunction f(kernel, {}, centers, {1, -1}, {5, 0, 0, 0});
+        for (const double nowhere : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+            EXPECT_TRUE(std::isnan(f.value({0, nowhere, 0}))) << f.value({0, nowhere, 0});
+            EXPECT_FALSE(is_finite(f.gradient({0, nowhere, 0})));
+        }
+        const std::vector<Vec3> points{{0, std::nan(""), 0}, {0.2, 0, 0}};
+        std::vector<double> values(2);
+        f.values(points, values);
+        EXPECT_TRUE(std::isnan(values[0]));
+        EXPECT_EQ(values[1], f.value(points[1]));
     }
 }
 

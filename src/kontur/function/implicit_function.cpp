@@ -35,7 +35,7 @@ struct ImplicitFunction::Data {
     double fall_from = std::numeric_limits<double>::infinity();
 
     /// Whether kernel_value does not hold for all centres, so that the screened kernel itself has to be summed.
-    bool is_far(const Vec3& point) const { return !(norm(point) <= near_radius); }
+    bool is_far(const Vec3& point) const { return norm(point) > near_radius; }  // NaN is nowhere, and has the value NaN
     Vec3 far_gradient(const Vec3& at) const;
 };
 

@@ -4,6 +4,7 @@
 #include "kontur/io/rtstruct.h"
 #include "notes.h"
 #include "provenance.h"
+#include "roi_name.h"
 
 namespace kontur::python {
 namespace {
@@ -119,8 +120,8 @@ label : str
         [](const fs::path& path) { return unlocked([&] { return read_rtstruct(path); }); }, py::arg("path"));
     define(
         m, "select_roi", "The Roi of this name or number; without either, the only one that has contours.",
-        [](const StructureSet& structures, const std::optional<std::string>& name_or_number) {
-            return select_roi(structures, name_or_number);
+        [](const StructureSet& structures, const std::optional<RoiName>& name_or_number) {
+            return select_roi(structures, roi_name(name_or_number));
         },
         py::arg("structures"), py::arg("name_or_number") = py::none());
 }

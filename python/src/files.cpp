@@ -8,6 +8,7 @@
 #include "kontur/io/read_provenance.h"
 #include "notes.h"
 #include "provenance.h"
+#include "roi_name.h"
 
 namespace kontur::python {
 namespace {
@@ -35,7 +36,7 @@ Parameters
 ----------
 path : path or sequence of paths
     The files' content decides on the format; several files become one object.
-roi : str, optional
+roi : str or int, optional
     RT structure sets: the ROI's name or number; needed when several have contours.
 plane_tolerance_mm : float
     For curves whose plane must be fitted.
@@ -45,9 +46,9 @@ Returns
 -------
 ContourSet
 )",
-        [](const std::variant<fs::path, std::vector<fs::path>>& paths, const std::optional<std::string>& roi,
+        [](const std::variant<fs::path, std::vector<fs::path>>& paths, const std::optional<RoiName>& roi,
            double plane_tolerance_mm, const py::object& on_note) {
-            const ReadContoursOptions options{roi, plane_tolerance_mm};
+            const ReadContoursOptions options{roi_name(roi), plane_tolerance_mm};
             ReadContours read =
                 unlocked([&] { return std::visit([&](const auto& path) { return read_contours(path, options); }, paths); });
             give_notes(read.notes, on_note);

@@ -42,6 +42,11 @@ def test_contours_come_back(tmp_path, case):
     assert kontur.read_contours(tmp_path / "told.json") == told
     roi = kontur.Roi(told, interpreted_type="AVOIDANCE")
     assert (roi.color, roi.interpreted_type, roi.contours.attributes.code) == ([1, 2, 255], "AVOIDANCE", told.attributes.code)
+    several = kontur.StructureSet([kontur.Roi(told, number=4), kontur.Roi(told, number=9)])
+    for number in (9, numpy.int64(9), "9"):
+        assert kontur.select_roi(several, number).number == 9
+    with pytest.raises(kontur.InvalidInputError, match="there is no ROI '5'"):
+        kontur.select_roi(several, 5)
     with pytest.raises(TypeError):
         kontur.StructureAttributes(color=(0, 0, 256))
     both = kontur.read_contours([tmp_path / "a.json", tmp_path / "a.mrk.json"])

@@ -85,12 +85,13 @@ export async function downloaded(page: Page, act: () => Promise<void>): Promise<
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
 }
 
-/** Takes the one file out of the folder, once it is whole: until then it is empty, and its bytes are in a .part beside it. */
+/** Takes the one file out of the folder, once it is whole: until then it is empty, or just being renamed, and its bytes are in a .part beside it. */
 async function takeFrom(folder: string): Promise<File> {
   for (const end = Date.now() + PATIENCE_MS; Date.now() < end; await sleep(50)) {
     const names = readdirSync(folder);
     const path = join(folder, names[0] ?? "");
-    if (names.length === 1 && !path.endsWith(".part") && statSync(path).size > 0) {
+    const size = names.length === 1 && !path.endsWith(".part") ? statSync(path, { throwIfNoEntry: false })?.size : 0;
+    if (size !== undefined && size > 0) {
       const bytes = readFileSync(path);
       rmSync(path);
       return { name: names[0]!, bytes };

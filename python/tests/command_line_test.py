@@ -45,7 +45,9 @@ def test_tracing_gives_the_same_bytes(tmp_path, case, kidney):
     command_line("trace", tmp_path / "mask.nii.gz", "--planes", tmp_path / "planes.json", "--output", tmp_path / "a.json")
     mask = kontur.read_mask(tmp_path / "mask.nii.gz")
     planes = kontur.read_planes_json(tmp_path / "planes.json")
-    kontur.write_contours(tmp_path / "b.json", kontur.trace(mask, planes), provenance={
+    made = kontur.StructureAttributes(generation_algorithm="SEMIAUTOMATIC")
+    contours = kontur.ContourSet(kontur.trace(mask, planes).contours, attributes=made)
+    kontur.write_contours(tmp_path / "b.json", contours, provenance={
         "made_by": "kontur trace",
         "mask_sha256": kontur.files_sha256([tmp_path / "mask.nii.gz"]),
         "planes_sha256": kontur.files_sha256([tmp_path / "planes.json"]),

@@ -9,6 +9,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_seg.h"
+#include "kontur/io/frame_needed.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/read_provenance.h"
 #include "kontur/io/rtstruct.h"
@@ -42,6 +43,19 @@ Facts inspect_segmentation(const InspectCommand& command, const fs::path& path) 
     return facts;
 }
 
+/// Of several frames, where none was chosen, the first stands for all: a file is to be looked at before that is known.
+Facts describe_frame(const fs::path& path, ReadImageOptions options, const Work& work) {
+    try {
+        return describe(read_image(path, options, work));
+    } catch (const FrameNeeded& needed) {
+        options.frame = 0;
+        Facts facts = describe(read_image(path, options, work));
+        facts["frames"] = needed.frames();
+        if (options.on_note) options.on_note("the values are those of frame 0; --frame takes another");
+        return facts;
+    }
+}
+
 Facts inspect_image(const InspectCommand& command, const fs::path& path, Console& console) {
     std::vector<std::string> notes;
     ReadImageOptions options = command.read;
@@ -49,7 +63,7 @@ Facts inspect_image(const InspectCommand& command, const fs::path& path, Console
     options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
     options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
     Facts facts = {{"kind", "image"}};
-    facts.update(describe(read_image(path, options, console.work())));
+    facts.update(describe_frame(path, options, console.work()));
     facts["notes"] = notes;
     if (!warnings.empty()) facts["warnings"] = warnings;
     for (const std::string& warning : warnings) console.warn_once(warning);

@@ -69,6 +69,16 @@ def test_an_image_that_is_no_label_map_has_no_labels(tmp_path):
     assert (facts["samples"], facts["labels"], facts["min"], facts["max"]) == ("float32", [], -1, 1)
 
 
+def test_of_several_frames_the_first_is_described_and_all_are_counted(tmp_path):
+    frames = numpy.zeros((5, 4, 3, 6), numpy.int16) + 10 * numpy.arange(6, dtype=numpy.int16)
+    path = write_nifti(tmp_path / "cine.nii.gz", frames)
+    [facts] = inspect(path)
+    assert (facts["size"], facts["frames"], facts["max"]) == ([5, 4, 3], 6, 0)
+    assert facts["notes"] == ["the values are those of frame 0; --frame takes another"]
+    [facts] = inspect(path, "--frame", "3")
+    assert facts["max"] == 30 and "frames" not in facts
+
+
 @pytest.mark.parametrize("bad", [numpy.nan, numpy.inf, -numpy.inf])
 @pytest.mark.parametrize("at", [0, 7, -1])
 def test_values_that_are_not_finite_are_left_out_of_the_range_and_counted(tmp_path, bad, at):

@@ -284,10 +284,10 @@ void add_trace(CLI::App& app, Invocation& invocation) {
                               "kontur trace liver.nii.gz --planes planes.json --output contours.json");
     TraceCommand& c = *bind.command;
     bind.word("MASK", c.mask, "Mask or label map (NIfTI, NRRD, MetaImage, DICOM SEG)");
-    CLI::App* where = bind.sub->add_option_group("Where to cut (one of these)");
+    CLI::App* where = bind.sub->add_option_group("Where to cut (one of these; without: the mask's own slices)");
     where->add_option("--planes", c.planes, "Contour file whose planes cut, whatever contours it holds")->type_name("FILE");
     where->add_option("--image", c.image.path, "Image or DICOM folder whose slices cut")->type_name("FILE");
-    where->require_option(1);
+    where->require_option(0, 1);
     bind.option("-o,--output", c.output, "FILE",
                 "Contours to write: .json, .mrk.json or, with a DICOM --image, .dcm (RTSTRUCT)")
         ->required();

@@ -86,7 +86,7 @@ struct TraceCommand {
     std::filesystem::path mask;
     std::optional<std::int64_t> label;
     ReadImageOptions read;
-    std::filesystem::path planes;  ///< empty: the slices of `image` cut
+    std::filesystem::path planes;  ///< empty: the slices of `image` cut; without one the mask's own
     ImageInput image;
     std::filesystem::path output;
     std::string name;                   ///< of the structure; empty: the mask file's

@@ -26,8 +26,10 @@ std::vector<Plane> slice_planes(const Grid& grid) {
     return planes;
 }
 
-std::vector<Plane> read_planes(const TraceCommand& command, Console& console, const Work& work) {
+/// Those of the file, or the slices of the image; where neither is named the mask's own.
+std::vector<Plane> planes_to_cut(const TraceCommand& command, const Mask& mask, Console& console, const Work& work) {
     if (!command.planes.empty()) return read_planes_json(command.planes);
+    if (command.image.path.empty()) return slice_planes(mask.grid);
     return slice_planes(read_grid(command.image.path, console.noting(command.image.options), work));
 }
 
@@ -63,10 +65,10 @@ void check(const TraceCommand& command) {
 void run(const TraceCommand& command, Console& console) {
     check(command);
     const Work work = console.work(command.threads);
-    const std::vector<Plane> planes = read_planes(command, console, work);
     const ImageInput images{command.image.path, console.noting(command.image.options)};
     for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.mask), images)) console.warn(note);
     const Mask mask = read_mask(command.mask, command.label, console.noting(command.read), work);
+    const std::vector<Plane> planes = planes_to_cut(command, mask, console, work);
     ContourSet set = trace(mask, planes, command.options, work);
     if (set.contours.empty())
         console.warn(planes.size() == 1 ? "the plane does not meet the mask"

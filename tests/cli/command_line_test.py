@@ -84,7 +84,7 @@ def test_a_number_out_of_its_range_is_refused_with_the_limits(tmp_path, words, l
         ["compare", "a.nii", "b.nii", "--label", "liver"],
         ["inspect"],
         ["convert", "a.nii"],
-        ["trace", "a.nii", "--output", "b.json"],
+        ["trace", "a.nii", "--planes", "b.json", "--image", "c.nii", "--output", "d.json"],
         ["segment", "a.json", "--output", "b.nii", "--kernel", "gaussian"],
         [*SEGMENT, "--spacing-mm", "1", "--frame", "0"],
         [*SEGMENT, "--spacing-mm", "1", "--series", "1.2.3"],

@@ -31,6 +31,16 @@ def test_cut_through_a_balls_centre_is_a_circle_on_the_plane(tmp_path, normal):
     assert numpy.abs(numpy.linalg.norm(points, axis=1) - RADIUS).max() < 1.0
 
 
+def test_without_planes_the_masks_own_slices_cut(tmp_path):
+    array = ball_array()
+    mask = write_nifti(tmp_path / "mask.nii.gz", array)
+    succeed("trace", mask, "--output", tmp_path / "own.json")
+    succeed("trace", mask, "--image", mask, "--output", tmp_path / "image.json")
+    own = contours_of(tmp_path / "own.json")
+    assert len(own) == numpy.count_nonzero(array.any(axis=(0, 1)))
+    assert own == contours_of(tmp_path / "image.json")
+
+
 def test_a_cavity_becomes_a_hole(tmp_path):
     mask = write_nifti(tmp_path / "mask.nii.gz", ball_array() - ball_array(radius=5))
     planes = write_planes(tmp_path / "planes.json", [plane(CENTER, (0, 0, 1))])

@@ -42,16 +42,17 @@ export class PageKeeper {
 
   constructor(private readonly services: SavedPageServices) {}
 
-  get isWaiting(): boolean {
-    return this.timer !== 0;
-  }
-
   saveSoon(): void {
     window.clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.save(), SAVE_PAGE_MS);
   }
 
-  save(): void {
+  /** What was to be saved soon. */
+  saveNow(): void {
+    if (this.timer !== 0) this.save();
+  }
+
+  private save(): void {
     if (!this.services.isOpen()) return;
     window.clearTimeout(this.timer);
     this.timer = 0;

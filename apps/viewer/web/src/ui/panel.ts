@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import { heightOver } from "../geometry/plane";
-import { dot } from "../geometry/vec";
-import type { Vec3 } from "../geometry/vec";
-import type { Navigation } from "../model/navigation";
-import type { Contour, ViewName } from "../net/protocol";
-import { VIEW_NAMES } from "../net/protocol";
+import type { Contour } from "../net/protocol";
 import { BorderPanel } from "./borders";
 import { ContourActions, type ActionServices } from "./contour_actions";
-import type { InPlane } from "./contour_names";
 import type { RowServices } from "./contour_rows";
 import { button, el } from "./dom";
 import { ICONS } from "./icons";
@@ -105,16 +99,4 @@ export class Panel {
     this.services.project.select({ contour: contour.id, point: null });
     this.services.show(contour);
   }
-}
-
-/** The view whose plane is parallel to the contour's, if there is one. */
-export function viewAlong(contour: InPlane, navigation: Navigation): ViewName | null {
-  const normal = contour.plane.normal;
-  return VIEW_NAMES.find((view) => Math.abs(dot(navigation.cameras[view].axes.normal, normal)) > 1 - 1e-6) ?? null;
-}
-
-/** Where the crosshair must go so that planes along the contour's contain it: straight along its normal. */
-export function crosshairOnto(contour: InPlane, crosshair: Vec3): Vec3 {
-  const height = heightOver(contour.plane, crosshair);
-  return crosshair.map((value, i) => value - height * contour.plane.normal[i]!) as unknown as Vec3;
 }

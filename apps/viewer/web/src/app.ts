@@ -23,6 +23,7 @@ import { ValueAtPointer } from "./page/value_at_pointer";
 import { StartPage } from "./start/start_page";
 import { SurfaceView } from "./three/surface_view";
 import { Editor } from "./tools/editor";
+import { KeyPointer } from "./tools/key_pointer";
 import { Pointers } from "./tools/pointers";
 import { ViewInput } from "./tools/view_input";
 import { Dividers } from "./ui/dividers";
@@ -69,6 +70,7 @@ export class App {
   private readonly toolbar: Toolbar;
   private readonly keyboard: Keyboard;
   private readonly inputs: ViewInput[] = [];
+  private readonly keyPointer: KeyPointer;
 
   constructor(
     token: string,
@@ -90,9 +92,10 @@ export class App {
       knock: () => this.http.knock(),
     });
     const failed = (error: unknown) => this.saving.failed(error);
+    const screenOf = (view: ViewName) => this.views.get(view)?.screen() ?? null;
     this.editor = new Editor(this.navigation, this.project, {
       call: (name, args) => this.socket.call(name, args),
-      screenOf: (view) => this.views.get(view)?.screen() ?? null,
+      screenOf,
       outlinesOf: (view) => this.views.get(view)?.shownOutlines() ?? null,
       failed,
       tell: (text, remedy) => void this.notices.show("info", text, remedy),
@@ -137,10 +140,16 @@ export class App {
       surface: this.surface,
       panes: this.panes,
       keeper: this.keeper,
-      cancelPointers: () => [...this.inputs, this.surface].some((input) => input.cancel()),
+      cancelPointers: () => [...this.inputs, this.surface, this.keyPointer].some((input) => input.cancel()),
     });
     this.hints = new Hints({ ...shared, stage: this.panes.element, undo: this.actions.undo, seen: () => this.keeper.saveSoon() });
     this.value = new ValueAtPointer(shared);
+    this.keyPointer = new KeyPointer({
+      ...shared,
+      screenOf,
+      elementOf: (view) => this.views.get(view)?.element ?? null,
+      pointed: (at) => this.tellValue(at),
+    });
     this.furtherImage = new FurtherImageKeeper(shared);
     const { actions, panes } = this;
     const inSight = (act: () => void) => () => void (this.editor.isAnotherTime() || act()); // as keys that edit
@@ -160,6 +169,7 @@ export class App {
     this.keyboard = new Keyboard({
       ...shared,
       ...actions,
+      keyPointer: this.keyPointer,
       focused: () => panes.active,
       toggleSingle: (pane) => panes.toggleSingle(pane),
       help: actions.openHelp,
@@ -260,8 +270,13 @@ export class App {
   }
 
   private pointed(view: SliceView, event: PointerEvent): void {
+    this.keyPointer.hide();
     const at = view.worldAt(event);
-    if (at && this.saving.connection === "open") this.value.tell(at);
+    if (at) this.tellValue(at);
+  }
+
+  private tellValue(at: Vec3): void {
+    if (this.saving.connection === "open") this.value.tell(at);
   }
 
   private isLostByLeaving(): boolean {

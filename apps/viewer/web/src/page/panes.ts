@@ -39,6 +39,7 @@ export class Panes {
 
   toggleSingle(pane: PaneName): void {
     const { navigation } = this;
+    if (pane !== "surface") this.activate(pane); // keys would scroll one that is not shown
     if (navigation.layout === "single" && navigation.big === pane) navigation.setLayout("overview");
     else navigation.setLayout("single", pane);
   }

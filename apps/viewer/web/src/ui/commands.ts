@@ -6,6 +6,7 @@ import type { Cine } from "../page/cine";
 import type { SecondImage } from "../model/second_image";
 import type { ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";
+import type { KeyPointer } from "../tools/key_pointer";
 import { TOOLS } from "../tools/registry";
 import type { HelpRow, HelpSection } from "../tools/tool";
 
@@ -16,6 +17,7 @@ export interface CommandServices {
   second: SecondImage;
   editor: Editor;
   cine: Cine;
+  keyPointer: KeyPointer;
   /** The view that keys are for. */
   focused(): ViewName;
   toggleSingle(pane: PaneName): void;
@@ -29,7 +31,7 @@ export interface CommandServices {
   tell(text: string): void;
 }
 
-/** What a key does; keys as events name them, letters small, with "Control+" before them where that is held. */
+/** What a key does; keys as events name them, letters small, with "Control+" or, of arrows and Enter, "Alt+" before them where that is held. */
 export interface Command {
   readonly keys: readonly string[];
   readonly help?: readonly [HelpSection, ...HelpRow];
@@ -53,12 +55,22 @@ export const HELD_KEYS: readonly HeldKey[] = [
 ];
 
 const KEY_ZOOM = 1.2;
+const POINTER_PIXELS = 2;
+const POINTER_FAR = 8; // times as far with Shift
 const ONE_FRAME = "The image has one frame.";
 
 const scroll = (steps: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.scroll(focused(), steps) });
 const zoom = (factor: number, ...keys: string[]): Command => ({
   keys,
   run: ({ navigation, focused }) => navigation.zoomAt(focused(), navigation.crosshair, factor),
+});
+
+const point = (key: string, right: number, down: number): Command => ({
+  keys: [key],
+  run: ({ keyPointer, focused }, isShifted) => {
+    const pixels = POINTER_PIXELS * (isShifted ? POINTER_FAR : 1);
+    keyPointer.move(focused(), [right * pixels, down * pixels]);
+  },
 });
 
 /** All that keys do but those that are held. The `?` sheet shows the rows of `help` in this order. */
@@ -107,6 +119,19 @@ export const COMMANDS: readonly Command[] = [
     edits: true,
     help: ["Draw", "Click the first point, double click, Enter", "close the contour"],
     run: ({ editor: { drawing, proposals } }) => void (drawing.sketch ? drawing.finish() : proposals.accept()),
+  },
+  point("Alt+ArrowLeft", -1, 0),
+  point("Alt+ArrowRight", 1, 0),
+  point("Alt+ArrowUp", 0, -1),
+  point("Alt+ArrowDown", 0, 1),
+  {
+    keys: ["Alt+Enter"],
+    help: [
+      "Draw",
+      "Alt + arrows; Alt + Enter",
+      "without a mouse: move a pointer over the slice (Shift: farther); click there (Shift: hold, until the next time)",
+    ],
+    run: ({ keyPointer, focused }, isShifted) => (isShifted ? keyPointer.hold(focused()) : keyPointer.click(focused())),
   },
   {
     keys: ["u"],

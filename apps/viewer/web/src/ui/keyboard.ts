@@ -21,7 +21,8 @@ export class Keyboard {
     if (document.querySelector("dialog[open]") || isField(event.target)) return;
     if (event.key === "Escape" && document.querySelector(":popover-open")) return; // which it closes
     const presses =
-      (event.target instanceof HTMLButtonElement && (event.key === "Enter" || event.key === " ")) || (isCheckbox(event.target) && event.key === " ");
+      (event.target instanceof HTMLButtonElement && !event.altKey && (event.key === "Enter" || event.key === " ")) ||
+      (isCheckbox(event.target) && event.key === " ");
     const { drawing, proposals } = this.services.editor;
     if (presses && !drawing.sketch && !(event.key === "Enter" && proposals.shown)) return;
     if (this.hold(event) || this.obey(event)) event.preventDefault();
@@ -51,7 +52,11 @@ export class Keyboard {
 }
 
 const letterOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toLowerCase() : key);
-const keyOf = (event: KeyboardEvent): string => (event.ctrlKey || event.metaKey ? "Control+" : "") + letterOf(event);
+const ALT_KEYS = /^(Arrow.*|Enter)$/; // other keys type signs by it
+const keyOf = (event: KeyboardEvent): string => {
+  if (event.altKey && ALT_KEYS.test(event.key)) return `Alt+${event.key}`;
+  return (event.ctrlKey || event.metaKey ? "Control+" : "") + letterOf(event);
+};
 
 const isCheckbox = (target: EventTarget | null): boolean => target instanceof HTMLInputElement && target.type === "checkbox";
 

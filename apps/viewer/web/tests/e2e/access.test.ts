@@ -150,6 +150,37 @@ describe("the keyboard alone", () => {
     reached.delete("");
     assert.ok(reached.size >= all, `${reached.size} of ${all} controls`);
   });
+
+  test("draws a contour, bends it, and takes both back", async () => {
+    await open();
+    const { page } = viewer;
+    const before = await viewer.contours();
+    const keys = async (...pressed: string[]): Promise<void> => {
+      for (const key of pressed) await page.keyboard.press(key);
+    };
+    const far = (direction: string, times: number) => keys(...Array<string>(times).fill(`Alt+Shift+Arrow${direction}`));
+    await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+    await keys("2", "s"); // the second view alone
+    await far("Left", 5);
+    assert.ok(await page.locator("[data-view=sagittal] [data-test=key-pointer]").isVisible());
+    for (const direction of ["Up", "Right", "Down", "Left"]) {
+      await far(direction, direction === "Up" ? 5 : 10);
+      await keys("Alt+Enter");
+    }
+    await keys("Enter");
+    await viewer.waitForContours(before + 1);
+    await viewer.waitForStep("undo", "Draw a contour");
+    await viewer.saved();
+    await keys("v", "Alt+Shift+Enter"); // on the last point
+    await far("Left", 2);
+    await keys("Alt+ArrowLeft", "Alt+Shift+Enter");
+    await viewer.waitForStep("undo", "Move a point");
+    await keys("Control+z");
+    await viewer.waitForStep("undo", "Draw a contour");
+    await keys("Control+z", "Escape", "0");
+    await viewer.waitForContours(before);
+    await page.locator("[data-test=key-pointer]").waitFor({ state: "detached" });
+  });
 });
 
 describe("the system's wishes", () => {

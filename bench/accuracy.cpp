@@ -100,24 +100,41 @@ void tell_tilts(Row& row, const ContourSet& contours, const Mask& truth) {
     row.normal_error_degrees = row.normals->all;
 }
 
-/// A folder of objects, each a folder with `truth.nii.gz` and contour files.
-std::vector<Row> measured_rows(const fs::path& root, bool with_paper, bool with_tilts) {
+/// Calls visit(object, drawing, contours, truth) for all drawings of a folder of objects, each a folder with `truth.nii.gz`
+/// and contour files.
+template <class Visit>
+void for_each_drawing(const fs::path& root, const Visit& visit) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::ranges::sort(files);
-    std::vector<Row> rows;
     for (const fs::path& file : files) {
         const std::string object = file.parent_path().filename().string(), drawing = file.stem().string();
         fmt::print(stderr, "{} {}\n", object, drawing);
-        const Mask truth = read_mask(file.parent_path() / "truth.nii.gz");
-        const ContourSet contours = read_contours(file).contours;
-        Row row = segment_both_ways(contours, truth, with_paper);
-        if (with_tilts) tell_tilts(row, contours, truth);
-        row.object = object;
-        row.drawing = drawing;
-        rows.push_back(row);
+        visit(object, drawing, read_contours(file).contours, read_mask(file.parent_path() / "truth.nii.gz"));
     }
+}
+
+std::vector<Row> measured_rows(const fs::path& root, bool with_paper, bool with_tilts) {
+    std::vector<Row> rows;
+    for_each_drawing(
+        root, [&](const std::string& object, const std::string& drawing, const ContourSet& contours, const Mask& truth) {
+            Row row = segment_both_ways(contours, truth, with_paper);
+            if (with_tilts) tell_tilts(row, contours, truth);
+            row.object = object;
+            row.drawing = drawing;
+            rows.push_back(row);
+        });
+    return rows;
+}
+
+nlohmann::ordered_json stored_otherwise(const std::vector<std::string>& roots) {
+    auto rows = nlohmann::ordered_json::array();
+    for (const std::string& root : roots)
+        for_each_drawing(
+            root, [&](const std::string& object, const std::string& drawing, const ContourSet& contours, const Mask& truth) {
+                rows.push_back({{"object", object}, {"drawing", drawing}, {"ways", agreement_by_storage(contours, truth)}});
+            });
     return rows;
 }
 
@@ -185,6 +202,10 @@ int run(const std::vector<std::string>& arguments) {
         fmt::print("{}\n", agreement_by_phase().dump(1));
         return 0;
     }
+    if (!arguments.empty() && arguments.front() == "--stored") {
+        fmt::print("{}\n", stored_otherwise({arguments.begin() + 1, arguments.end()}).dump(1));
+        return 0;
+    }
     const auto is_given = [&](const char* option) { return std::ranges::find(arguments, option) != arguments.end(); };
     const bool markdown = is_given("--markdown"), with_paper = !is_given("--without-paper"),
                with_tilts = is_given("--tilts");
@@ -214,7 +235,7 @@ int run(const std::vector<std::string>& arguments) {
 /// then the phantom. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are
 /// also fitted with the tilts of the true masks, as the phantom's are.
 /// accuracy --counts: the phantom's organs by the number of planes drawn. accuracy --phases: by where a stack of planes
-/// begins.
+/// begins. accuracy --stored FOLDER...: how much the result depends on how a drawing is stored.
 int main(int count, char** arguments) {
     try {
         return kontur::run({arguments + 1, arguments + count});

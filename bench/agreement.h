@@ -47,4 +47,10 @@ nlohmann::ordered_json agreement_by_count();
 /// it.
 nlohmann::ordered_json agreement_by_phase();
 
+/// How the result changes with what a drawing does not say: rings that are stored backwards or begin elsewhere, contours in
+/// another order, all of it mirrored, with its axes exchanged, and turned. For each way the Dice with the mask as the
+/// drawing came, what the Dice with the truth changes by, and how far the surfaces are from each other (root mean square,
+/// most), in mm, as `accuracy --stored` prints it.
+nlohmann::ordered_json agreement_by_storage(const ContourSet& contours, const Mask& truth);
+
 }  // namespace kontur

@@ -86,7 +86,7 @@ Keywords<FitOptions> fit_keywords() {
             "Length of the normal constraints.")
         .field(
             "both_sides", [](FitOptions& o) -> bool& { return o.place.both_sides; },
-            "Normal constraints inside as well as outside, at every second point.")
+            "Normal constraints inside as well as outside, at about every second point.")
         .field(
             "normal_spacing_mm", [](FitOptions& o) -> double& { return o.place.normal_spacing_mm; },
             "Along a line, from one point with normal constraints to the next, at least.")

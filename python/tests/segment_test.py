@@ -32,7 +32,7 @@ def test_the_stages_make_what_segment_makes(case, kidney):
     prepared = kontur.reconcile(kontur.prepare(case.contours), kontur.find_crossings(case.contours),
                                 offset_mm=4.5e-3 * diameter)
     fitted = kontur.fit(prepared, normal_offset_mm=kidney.report.normal_offset_mm, both_sides=True,
-                        normal_spacing_mm=kidney.report.normal_offset_mm, slope_noise=0.21, merge_distance_mm=6e-4 * diameter, smoothing=kidney.report.smoothing,
+                        normal_spacing_mm=0.75 * kidney.report.normal_offset_mm, slope_noise=0.21, merge_distance_mm=6e-4 * diameter, smoothing=kidney.report.smoothing,
                         tolerance_mm=1.5e-5 * diameter)
     assert (fitted.solves, fitted.bounded) == (kidney.report.solves, kidney.report.bounded)
     starts = numpy.concatenate([prepared.positions] + [contour.points for contour in case.contours.contours])

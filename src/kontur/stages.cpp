@@ -18,6 +18,7 @@ namespace {
 constexpr double kOffsetFraction = 1.35e-2;        // normal constraints on both sides, soft
 constexpr double kInPlaneOffsetFraction = 4.5e-3;  // outside alone, exact
 constexpr double kMarginFraction = 4.5e-3;         // of clicks; what contours may disagree by
+constexpr double kSpacingOfOffset = 0.75;          // from one to the next along a line at least; a third more on average
 constexpr double kSlopeNoise = 0.21;               // what the tilt of an organ's surface is known to
 constexpr double kMergeFraction = 6e-4;
 constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
@@ -33,7 +34,7 @@ FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     fit.place.normal_offset_mm =
         options.normal_offset_mm.value_or((is_surface ? kOffsetFraction : kInPlaneOffsetFraction) * diameter_mm);
     fit.place.both_sides = is_surface;
-    fit.place.normal_spacing_mm = is_surface ? fit.place.normal_offset_mm : 0;
+    fit.place.normal_spacing_mm = is_surface ? kSpacingOfOffset * fit.place.normal_offset_mm : 0;
     fit.place.slope_noise = is_surface ? kSlopeNoise : 0;
     fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
     if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))

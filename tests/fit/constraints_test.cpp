@@ -45,9 +45,10 @@ TEST(PlaceConstraints, OneNormalStandsForThoseThatAreNearerThanTheSpacing) {
             at.push_back(placed.centers[i].y);
             noise.push_back(placed.noise_mm[i]);
         }
-    // Of every second point the first of a line, and what is 5 mm and more behind the last: each stands for 3.
-    EXPECT_EQ(at, (std::vector<double>{0, 6, 0, 6}));
-    for (const double n : noise) EXPECT_DOUBLE_EQ(n, 0.2 * 4 / std::sqrt(3));
+    // Each stands for half of the points on the way to the next one, of which every second one would have two.
+    EXPECT_EQ(at, (std::vector<double>{0, 5, 10, 0, 5, 10}));
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        EXPECT_DOUBLE_EQ(noise[i], 0.2 * 4 / std::sqrt(std::vector<double>{1.5, 2.5, 2}[i % 3]));
     EXPECT_EQ(placed.centers.size(), points.size() + 2 * at.size());
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <string>
 
@@ -16,15 +17,21 @@ namespace {
 /// Mean error in degrees of the surface's tilt against the contours' planes, as the fit's slopes say it.
 double mean_tilt_error(const PhantomCase& c, const PreparedContours& prepared, const FittedFunction& fitted) {
     double sum = 0;
-    std::size_t point = 0;
+    std::size_t count = 0;
     for (std::size_t k = 0; k < c.normals.size(); ++k)
-        for (const Vec3& normal : c.normals[k]) {
-            const double truth = std::acos(std::min(1.0, dot(normal, prepared.points[point].inplane_normal)));
-            sum += std::abs(std::acos(std::min(1.0, fitted.slopes[point])) - truth);
-            ++point;
+        for (std::size_t i = 0; i < c.normals[k].size(); ++i) {
+            const auto found =
+                std::ranges::find(prepared.points, c.contours.contours[k].points[i], &BoundaryPoint::position);
+            if (found == prepared.points.end()) {
+                ADD_FAILURE() << "point " << i << " of contour " << k << " is not there";
+                continue;
+            }
+            const double truth = std::acos(std::min(1.0, dot(c.normals[k][i], found->inplane_normal)));
+            sum += std::abs(std::acos(std::min(1.0, fitted.slopes[found - prepared.points.begin()])) - truth);
+            ++count;
         }
-    EXPECT_EQ(point, fitted.slopes.size());
-    return sum / static_cast<double>(point) * 180 / M_PI;
+    EXPECT_EQ(count, fitted.slopes.size());
+    return sum / static_cast<double>(count) * 180 / M_PI;
 }
 
 FitOptions options_for(const PhantomCase& c) {

@@ -19,7 +19,9 @@ struct BoundaryPoint {
     double trust = 1;        ///< > 0: how closely the surface is to follow, against smoothness
     double gap_mm = std::numeric_limits<double>::infinity();    ///< along the normal to the next drawn line of the plane
     double depth_mm = std::numeric_limits<double>::infinity();  ///< the same against the normal
-    double extent = 1;  ///< in (0, 1], of the part of the drawing that it belongs to, over that of the whole (Extents)
+    double extent = 1;      ///< in (0, 1], of the part of the drawing that it belongs to, over that of the whole (Extents)
+    std::int32_t line = 0;  ///< tells the lines of one contour apart: its own is 0, others are those of its lid
+    bool on_ring = false;   ///< its line is closed: the first point follows the last one
 };
 
 }  // namespace kontur

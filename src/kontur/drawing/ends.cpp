@@ -15,6 +15,8 @@
 namespace kontur {
 namespace {
 
+enum : std::int32_t { kBelowRim = 1, kInsideRim, kLid };  // lines of a contour that ends the object
+
 /// The part of a section that one of its contours encloses, without the holes in it and the islands in those.
 Section region_of(const ContourSet& set, const Section& section, std::size_t contour) {
     const auto own = std::find(section.contours.begin(), section.contours.end(), contour) - section.contours.begin();
@@ -80,13 +82,19 @@ void append_rim(const Contour& contour, std::int32_t index, const Section& regio
     // One ring after the other, each a line of its own: points that alternate between them cannot be thinned along their
     // way.
     for (std::size_t i = 0; i < rim.points.size(); ++i)
-        ends.lids.push_back({rim.points[i] + distance * (flare(below, contour, rim.points[i]) * orientation.normals[i] - up),
-                             orientation.normals[i], rim.plane.normal, index});
+        ends.lids.push_back(
+            {.position = rim.points[i] + distance * (flare(below, contour, rim.points[i]) * orientation.normals[i] - up),
+             .inplane_normal = orientation.normals[i],
+             .plane_normal = rim.plane.normal,
+             .contour = index,
+             .line = kBelowRim,
+             .on_ring = true});
     for (std::size_t i = 0; i < rim.points.size(); ++i) {
         const Vec3 inside = rim.points[i] - distance * orientation.normals[i];
         const Point2 on_lid = region.plane.to_uv(inside);
         if (region.contains(on_lid) && region.clearance(on_lid) > 0.9 * distance)
-            ends.lids.push_back({.position = inside + beyond, .inplane_normal = up, .contour = index});
+            ends.lids.push_back(
+                {.position = inside + beyond, .inplane_normal = up, .contour = index, .line = kInsideRim, .on_ring = true});
     }
 }
 
@@ -98,7 +106,8 @@ void append_flat(const ContourSet& set, const Section& region, const Continuatio
         append_rim(set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond, ends);
     const auto contour = static_cast<std::int32_t>(region.contours.front());
     for (const Probe& probe : inside)
-        ends.lids.push_back({.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour});
+        ends.lids.push_back(
+            {.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour, .line = kLid});
 }
 
 void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {
@@ -107,7 +116,7 @@ void append_dome(const Section& region, const std::vector<Probe>& inside, double
     for (const Probe& probe : inside) {
         const double rim = 1 - probe.depth / widest;
         const Vec3 base = region.plane.from_uv(probe.at), up = sign * height * region.plane.normal;
-        ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour});
+        ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour, .line = kLid});
         ends.guards.push_back({.position = base + 1.5 * up, .most_mm = -height / 4, .noise_mm = 0.05 * height});
     }
 }

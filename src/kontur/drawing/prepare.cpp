@@ -20,6 +20,7 @@
 #include "kontur/drawing/gaps.h"
 #include "kontur/drawing/orient.h"
 #include "kontur/drawing/reduce.h"
+#include "kontur/drawing/ring_starts.h"
 
 namespace kontur {
 namespace {
@@ -75,8 +76,12 @@ void append_closed(const Contour& contour, std::int32_t index, const DrawnCorner
     // At a corner the surface has no one direction: its edges' points beside it have theirs.
     const std::vector<bool> is_corner = corners.among(contour);
     for (std::size_t i = 0; i < contour.points.size(); ++i)
-        prepared.points.push_back({contour.points[i], is_corner[i] ? Vec3{} : orientation.normals[i], contour.plane.normal,
-                                   index, contour.weight});
+        prepared.points.push_back({.position = contour.points[i],
+                                   .inplane_normal = is_corner[i] ? Vec3{} : orientation.normals[i],
+                                   .plane_normal = contour.plane.normal,
+                                   .contour = index,
+                                   .trust = contour.weight,
+                                   .on_ring = true});
     const auto append_to = [](std::vector<Vec3>& to, const std::vector<Vec3>& from) {
         to.insert(to.end(), from.begin(), from.end());
     };
@@ -183,7 +188,8 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
     check_prepare_options(options);
     PreparedContours prepared;
     const double diameter = drawing.diameter_mm();
-    const ContourSet& set = drawing.tidied;
+    ContourSet set = drawing.tidied;
+    if (options.least_segments > 0) begin_alike(set, drawing.ball);  // the paper's rules go by the order of drawing
     const DrawnPlanes planes(set, drawing.ball);
     prepared.ball = drawing.ball;
     const Extents extents(set, drawing.ball);

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <unordered_map>
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/fit/spread.h"
 #include "kontur/fit/stretches.h"
 
 namespace kontur {
@@ -106,27 +109,66 @@ void check_points(std::span<const BoundaryPoint> points, std::span<const PointCo
 /// A point with normal constraints.
 struct Station {
     std::size_t point;
-    std::size_t stands_for = 1;  ///< itself and those after it that would have normal constraints if they were not so near
+    double stands_for = 1;  ///< points that would have normal constraints if they were not so near to each other
 };
+
+/// A station stands for the half of the points on the way to the next one, of which every second one would have two.
+void append_spread(std::span<const BoundaryPoint> points, const std::vector<std::size_t>& candidates,
+                   const PlaceOptions& options, std::vector<Station>& stations) {
+    LinePoints line{{}, points[candidates.front()].on_ring};
+    std::vector<double> apart_mm;
+    for (const std::size_t i : candidates) {
+        line.positions.push_back(points[i].position);
+        apart_mm.push_back(points[i].extent * options.normal_spacing_mm);
+    }
+    const std::vector<bool> taken = spread_along(line, apart_mm, 1);
+    const std::size_t first = stations.size();
+    double passed = 0, before_first = 0;  // points since the last station
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (!taken[i]) {
+            ++passed;
+            continue;
+        }
+        if (stations.size() == first) before_first = passed;
+        else stations.back().stands_for += passed / 4;
+        stations.push_back({candidates[i], 0.5 + (stations.size() == first ? 0 : passed / 4)});
+        passed = 0;
+    }
+    const double around = passed + before_first;
+    stations.back().stands_for += line.is_ring ? around / 4 : passed / 2;
+    stations[first].stands_for += line.is_ring ? around / 4 : before_first / 2;
+}
 
 std::vector<Station> choose_stations(std::span<const BoundaryPoint> points, const std::vector<bool>& kept,
                                      const PlaceOptions& options) {
     std::vector<Station> stations;
-    std::size_t with_normal = 0;
-    double since_mm = std::numeric_limits<double>::infinity();  // from the line's last station
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (follows(points, i)) since_mm += distance(points[i].position, points[i - 1].position);
-        else since_mm = std::numeric_limits<double>::infinity();
-        if (!kept[i] || points[i].inplane_normal == Vec3{}) continue;
-        if (options.both_sides && with_normal++ % 2 == 1) continue;
-        if (since_mm < points[i].extent * options.normal_spacing_mm) {
-            ++stations.back().stands_for;
-            continue;
-        }
-        stations.push_back({i});
-        since_mm = 0;
+    for (const Stretch& stretch : stretches(points)) {
+        std::vector<std::size_t> candidates;
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+            if (kept[i] && points[i].inplane_normal != Vec3{}) candidates.push_back(i);
+        if (options.both_sides && !candidates.empty()) append_spread(points, candidates, options, stations);
+        else
+            for (const std::size_t i : candidates) stations.push_back({i});
     }
     return stations;
+}
+
+/// The points in the order in which they are kept: where lines come close to each other, that of the larger part of a line.
+/// The ends of open lines and single points stay. The paper's constraints, on one side, go by the order of drawing.
+std::vector<std::size_t> order_of_keeping(std::span<const BoundaryPoint> points, const PlaceOptions& options) {
+    std::vector<double> share_mm(points.size(), std::numeric_limits<double>::infinity());
+    for (const Stretch& stretch : stretches(points))
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+            const bool is_first = i == stretch.begin, is_last = i + 1 == stretch.end;
+            if (!stretch.is_ring && (is_first || is_last)) continue;
+            const Vec3 &before = points[is_first ? stretch.end - 1 : i - 1].position, &at = points[i].position,
+                       &after = points[is_last ? stretch.begin : i + 1].position;
+            share_mm[i] = distance(before, at) + distance(at, after);
+        }
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (options.both_sides) std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return share_mm[i]; });
+    return order;
 }
 
 }  // namespace
@@ -166,7 +208,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
     };
 
     std::vector<bool> kept(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (const std::size_t i : order_of_keeping(points, options))
         kept[i] = place({.position = points[i].position, .value = 0, .trust = points[i].trust, .extent = points[i].extent});
     const auto place_beside = [&](const Station& station, double side, double room_mm) {
         const BoundaryPoint& point = points[station.point];
@@ -174,7 +216,7 @@ PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::
         place({.position = point.position + side * offset * point.inplane_normal,
                .value = -side * offset * slopes[station.point],
                .trust = point.trust,
-               .noise_mm = offset * options.slope_noise / std::sqrt(static_cast<double>(station.stands_for)),
+               .noise_mm = offset * options.slope_noise / std::sqrt(station.stands_for),
                .extent = point.extent});
     };
     for (const Station& station : choose_stations(points, kept, options)) {

@@ -20,7 +20,7 @@ struct PointConstraint {
 
 struct PlaceOptions {
     double normal_offset_mm = 1.0;  ///< length d > 0 of the normal constraints
-    bool both_sides = false;        ///< normal constraints inside as well as outside, at every second point
+    bool both_sides = false;        ///< normal constraints inside as well as outside, at every second point or so
     double normal_spacing_mm = 0;   ///< along a line, from one point with normal constraints to the next, at least
     double slope_noise = 0;         ///< >= 0, standard deviation of the slopes: of a normal constraint this times d, in mm
     double merge_distance_mm = 0;   ///< a constraint closer than this to an earlier one is left out (0: only exact copies)
@@ -44,13 +44,15 @@ void check_slopes(std::span<const double> slopes, std::size_t points);
 /// paper's choice.
 ///
 /// A normal constraint on the outside alone pulls the surface inwards wherever f does not reach it exactly. With
-/// `both_sides` every second point has two, f = +d s at the distance d inside (no more than half of the depth) as well:
-/// what they miss cancels at the line, and the constraints are as many. Of points with normal constraints that are nearer to
-/// each other than the spacing one stands for all, with the less noise. Offset, spacing and merge distance are as much
-/// smaller as a point's extent.
+/// `both_sides` about every second point has two, f = +d s at the distance d inside (no more than half of the depth) as
+/// well: what they miss cancels at the line, and the constraints are as many. Which points these are the line says, not
+/// where it begins (spread_along): none are neighbours, or nearer to each other than the spacing, and each stands for half
+/// of the points on the way to the next one, with the less noise the more these are. Offset, spacing and merge distance are
+/// as much smaller as a point's extent.
 ///
 /// Near-duplicates make the system singular or contradictory (Turk & O'Brien 2002), so a constraint within the merge
-/// distance of an earlier one is dropped; boundary constraints come first and win. Throws Error(invalid_input) as the two
+/// distance of another one is dropped: boundary constraints come first and win, among them those that stand for more of
+/// their line. Throws Error(invalid_input) as the two
 /// checks do, for coordinates and values that are not finite, a gap that is not above 0, and a trust that is not finite and
 /// above 0.
 PlacedConstraints place_constraints(std::span<const BoundaryPoint> points, std::span<const double> slopes,

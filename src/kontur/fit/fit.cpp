@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "kontur/base/checks.h"
@@ -41,6 +43,18 @@ std::vector<double> read_slopes(const ImplicitFunction& function, const std::vec
     std::vector<double> slopes(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) slopes[i] = slope(points[i], gradients[i], options.least_slope);
     return slopes;
+}
+
+/// Whatever order they were drawn in, so that sums and choices among neighbours that are equally near are the same.
+PlacedConstraints in_order_of_place(PlacedConstraints placed) {
+    ConstraintSet& set = placed.constraints;
+    std::vector<std::size_t> order(set.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::tuple(set.centers[i].x, set.centers[i].y, set.centers[i].z); };
+    std::ranges::sort(order, {}, key);
+    set = {pick(set.centers, order), pick(set.values, order), pick(set.trust, order), pick(set.noise_mm, order),
+           pick(set.extents, order)};
+    return placed;
 }
 
 double mean_change_degrees(const std::vector<double>& before, const std::vector<double>& after) {
@@ -136,8 +150,8 @@ private:
         bounds_.append_to(single_points);
         result_.bounded = single_points.size();
         result_.held = single_points;
-        const PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
-        solve_placed(placed, solving);
+        PlacedConstraints placed = place_constraints(points, slopes, single_points, placing);
+        solve_placed(placing.both_sides ? in_order_of_place(std::move(placed)) : placed, solving);
     }
 
     /// With the screened kernel in the ball of what was drawn unless the options have one.

@@ -3,15 +3,32 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "kontur/drawing/boundary_point.h"
 
 namespace kontur {
 
-/// Whether a point goes on from the one before it along the same line. The contours' numbers need not be in order, a contour
-/// may have several stretches (its lid is one), and single points belong to none.
+/// Whether a point goes on from the one before it along the same line. The contours' numbers need not be in order, and
+/// single points belong to none.
 inline bool follows(std::span<const BoundaryPoint> points, std::size_t i) {
-    return i > 0 && points[i].contour != kNoContour && points[i].contour == points[i - 1].contour;
+    return i > 0 && points[i].contour != kNoContour && points[i].contour == points[i - 1].contour &&
+           points[i].line == points[i - 1].line;
+}
+
+/// Points [begin, end) that follow each other; a single point is one of its own.
+struct Stretch {
+    std::size_t begin, end;
+    bool is_ring;
+};
+
+inline std::vector<Stretch> stretches(std::span<const BoundaryPoint> points) {
+    std::vector<Stretch> found;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!follows(points, i)) found.push_back({i, i, points[i].on_ring});
+        found.back().end = i + 1;
+    }
+    return found;
 }
 
 }  // namespace kontur

@@ -4,22 +4,19 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kontur/fit/spread.h"
 #include "kontur/fit/stretches.h"
 
 namespace kontur {
 namespace {
 
-/// For each point the length of its stretch: consecutive points of one contour; 0 for single points.
-std::vector<double> stretch_lengths(const std::vector<BoundaryPoint>& points) {
-    std::vector<double> lengths(points.size(), 0.0);
-    for (std::size_t first = 0, next = 1; first < points.size(); first = next++) {
-        double length = 0;
-        for (; next < points.size() && follows(points, next); ++next)
-            length += distance(points[next].position, points[next - 1].position);
-        std::fill(lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.begin() + static_cast<std::ptrdiff_t>(next),
-                  length);
-    }
-    return lengths;
+// Points that are spread along a line are so much farther apart on average than at least.
+constexpr double kApart = 1.3;
+
+LinePoints line_of(const std::vector<BoundaryPoint>& points, const Stretch& stretch) {
+    LinePoints line{{}, stretch.is_ring};
+    for (std::size_t i = stretch.begin; i < stretch.end; ++i) line.positions.push_back(points[i].position);
+    return line;
 }
 
 /// Of how many single points one stays: all do unless they alone are more than `most`.
@@ -39,25 +36,25 @@ std::vector<std::size_t> thin(const std::vector<BoundaryPoint>& points, std::siz
         std::iota(kept.begin(), kept.end(), std::size_t{0});
         return kept;
     }
-    const std::vector<double> lengths = stretch_lengths(points);
-    double total = 0, stretches = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!follows(points, i)) {
-            total += lengths[i];
-            ++stretches;
-        }
+    std::vector<LinePoints> lines;
+    std::vector<double> lengths;
+    const std::vector<Stretch> all = stretches(points);
+    for (const Stretch& stretch : all) {
+        lines.push_back(line_of(points, stretch));
+        lengths.push_back(line_length(lines.back().positions, stretch.is_ring));
+    }
+    const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
     const double per_short =
-        std::clamp(4 * static_cast<double>(most) / std::max(stretches, 1.0), kLeastPerShort, kMostPerShort);
+        std::clamp(4 * static_cast<double>(most) / static_cast<double>(all.size()), kLeastPerShort, kMostPerShort);
     const double step = total / static_cast<double>(most);
     const std::size_t every = single_point_step(points, most);
 
-    double since = 0;
-    for (std::size_t i = 0, single = 0; i < points.size(); ++i) {
-        if (points[i].contour == kNoContour && single++ % every != 0) continue;
-        if (follows(points, i)) since += distance(points[i].position, points[i - 1].position);
-        if (follows(points, i) && since < std::min(step, lengths[i] / per_short)) continue;
-        kept.push_back(i);
-        since = 0;
+    for (std::size_t s = 0, single = 0; s < all.size(); ++s) {
+        if (points[all[s].begin].contour == kNoContour && single++ % every != 0) continue;
+        const std::vector<double> apart(lines[s].positions.size(), std::min(step, lengths[s] / per_short) / kApart);
+        const std::vector<bool> taken = spread_along(lines[s], apart, 0);
+        for (std::size_t i = 0; i < taken.size(); ++i)
+            if (taken[i]) kept.push_back(all[s].begin + i);
     }
     return kept;
 }

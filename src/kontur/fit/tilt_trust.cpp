@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "kontur/base/point_tree.h"
 #include "kontur/fit/stretches.h"
@@ -65,6 +66,42 @@ void for_each_line(const std::vector<BoundaryPoint>& points, const Visit& visit)
     }
 }
 
+/// A point along the line whose share is known.
+struct KnownShare {
+    double share, away_mm;
+};
+
+/// The next one on one side of a point; none up to the end of an open line.
+std::optional<KnownShare> next_known(const std::vector<BoundaryPoint>& points, const std::vector<double>& shares,
+                                     const Stretch& stretch, std::size_t from, bool ahead) {
+    double away_mm = 0;
+    for (std::size_t at = from; stretch.is_ring || at != (ahead ? stretch.end - 1 : stretch.begin);) {
+        const std::size_t next =
+            ahead ? (at + 1 < stretch.end ? at + 1 : stretch.begin) : (at > stretch.begin ? at - 1 : stretch.end - 1);
+        away_mm += distance(points[at].position, points[next].position);
+        if (shares[next] >= 0) return KnownShare{shares[next], away_mm};
+        if (next == from) break;
+        at = next;
+    }
+    return std::nullopt;
+}
+
+/// Points that were not looked at, whose share is below 0, get one between those of their neighbours along the line.
+std::vector<double> filled_between(const std::vector<BoundaryPoint>& points, const std::vector<double>& shares) {
+    std::vector<double> filled = shares;
+    for (const Stretch& stretch : stretches(points))
+        for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+            if (shares[i] >= 0) continue;
+            const auto before = next_known(points, shares, stretch, i, false),
+                       after = next_known(points, shares, stretch, i, true);
+            if (before && after)
+                filled[i] = std::lerp(before->share, after->share,
+                                      before->away_mm / std::max(before->away_mm + after->away_mm, 1e-300));
+            else filled[i] = before ? before->share : after ? after->share : 1;
+        }
+    return filled;
+}
+
 double square(double x) { return x * x; }
 
 double tilt(double slope) { return std::acos(std::min(slope, 1.0)); }
@@ -112,18 +149,19 @@ std::vector<double> believed_slopes(const std::vector<BoundaryPoint>& points, st
         };
         return turns.square_at(std::sqrt(tree.least(point.position, counted2)));
     };
-    std::vector<double> believed(points.size());
+    std::vector<double> shares(points.size(), -1);  // of what is shown; below 0: not looked at
     for (std::size_t first = 0, last = 0; first < known.size(); first = last) {
         double sum = 0;
         for (; last < known.size() && points[known[last]].contour == points[known[first]].contour; ++last)
             sum += square(tilt(slopes[known[last]]));
         const double variance = sum / static_cast<double>(last - first);
         for (std::size_t k = first; k < last; ++k) {
-            const double error = error_at(points[known[k]]), share = error < variance ? 1 - error / variance : 0.0;
-            const std::size_t end = k + 1 < known.size() ? known[k + 1] : points.size();
-            for (std::size_t i = known[k]; i < end; ++i) believed[i] = std::cos(share * tilt(slopes[i]));
+            const double error = error_at(points[known[k]]);
+            shares[known[k]] = error < variance ? 1 - error / variance : 0.0;
         }
     }
+    std::vector<double> believed = filled_between(points, shares);
+    for (std::size_t i = 0; i < points.size(); ++i) believed[i] = std::cos(believed[i] * tilt(slopes[i]));
     return believed;
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/drawing/ring_starts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "kontur/shape/least_rotation.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the ball's radius
+
+using Key = std::array<double, 5>;
+
+std::vector<Key> keys_of(const Contour& contour, const Ball3& ball) {
+    Box3 box;
+    std::vector<double> x, y, z;
+    for (const Vec3& p : contour.points) {
+        x.push_back(p.x);
+        y.push_back(p.y);
+        z.push_back(p.z);
+    }
+    const auto mean = [](std::vector<double>& of) {
+        std::ranges::sort(of);  // the same sum in whatever order they came
+        double sum = 0;
+        for (const double one : of) sum += one;
+        return sum / static_cast<double>(of.size());
+    };
+    const Vec3 middle{mean(x), mean(y), mean(z)};
+    const auto rounded = [&](double mm) { return std::round(mm / (kRounding * ball.radius)); };
+    std::vector<Key> keys;
+    for (const Vec3& p : contour.points)
+        keys.push_back({-rounded(distance(p, ball.center)), -rounded(distance(p, middle)), p.x, p.y, p.z});
+    return keys;
+}
+
+}  // namespace
+
+void begin_alike(ContourSet& set, const Ball3& ball) {
+    if (!(ball.radius > 0)) return;
+    for (Contour& contour : set.contours) {
+        if (!contour.closed) continue;
+        std::vector<Key> keys = keys_of(contour, ball), backwards(keys.rbegin(), keys.rend());
+        const auto begin_first = [](auto& ring, std::size_t start) {
+            std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(start));
+        };
+        const std::size_t start = least_rotation(keys), start_backwards = least_rotation(backwards);
+        begin_first(keys, start);
+        begin_first(backwards, start_backwards);
+        const bool turns = backwards < keys;
+        if (turns) std::ranges::reverse(contour.points);
+        begin_first(contour.points, turns ? start_backwards : start);
+    }
+}
+
+}  // namespace kontur

@@ -19,6 +19,7 @@ constexpr double kOffsetFraction = 1.35e-2;        // normal constraints on both
 constexpr double kInPlaneOffsetFraction = 4.5e-3;  // outside alone, exact
 constexpr double kMarginFraction = 4.5e-3;         // of clicks; what contours may disagree by
 constexpr double kSpacingOfOffset = 0.75;          // from one to the next along a line at least; a third more on average
+constexpr int kMostSolves = 2;                     // of all points: a third moves no voxel in a thousand
 constexpr double kSlopeNoise = 0.21;               // what the tilt of an organ's surface is known to
 constexpr double kMergeFraction = 6e-4;
 constexpr double kToleranceFraction = 1.5e-5;  // 0.004 mm on a liver
@@ -36,6 +37,7 @@ FitOptions fit_options(const SegmentOptions& options, double diameter_mm) {
     fit.place.both_sides = is_surface;
     fit.place.normal_spacing_mm = is_surface ? kSpacingOfOffset * fit.place.normal_offset_mm : 0;
     fit.place.slope_noise = is_surface ? kSlopeNoise : 0;
+    fit.most_solves = kMostSolves;
     fit.place.merge_distance_mm = kMergeFraction * diameter_mm;
     if (!(fit.place.normal_offset_mm > 0 && std::isfinite(fit.place.normal_offset_mm)))
         throw Error(ErrorKind::invalid_input, fmt::format("the normal offset is {} mm; it must be finite and greater than 0",

@@ -74,7 +74,8 @@ def test_skipping_gives_other_planes_in_order(drawn):
 
     [best], [second], [third] = suggested(), suggested("--skip", 1), suggested("--skip", 2)
     assert best["gain"] > 0  # after three planes by another rule than the gain
-    assert second["gain"] >= third["gain"] > 0
+    # Each is the best that shifting and tilting leads to: the next search may end a little higher.
+    assert second["gain"] > 0.98 * third["gain"] > 0
     for one, other in ((best, second), (best, third), (second, third)):
         is_parallel = abs(numpy.dot(one["normal"], other["normal"])) > 1 - 1e-9
         apart = abs(numpy.dot(one["normal"], numpy.subtract(one["origin_mm"], other["origin_mm"])))

@@ -23,6 +23,13 @@ struct CellDepths {
     bool is_inside(std::size_t cell) const { return depth_mm[cell] > 0; }
 };
 
+/// Whether a way among cells is longer than so many edges. It is often just as long, and is not longer then, however the two
+/// are rounded.
+inline bool is_longer(float mm, double edges, const ImageCells& cells) {
+    constexpr double kRounding = 1e-5;
+    return static_cast<double>(mm) > (edges + kRounding) * cells.edge_mm();
+}
+
 /// How deep cells lie below the surface of those inside; `nearest` as in CellDepths.
 struct Depths {
     std::vector<float> depth_mm;

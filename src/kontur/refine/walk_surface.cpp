@@ -19,10 +19,9 @@ constexpr double kMostInPlanes = 1;       // cells: no farther from the contours
 constexpr WalkedDataOptions kAttempts[] = {{}, {.off_contours = 2, .noise = 4}};
 
 /// Whether a surface is farther from the walk's than it may be.
-bool leaves(const VoxelWalk& walk, const CellDepths& depths, const std::vector<float>& walked, double edge_mm) {
-    const float most = static_cast<float>(kMostStray * edge_mm);
+bool leaves(const VoxelWalk& walk, const CellDepths& depths, const std::vector<float>& walked, const ImageCells& cells) {
     for (std::size_t n = 0; n < walked.size(); ++n)
-        if (depths.is_inside(n) != walk.is_inside(n) && std::abs(walked[n]) > most) return true;
+        if (depths.is_inside(n) != walk.is_inside(n) && is_longer(std::abs(walked[n]), kMostStray, cells)) return true;
     return false;
 }
 
@@ -31,10 +30,10 @@ bool leaves(const VoxelWalk& walk, const CellDepths& depths, const std::vector<f
 bool comes_through_planes(const ImplicitFunction& now, const CellDepths& now_depths, const ImplicitFunction& alone,
                           const CellDepths& alone_depths, const WalkedImage& image, const Work& work) {
     const std::array<Vec3, 3> half_edges = image.cells.half_edges();
-    const auto most = static_cast<float>(kMostInPlanes * image.cells.edge_mm());
     std::vector<Vec3> places;
     for (std::size_t n = 0; n < now_depths.depth_mm.size(); ++n)
-        if (now_depths.is_inside(n) != alone_depths.is_inside(n) && std::abs(alone_depths.depth_mm[n]) > most &&
+        if (now_depths.is_inside(n) != alone_depths.is_inside(n) &&
+            is_longer(std::abs(alone_depths.depth_mm[n]), kMostInPlanes, image.cells) &&
             image.walls.is_in_plane(image.cells.center(n), half_edges))
             places.push_back(image.cells.center(n));
     std::vector<double> before(places.size()), after(places.size());
@@ -86,7 +85,7 @@ std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Draw
         FittedFunction through = refit.with(walked_data(walk, cells, alone, fitted.function, frame, attempt, work), work);
         const double on_contours = largest_change(fitted.function, through.function, drawing.contours, work);
         const CellDepths now = cell_depths(cells, through.function, drawing.contours, work, Doubts::left);
-        if (on_contours > kMostOnContours * voxel_mm || leaves(walk, now, walked, cells.edge_mm()) ||
+        if (on_contours > kMostOnContours * voxel_mm || leaves(walk, now, walked, cells) ||
             comes_through_planes(through.function, now, fitted.function, alone, image, work))
             continue;
         Moved places = moved(through.function, now, walk, alone, cells, frame, options.samples, work);

@@ -42,7 +42,8 @@ public:
         std::vector<PointConstraint> told;
         for (const std::uint32_t cell : walk_.asked) {
             const double steps = static_cast<double>(depth[cell]) / cells_.edge_mm();
-            if (alone_.is_inside(cell) != walk_.is_inside(cell) && std::abs(steps) > kGone && is_off_contours(cell))
+            if (alone_.is_inside(cell) != walk_.is_inside(cell) && is_longer(std::abs(depth[cell]), kGone, cells_) &&
+                is_off_contours(cell))
                 told.push_back(datum(cell, steps, kNoiseOfGone * std::abs(steps)));
         }
         return some(told, kMostGone, frame);
@@ -71,9 +72,7 @@ private:
         return {.position = cells_.center(cell), .value = steps * edge, .noise_mm = noise * edge};
     }
 
-    bool is_off_contours(std::size_t cell) const {
-        return static_cast<double>(alone_.far_mm[cell]) > options_.off_contours * cells_.edge_mm();
-    }
+    bool is_off_contours(std::size_t cell) const { return is_longer(alone_.far_mm[cell], options_.off_contours, cells_); }
 
     double value(std::size_t cell) const { return static_cast<double>(walk_.inside[cell]) - 0.5; }
 

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "dicom_output.h"
+#include "drawn_images.h"
 #include "kontur/base/error.h"
+#include "kontur/io/dicom_drawings.h"
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/dicom_suv.h"
 #include "kontur/io/frame_needed.h"
@@ -19,8 +21,9 @@
 #include "kontur/shape/repeated_contours.h"
 #include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
+#include "viewer/imports.h"
 #include "viewer/same_space.h"
-#include "viewer/unkept.h"
+#include "viewer/temporary_files.h"
 
 namespace kontur::app {
 namespace {
@@ -28,35 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPhantomScan = "abdomen";
-constexpr const char* kProjectExtension = ".kontur";
-
-void check_one_project(const OpenCommand& command, const Words& words) {
-    std::error_code ignored;
-    if (command.project.empty() || words.project.empty() || fs::equivalent(command.project, words.project, ignored)) return;
-    throw Error(ErrorKind::invalid_input, fmt::format("{} and --project {} are two projects; one at a time can be opened",
-                                                      words.project.string(), command.project.string()));
-}
-
-Words sorted(const std::vector<fs::path>& files) {
-    Words words;
-    const auto put = [](fs::path& place, const fs::path& file, const char* what) {
-        if (!place.empty())
-            throw Error(ErrorKind::invalid_input, fmt::format("{} and {} are both {}; one at a time can be opened",
-                                                              place.string(), file.string(), what));
-        place = file;
-    };
-    for (const fs::path& file : files) {
-        std::error_code ignored;
-        const bool is_there = fs::exists(file, ignored);
-        if (!is_there && file != viewer::kExample)
-            throw Error(ErrorKind::io, fmt::format("cannot read {}: it does not exist", file.string()));
-        if (!is_there) put(words.image, file, "images");
-        else if (has_extension(file, kProjectExtension)) put(words.project, file, "projects");
-        else if (input_kind(file) == FileKind::contours) put(words.contours, file, "contours");
-        else put(words.image, file, "images");
-    }
-    return words;
-}
 
 Image phantom_image(const Work& work) {
     const std::vector<PhantomVolume> scans = phantom_volumes();
@@ -79,18 +53,6 @@ void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
 bool is_example(const fs::path& path) {
     std::error_code ignored;
     return path == viewer::kExample && !fs::exists(path, ignored);
-}
-
-/// A 4D file or a folder of several volumes is the same one when the project is opened again.
-viewer::ImageChoice choice_of(const ReadImageOptions& options) {
-    return {options.dicom.series_uid, options.dicom.volume, options.frame, options.prefer};
-}
-
-void choose(ReadImageOptions& options, const viewer::ImageChoice& choice) {
-    options.dicom.series_uid = choice.series_uid;
-    options.dicom.volume = choice.volume;
-    options.frame = choice.frame;
-    options.prefer = choice.prefer;
 }
 
 ImageInput input_of(const fs::path& path, const viewer::ImageChoice& choice) {
@@ -214,7 +176,7 @@ std::string bare_name(const fs::path& path) {
 fs::path project_path(const OpenCommand& command, const Words& words, const viewer::OpenedImage& image) {
     if (!command.project.empty()) return command.project;
     if (!words.project.empty()) return words.project;
-    if (!words.contours.empty()) {
+    if (!words.contours.empty() && !looks_like_dicom(words.contours)) {  // nothing of ours is left among a hospital's files
         const fs::path folder = fs::absolute(words.contours).parent_path();
         if (access(folder.c_str(), W_OK) == 0) return folder / (bare_name(words.contours) + kProjectExtension);
     }
@@ -223,21 +185,33 @@ fs::path project_path(const OpenCommand& command, const Words& words, const view
     return data_folder() / fmt::format("{}-{}{}", name, fingerprint.substr(fingerprint.size() - 8), kProjectExtension);
 }
 
+/// A structure set with all its regions, or each segment traced, read by a process of its own.
+viewer::Imported drawn_by_others(const fs::path& file, const Work& work) {
+    const viewer::Upload upload{.extension = ".dcm", .file = file.filename().string()};
+    return viewer::import_apart(viewer::read_bytes(file), upload, work);
+}
+
 /// What a new project starts with: the contours of the file, or a structure to draw.
-ReadContours first_contours(const OpenCommand& command, const Words& words, Opened& result) {
-    if (words.contours.empty()) return {};
-    ReadContours read = read_contours(words.contours, command.read);
-    for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
-    for (std::string& note : viewer::leave_out_unkept(read.contours)) read.notes.push_back(std::move(note));
-    result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());
-    if (read.contours.name.empty()) read.contours.name = bare_name(words.contours);
-    return read;
+viewer::Imported first_contours(const OpenCommand& command, const Words& words, const Work& work, Opened& result) {
+    if (words.contours.empty()) return {{ContourSet{}}, {}, {}};
+    viewer::Imported first;
+    if (!command.read.roi && dicom_drawing(words.contours)) {
+        first = drawn_by_others(words.contours, work);
+    } else {
+        ReadContours read = read_contours(words.contours, command.read);
+        for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
+        first = {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
+    }
+    result.notes.insert(result.notes.end(), first.notes.begin(), first.notes.end());
+    for (ContourSet& set : first.sets)
+        if (set.name.empty()) set.name = bare_name(words.contours);
+    return first;
 }
 
 /// Whoever names image and contours together may have named the wrong ones: said here and on the page.
-void tell_doubts(const ReadContours& first, viewer::OpenedImage& image, Opened& result) {
-    for (const std::string& doubt : viewer::import_doubts({first.contours}, first.frame_of_reference_uid, image.image->grid,
-                                                          image.frame_of_reference_uid)) {
+void tell_doubts(const viewer::Imported& first, viewer::OpenedImage& image, Opened& result) {
+    for (const std::string& doubt :
+         viewer::import_doubts(first.sets, first.frame_of_reference_uid, image.image->grid, image.frame_of_reference_uid)) {
         result.warnings.push_back("do these contours belong to this image? " + doubt);
         image.notes.push_back("Do these contours belong to this image? " + doubt);
     }
@@ -290,36 +264,21 @@ void show_kept_second_image(viewer::Session& session, const Work& work, Opened& 
 
 }  // namespace
 
-std::string Words::title() const {
-    const fs::path& named = !image.empty() ? image : !project.empty() ? project : contours;
-    return fs::absolute(named).lexically_normal().filename().string();
-}
-
-Words sorted_words(const OpenCommand& command) {
-    Words words = sorted(command.files);
-    check_one_project(command, words);
-    if (words.is_empty() && !command.project.empty()) {
-        if (!fs::exists(command.project))
-            throw Error(ErrorKind::invalid_input,
-                        fmt::format("{} is no project yet; name the image that it is for", command.project.string()));
-        words.project = command.project;
-    }
-    return words;
-}
-
-Opened open_project(const OpenCommand& command, const Words& words, const Work& work) {
+Opened open_project(const OpenCommand& told, const Words& named, const Work& work) {
     Opened result;
+    OpenCommand command = told;
+    const Words words = with_images(named, work, command);
     viewer::OpenedImage image = open_image(image_input(command, words), work, result);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
-    std::optional<ReadContours> first;
-    if (!fs::exists(project)) first = first_contours(command, words, result);
+    std::optional<viewer::Imported> first;
+    if (!fs::exists(project)) first = first_contours(command, words, work, result);
     if (first) tell_doubts(*first, image, result);
     auto second = named_second_image(command.second_image, image, work, result);
     work.check();
     result.session = std::make_shared<viewer::Session>(std::move(image), project);
     if (result.session->is_new()) {
-        result.session->begin_with(first ? first->contours : first_contours(command, words, result).contours);
+        result.session->begin_with(first ? first->sets : first_contours(command, words, work, result).sets);
     } else if (!words.contours.empty()) {
         result.warnings.push_back(fmt::format("{} holds the work on these contours from before; they were not read again",
                                               result.session->project_path().string()));

@@ -10,25 +10,13 @@
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "kontur/base/work.h"
+#include "open_words.h"
 #include "viewer/session.h"
 #include "viewer/workspace.h"
 
 // What `kontur open` works on: an image with its project, from the words of the command or of a page.
 
 namespace kontur::app {
-
-/// The command's words by what they name; "phantom" where no file has this name is the example.
-struct Words {
-    std::filesystem::path image, contours, project;
-
-    bool is_empty() const { return image.empty() && contours.empty() && project.empty(); }
-    /// For people.
-    std::string title() const;
-};
-
-/// An existing `--project` alone is such a word, too. Throws Error(io) for what is not there, Error(invalid_input) for two
-/// of a kind, and for a new project alone.
-Words sorted_words(const OpenCommand& command);
 
 /// A session, and what the user should know of how it came to be.
 struct Opened {

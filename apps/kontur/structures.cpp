@@ -93,14 +93,6 @@ StructureAttributes fitted_attributes(StructureAttributes drawn) {
     return drawn;
 }
 
-StructureAttributes attributes_of(const DicomSegment& segment) {
-    return {.color = segment.color,
-            .generation_algorithm = segment.algorithm_type,
-            .description = segment.description,
-            .category = segment.category,
-            .code = segment.code};
-}
-
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work) {
     if (label && is_dicom_seg(input.path)) {
         DicomSeg found = read_dicom_seg(input.path, label, input.options.max_voxels, work);
@@ -146,9 +138,9 @@ bool may_overlap(const ImageInput& input) {
 
 Structures read_structures(const ImageInput& input, const Work& work) {
     if (is_dicom_seg(input.path)) {
-        const DicomSegmentation about = read_dicom_segmentation(input.path, input.options.max_voxels);
-        for (const std::string& note : about.notes) input.options.on_note(note);
-        return without_empty({about.segments, read_dicom_seg_masks(input.path, input.options.max_voxels, work)}, input);
+        DicomSegments found = read_dicom_segments(input.path, input.options.max_voxels, work);
+        for (const std::string& note : found.about.notes) input.options.on_note(note);
+        return without_empty({std::move(found.about.segments), std::move(found.masks)}, input);
     }
     if (may_overlap(input)) return without_empty(read_layers(input, nrrd_segments(input.path), work), input);
     const Image image = read_image(input.path, input.options, work);

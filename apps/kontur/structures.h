@@ -29,9 +29,6 @@ DicomSegment segment_like(const StructureAttributes& attributes);
 /// What a fitted structure's ROI says: the same as the drawn one's, but for how it was made.
 StructureAttributes fitted_attributes(StructureAttributes drawn);
 
-/// What a segment says of its structure.
-StructureAttributes attributes_of(const DicomSegment& segment);
-
 /// The image; with `label` its voxels of that value alone, the others 0. Throws Error(invalid_input) when it has none.
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work);
 

@@ -105,7 +105,9 @@ const BoxedMask& BorderSharing::mask_of(const LoneSurface& surface, const Work& 
 
 /// As quickly as a preview: it only decides who owns the gaps.
 FittedObject BorderSharing::fit_union(const std::vector<Id>& structures, const ContourSet& outlines, const Work& work) {
-    const auto is_same = [](const Contour& a, const Contour& b) { return a.points == b.points && a.hole == b.hole; };
+    const auto is_same = [](const Contour& a, const Contour& b) {
+        return a.points == b.points && a.hole == b.hole && a.end == b.end && a.weight == b.weight;
+    };
     const auto known = unions_.find(structures);
     if (known != unions_.end() &&
         std::equal(outlines.contours.begin(), outlines.contours.end(), known->second.outlines.contours.begin(),

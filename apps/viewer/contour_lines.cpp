@@ -17,6 +17,8 @@ DrawnContour redrawn(const DrawnContour& contour, const std::vector<SketchPoint>
     result.hole = contour.hole;
     result.visible = contour.visible;
     result.inside = contour.inside;
+    result.end = contour.end;
+    result.weight = contour.weight;
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cstring>
 
@@ -77,6 +78,11 @@ void Database::check_place() const {
         throw Error(ErrorKind::io, fmt::format("{} was moved, replaced or deleted while kontur has it open, and can take no "
                                                "edits; export the project, then open it again",
                                                path_.string()));
+}
+
+bool Database::is_read_only() const {
+    const std::filesystem::path folder = std::filesystem::absolute(path_).parent_path();
+    return sqlite3_db_readonly(handle_.get(), "main") == 1 || access(folder.c_str(), W_OK) != 0;
 }
 
 void Database::copy_to(const std::filesystem::path& target) {

@@ -28,6 +28,8 @@ public:
     /// The first column of the first row; 0 without one.
     std::int64_t number(const char* sql);
 
+    /// Whether the file, or its folder, where a journal has to be, cannot be written.
+    bool is_read_only() const;
     /// A copy of all of it as a new file.
     void copy_to(const std::filesystem::path& target);
 

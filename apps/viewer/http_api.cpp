@@ -206,6 +206,7 @@ HttpReply HttpApi::api(const HttpRequest& request, const std::stop_token& stop) 
     if (get && target.path == "/api/statistics") return measured(request, stop);
     if (get && target.path == "/api/compare") return compared(request, stop);
     if (get && below("/api/export/")) return exported(request, stop);
+    if (get && target.path == "/api/drawings") return drawings(request, stop);
     if (!get && below("/api/import/")) return import(request, stop);
     if (!get && target.path == "/api/image") return put_image(request, stop);
     if (auto reply = start_api(workspace_, request.method, target, request.body, stop))
@@ -269,21 +270,31 @@ HttpReply HttpApi::exported(const HttpRequest& request, const std::stop_token& s
             {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", download.file_name)}}};
 }
 
+HttpReply HttpApi::drawings(const HttpRequest& request, const std::stop_token& stop) {
+    const std::shared_ptr<Session> session = workspace_.session_unless_closed(request.opening);
+    if (!session) return nothing();
+    return {200, "application/json", session->drawings(stop), {}};
+}
+
 HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& stop) {
     const Target& target = request.target;
+    const bool anyway = target.parameter("anyway").has_value();
     const std::string file = target.parameter("name").value_or("");
-    Upload upload;
-    if (target.path == "/api/import/contours") {
+    Upload upload{.anyway = anyway, .file = file};
+    ImportReply reply;
+    if (target.path == "/api/import/near") {
+        reply = workspace_.session(request.opening)->import_near(target.parameter("file").value_or(""), anyway, stop);
+    } else if (target.path == "/api/import/contours") {
         upload.extension = known_extension(file, kContourEndings);
+        reply = workspace_.session(request.opening)->import(request.body, upload, stop);
     } else if (target.path == "/api/import/mask") {
         upload.content = Upload::Content::mask;
         upload.extension = known_extension(file, kMaskEndings);
         upload.trace = trace_request(target);
+        reply = workspace_.session(request.opening)->import(request.body, upload, stop);
     } else {
         return not_found();
     }
-    upload.anyway = target.parameter("anyway").has_value();
-    const ImportReply reply = workspace_.session(request.opening)->import(request.body, upload, stop);
     return {200,
             "application/json",
             to_text({{"structures", reply.structures}, {"doubts", reply.doubts}, {"notes", reply.notes}}),

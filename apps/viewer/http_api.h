@@ -60,6 +60,7 @@ private:
     HttpReply put_image(const HttpRequest& request, const std::stop_token& stop);
     HttpReply compared(const HttpRequest& request, const std::stop_token& stop);
     HttpReply exported(const HttpRequest& request, const std::stop_token& stop);
+    HttpReply drawings(const HttpRequest& request, const std::stop_token& stop);
     HttpReply import(const HttpRequest& request, const std::stop_token& stop);
 
     Workspace& workspace_;

@@ -27,9 +27,10 @@ struct TraceRequest {
 struct Upload {
     enum class Content { contours, mask };
     Content content = Content::contours;
-    std::string extension;  ///< one that kontur knows; nothing else of the file's name is used
-    TraceRequest trace;     ///< of a mask
-    bool anyway = false;    ///< whether it comes in though it may not belong to the image
+    std::string extension{};  ///< one that kontur knows
+    TraceRequest trace{};     ///< of a mask
+    bool anyway = false;      ///< whether it comes in though it may not belong to the image
+    std::string file{};       ///< its name, for what has none of its own; nothing is opened by it
 };
 
 struct Imported {

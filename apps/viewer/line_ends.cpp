@@ -89,6 +89,7 @@ DrawnContour opened(const DrawnContour& contour, const std::optional<Vec3>& at, 
     if (!contour.closed) return contour;
     DrawnContour open = contour;
     open.closed = open.hole = false;
+    open.end = ContourEnd::automatic;
     std::vector<SketchPoint> sketch = sketch_of(contour);
     const std::size_t gap = at ? stretch_of(contour, nearest_edge(contour, *at)) : sketch.size() - 1;
     if (sketch.size() == 1) {  // one stretch all around: only an edge of it goes

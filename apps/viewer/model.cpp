@@ -48,6 +48,8 @@ DrawnContour as_drawn(const Contour& contour) {
     drawn.hole = contour.hole;
     drawn.closed = contour.closed;
     drawn.inside = contour.inside;
+    drawn.end = contour.end;
+    drawn.weight = contour.weight;
     if (!drawn.points.empty()) drawn.control.push_back({drawn.points.front(), Stretch::free, 0});
     if (!drawn.closed && drawn.points.size() > 1)
         drawn.control.push_back({drawn.points.back(), Stretch::free, drawn.points.size() - 1});
@@ -59,7 +61,9 @@ Contour as_contour(const DrawnContour& contour) {
             .points = contour.points,
             .closed = contour.closed,
             .hole = contour.hole,
-            .inside = contour.inside};
+            .end = contour.end,
+            .inside = contour.inside,
+            .weight = contour.weight};
 }
 
 StructureAttributes attributes_of(const Structure& structure) {

@@ -38,8 +38,10 @@ struct DrawnContour {
     std::vector<Vec3> points;           ///< the closed polygon, or the open line, in mm, on the plane
     bool hole = false;
     bool visible = true;
-    bool closed = true;            ///< false: a stretch of the border; its last control point is its last point
-    std::optional<Hand> inside{};  ///< of an open line: where the structure lies; unset: to be found out
+    bool closed = true;                      ///< false: a stretch of the border; its last control point is its last point
+    std::optional<Hand> inside{};            ///< of an open line: where the structure lies; unset: to be found out
+    ContourEnd end = ContourEnd::automatic;  ///< of a closed line that is no hole
+    double weight = 1;                       ///< how far it is trusted
 
     friend bool operator==(const DrawnContour&, const DrawnContour&) = default;
 };

@@ -137,6 +137,8 @@ json to_json(const DrawnContour& c) {
               {"hole", c.hole},
               {"visible", c.visible}};
     if (c.inside) told["inside"] = std::string(name(*c.inside));
+    if (c.end != ContourEnd::automatic) told["end"] = std::string(name(c.end));
+    if (c.weight != 1) told["weight"] = c.weight;
     return told;
 }
 
@@ -252,6 +254,20 @@ Hand Members::hand(const char* key) const {
     refuse(fmt::format("'{}' is neither left nor right", key));
 }
 
+ContourEnd Members::end(const char* key) const {
+    const std::string word = text(key, 16);
+    for (const ContourEnd end : {ContourEnd::automatic, ContourEnd::flat, ContourEnd::round})
+        if (word == name(end)) return end;
+    refuse(fmt::format("'{}' is none of automatic, flat and round", key));
+}
+
+double Members::weight(const char* key) const {
+    const double value = number(key);
+    if (value < kLeastWeight || value > kMostWeight)
+        refuse(fmt::format("'{}' is {}; it must lie between {} and {}", key, value, kLeastWeight, kMostWeight));
+    return value;
+}
+
 std::string Members::color(const char* key) const {
     std::string color = text(key, 7);
     const auto is_hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
@@ -291,6 +307,10 @@ DrawnContour contour_from_json(const json& value, const Limits& limits) {
     c.hole = m.flag("hole");
     c.visible = m.flag("visible");
     if (m.has("inside")) c.inside = m.hand("inside");
+    if (m.has("end")) c.end = m.end("end");
+    if (m.has("weight")) c.weight = m.weight("weight");
+    if (c.end != ContourEnd::automatic && (!c.closed || c.hole))
+        refuse("a contour that is open or a hole says how the structure ends there; only others can");
     if (!c.closed && c.hole) refuse("a contour is open and a hole; only closed contours can be holes");
     if (c.closed && c.inside) refuse("a contour is closed and says on which hand the structure lies");
     if (!m.at("control").is_array() || m.at("control").empty()) refuse("a contour has no control points");

@@ -76,6 +76,8 @@ public:
     std::vector<Plane> planes(const char* key, std::size_t most = kMostEmptyPlanes) const;
     Stretch stretch(const char* key) const;
     Hand hand(const char* key) const;
+    ContourEnd end(const char* key) const;
+    double weight(const char* key) const;
     /// The number of an image, from 0; 0 where it is missing.
     int image(const char* key) const;
     /// The member `time`, from 0; unset where it is missing.

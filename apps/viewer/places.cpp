@@ -14,6 +14,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
+#include "kontur/io/dicom_drawings.h"
 #include "kontur/io/dicom_series.h"
 
 namespace kontur::viewer {
@@ -129,7 +130,8 @@ bool has_dicom_below(const Reader& reader, const Content& start) {
 std::string kind_of(const fs::path& file) {
     if (lower_case(file.extension().string()) == ".kontur") return "project";
     if (has_image_ending(file)) return "image";
-    return is_dicom_file(file) ? "dicom" : "";
+    if (!is_dicom_file(file)) return "";
+    return dicom_drawing(file) ? "drawing" : "dicom";
 }
 
 json entry_json(const Place& place) { return {{"name", place.name}, {"path", place.path.string()}}; }
@@ -194,7 +196,7 @@ json Places::list(const std::string& path) const {
     for (const Place& one : content.files) {
         const std::string kind = kind_of(one.path);
         has_slices = has_slices || kind == "dicom";
-        if (kind == "image" || kind == "project") listed.add(listed.files, file_json(one, kind));
+        if (kind == "image" || kind == "project" || kind == "drawing") listed.add(listed.files, file_json(one, kind));
     }
     return {{"path", folder.string()},
             {"name", folder.filename().string()},

@@ -153,6 +153,7 @@ Project::Project(const std::filesystem::path& path, const ImageReference& image)
     if (is_empty(database_)) create(image);
     else check_format(path, database_.number("PRAGMA application_id"), database_.number("PRAGMA user_version"));
     load();
+    is_read_only_ = database_.is_read_only();
 }
 
 void Project::create(const ImageReference& image) {

@@ -54,6 +54,9 @@ public:
     /// Whether nothing had ever been in it when it was opened: made now, or at a start that failed before it was filled.
     bool is_new() const { return is_new_; }
 
+    /// Whether nothing can be changed, because the file cannot be written.
+    bool is_read_only() const { return is_read_only_; }
+
     /// An id for the next structure or contour.
     Id new_id() { return next_id_++; }
     /// Whether one has, or had, this id.
@@ -105,7 +108,7 @@ private:
     State state_;
     std::int64_t position_ = 0;  ///< number of the last step that counts
     Id next_id_ = 1;
-    bool is_new_ = false;
+    bool is_new_ = false, is_read_only_ = false;
 };
 
 /// Which image an existing project was drawn on. Throws as the constructor does.

@@ -49,7 +49,12 @@ Session::Session(OpenedImage opened, const std::filesystem::path& project)
     if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
-    if (project_.image().path != opened.reference.path || project_.image().choice != opened.reference.choice)
+    if (project_.is_read_only())
+        notes_.push_back(
+            fmt::format("{} can only be read here, so nothing can be drawn or changed. To go on from it save a "
+                        "copy where you can write: Export, Project.",
+                        project.filename().string()));
+    else if (project_.image().path != opened.reference.path || project_.image().choice != opened.reference.choice)
         project_.save_image(opened.reference);
     surfaces_.use_image(image_to_ask());
     surfaces_.share_borders(project_.state().borders);

@@ -92,11 +92,16 @@ public:
     /// How two structures agree, voxel by voxel, as JSON.
     std::string compare(Id first, Id second, const std::stop_token& stop = {});
     ImportReply import(const std::string& bytes, const Upload& upload, const std::stop_token& stop = {});
+    /// Structure sets and segmentations that lie near a DICOM image and were drawn on it, or in its frame of reference, as
+    /// JSON.
+    std::string drawings(const std::stop_token& stop = {}) const;
+    /// Imports one of these. Throws Error(invalid_input) for another file, and as `import`.
+    ImportReply import_near(const std::filesystem::path& file, bool anyway, const std::stop_token& stop = {});
 
     /// One structure for each set, as one step of the history.
     std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets);
-    /// A new project's first structure, before its history.
-    void begin_with(const ContourSet& set);
+    /// A new project's first structures, before its history.
+    void begin_with(const std::vector<ContourSet>& sets);
 
     /// Whether the project was empty when it was opened, its history too.
     bool is_new() const { return project_.is_new(); }

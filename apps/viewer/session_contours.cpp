@@ -65,6 +65,13 @@ void set_marks(DrawnContour& contour, const Members& m) {
     contour.visible = m.flag_or("visible", contour.visible);
     if (contour.hole && !contour.closed)
         throw Error(ErrorKind::invalid_input, "an open line encloses nothing, so it can be no hole");
+    if (m.has("weight")) contour.weight = m.weight("weight");
+    if (m.has("end")) contour.end = m.end("end");
+    if (contour.hole || !contour.closed) {
+        if (m.has("end") && contour.end != ContourEnd::automatic)
+            throw Error(ErrorKind::invalid_input, "a structure ends at closed contours that are no holes");
+        contour.end = ContourEnd::automatic;
+    }
     if (!m.has("inside")) return;
     if (contour.closed)
         throw Error(ErrorKind::invalid_input,
@@ -87,6 +94,8 @@ DrawnContour as_told(const DrawnContour& before, const Members& m, SliceEdges& e
 const char* label_of_marks(const Members& m) {
     if (m.has("closed")) return m.flag("closed") ? "Close a line" : "Open a contour";
     if (m.has("inside")) return "Tell the side of a line";
+    if (m.has("end")) return "End at a contour";
+    if (m.has("weight")) return "Weight of a contour";
     return m.has("visible") ? "Show or hide a contour" : "Change a contour";
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kontur/base/error.h"
+#include "kontur/base/printable.h"
 #include "kontur/io/atomic_file.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
@@ -71,6 +72,11 @@ Provenance provenance_of_drawing(const ContourSet& set, const ImageReference& im
             {"version", KONTUR_VERSION}};
 }
 
+/// Endings are known in small letters, and a DICOM file may have none.
+std::string without_ending(const std::string& file, const std::string& ending) {
+    return lower_case(file).ends_with(ending) ? file.substr(0, file.size() - ending.size()) : file;
+}
+
 }  // namespace
 
 Download Session::exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
@@ -109,8 +115,10 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
 ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
     const StatusLine line(status_teller(), "Importing");
     const Work work{.stop = stop};
-    const Imported imported = import_apart(bytes, upload, work);
+    Imported imported = import_apart(bytes, upload, work);
     work.check();
+    for (ContourSet& set : imported.sets)
+        if (set.name.empty()) set.name = without_ending(upload.file, upload.extension);
     if (!upload.anyway) {
         auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
         if (!doubts.empty()) return {{}, std::move(doubts), {}};

@@ -32,7 +32,7 @@ bool same_surface(const Structure& a, const Structure& b) {
 
 bool same_surface(const DrawnContour& a, const DrawnContour& b) {
     return a.points == b.points && a.plane == b.plane && a.hole == b.hole && a.structure == b.structure &&
-           a.closed == b.closed && a.inside == b.inside;
+           a.closed == b.closed && a.inside == b.inside && a.end == b.end && a.weight == b.weight;
 }
 
 }  // namespace

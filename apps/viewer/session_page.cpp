@@ -62,6 +62,7 @@ std::string Session::greeting(const json& more) {
                {"version", KONTUR_VERSION},
                {"title", title_},
                {"project", project_.path().filename().string()},
+               {"read_only", project_.is_read_only()},
                {"image",
                 {{"size", {grid.size.i, grid.size.j, grid.size.k}},
                  {"spacing_mm", to_json(grid.spacing_mm())},

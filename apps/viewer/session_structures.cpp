@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "kontur/base/error.h"
@@ -50,6 +51,15 @@ std::string next_color(const State& state) {
     return kColors[static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin())];
 }
 
+/// What a new project begins with, to be drawn into, as long as nobody has done anything with it: whoever imports has no
+/// use for it.
+std::optional<Structure> placeholder(const State& state) {
+    if (state.structures.size() != 1 || !state.contours.empty()) return std::nullopt;
+    const Structure& only = state.structures.begin()->second;
+    const Structure untouched{only.id, free_name({}), next_color({})};
+    return only == untouched ? std::optional(only) : std::nullopt;
+}
+
 }  // namespace
 
 json Session::add_structure(const Members& m) {
@@ -91,6 +101,10 @@ json Session::remove_structure(const Members& m) {
 Commit Session::new_structures(const std::string& label, const std::vector<ContourSet>& sets) {
     Commit added{label, {}, {}};
     State state = project_.state();
+    if (const auto unused = placeholder(state)) {
+        added.structures.push_back({unused->id, unused, {}});
+        state.structures.clear();
+    }
     std::size_t points = 0;
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
@@ -126,15 +140,16 @@ std::vector<Id> Session::add_structures(const std::string& label, const std::vec
     tell_changes(added);
     std::vector<Id> ids;
     for (const Change<Structure>& change : added.structures) {
+        if (!change.after) continue;
         ids.push_back(change.id);
         surfaces_.follow_later(surface_task(change.id));
     }
     return ids;
 }
 
-void Session::begin_with(const ContourSet& set) {
+void Session::begin_with(const std::vector<ContourSet>& sets) {
     const std::scoped_lock lock(mutex_);
-    const Commit first = new_structures({}, {set});
+    const Commit first = new_structures({}, sets);
     project_.begin_with(first);
     for (const Change<Structure>& change : first.structures) surfaces_.follow_later(surface_task(change.id));
 }

@@ -468,21 +468,59 @@ def test_imports_of_contours_and_masks(server, tmp_path):
     assert status == 422 and str(tmp_path) not in body.decode()
 
 
-def test_an_import_takes_points_along_and_tells_what_it_leaves_out(server):
+def test_an_import_takes_points_ends_and_weights_along(server):
     page = server.page()
     drawing = {**rings(30, 3, 20), "interior": [[0, 0, 31]], "exterior": [[20, 0, 31]], "surface": [[10, 0, 33]]}
     drawing["planes"][0]["contours"][0].update(closed=False)
-    drawing["planes"][1]["contours"][0].update(end="flat")
+    drawing["planes"][1]["contours"][0].update(end="flat", weight=0.5)
     status, _, body = server.request("POST", "/api/import/contours?name=a.json&anyway=1", json.dumps(drawing).encode())
     assert status == 200, body
     reply = json.loads(body)
-    assert reply["notes"] == [
-        "left out: how the object ends at 1 contour, which the page does not keep",
-    ]
+    assert reply["notes"] == []
     page.do("ping")
     (imported,) = (page.structures[i] for i in reply["structures"])
     assert (imported["interior"], imported["exterior"], imported["surface_points"]) == ([[0, 0, 31]], [[20, 0, 31]], [{"at": [10, 0, 33]}])
-    assert sorted(contour["closed"] for contour in page.contours.values() if contour["structure"] == imported["id"]) == [False, True, True]
+    own = [contour for contour in page.contours.values() if contour["structure"] == imported["id"]]
+    assert sorted(contour["closed"] for contour in own) == [False, True, True]
+    assert [(contour["end"], contour["weight"]) for contour in own if "end" in contour] == [("flat", 0.5)]
+    exported = json.loads(server.request("GET", f"/api/export/contours.json?structure={imported['id']}")[2])
+    marks = [(contour.get("end"), contour.get("weight")) for plane in exported["planes"] for contour in plane["contours"]]
+    assert marks.count(("flat", 0.5)) == 1 and marks.count((None, None)) == 2
+
+
+def test_a_contour_can_be_told_to_be_the_end_and_how_far_it_counts(server):
+    page = server.page()
+    structure = the_structure(page)
+    lower, middle, upper = draw_ball(page, structure)
+    whole = page.wait_for_surface(structure)["volume_ml"]
+    for contour in (lower, upper):
+        assert page.do("contour.set", id=contour, end="flat")["contour"]["end"] == "flat"
+    volumes = []
+    while not volumes or volumes[-1] > 0.9 * whole:  # of the first one alone less is cut off
+        volumes.append(page.wait_for_surface(structure)["volume_ml"])
+    assert page.history["undo"] == "End at a contour"
+    assert page.do("contour.set", id=middle, weight=0.01)["contour"]["weight"] == 0.01
+    page.do("ping")
+    assert page.history["undo"] == "Weight of a contour"
+    assert page.refused("contour.set", id=middle, weight=0)["kind"] == "invalid_input"
+    assert "end" not in page.do("contour.set", id=lower, hole=True)["contour"], "a hole is no end"
+    assert page.refused("contour.set", id=lower, end="flat")["kind"] == "invalid_input"
+
+
+def test_a_project_that_can_only_be_read_says_so_and_is_looked_at(server, tmp_path):
+    page = server.page()
+    draw_ball(page, the_structure(page))
+    server.stop()
+    server.project.chmod(0o444)
+    if os.access(server.project, os.W_OK):
+        pytest.skip("this user may write what nobody may")
+    with running(tmp_path, server.project) as again:
+        page = again.page()
+        assert page.session["read_only"] and len(page.contours) == 3
+        (note,) = (note for note in page.session["image"]["notes"] if "can only be read" in note)
+        assert note.startswith(server.project.name)
+        assert "read-only" in page.refused("structure.add")["message"]
+        assert again.request("GET", "/api/export/project.kontur")[0] == 200
 
 
 def test_every_format_that_the_page_is_told_of_can_be_imported(server, tmp_path):
@@ -528,7 +566,7 @@ def test_contours_that_may_not_belong_to_the_image_come_in_only_when_told_so(ser
     status, _, body = server.request("POST", "/api/import/contours?name=a.json&anyway=1", far)
     assert status == 200 and json.loads(body)["doubts"] == [] and len(json.loads(body)["structures"]) == 1
     page.do("ping")
-    assert len(page.structures) == before + 1
+    assert [one["name"] for one in page.structures.values()] == ["Rings"], "in place of the one that waited to be drawn"
     assert page.do("undo")["label"] == "Import contours"
 
 

@@ -245,7 +245,7 @@ TEST(SecondImage, AWireFollowsTheImageThatItsPointNames) {
 TEST(SecondImage, AContourGoesOnFollowingTheImageThatItWasDrawnOn) {
     Visit here;
     here.session.put_second_image(opened_ball());
-    here.session.begin_with({});
+    here.session.begin_with({{}});
     const Id structure = here.session.state().structures.begin()->first;
     const json added = here.call(
         {{"call", "contour.add"}, {"structure", structure}, {"plane", plane_json()}, {"control", square_of_wires(1)}});

@@ -406,4 +406,21 @@ std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::i
     return named_after(path, [&] { return masks_of(SegFile(path, max_voxels), max_voxels, work); });
 }
 
+DicomSegments read_dicom_segments(const std::filesystem::path& path, std::int64_t max_voxels, const Work& work) {
+    check_limit(max_voxels);
+    return named_after(path, [&] {
+        SegFile file(path, max_voxels);
+        file.count_voxels();
+        return DicomSegments{file.description(), masks_of(file, max_voxels, work)};
+    });
+}
+
+StructureAttributes attributes_of(const DicomSegment& segment) {
+    return {.color = segment.color,
+            .generation_algorithm = segment.algorithm_type,
+            .description = segment.description,
+            .category = segment.category,
+            .code = segment.code};
+}
+
 }  // namespace kontur

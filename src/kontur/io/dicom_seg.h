@@ -64,6 +64,19 @@ DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::in
 std::vector<Mask> read_dicom_seg_masks(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000,
                                        const Work& work = {});
 
+/// A segmentation as a whole.
+struct DicomSegments {
+    DicomSegmentation about;
+    std::vector<Mask> masks;  ///< of each segment
+};
+
+/// Both at once, from one look at the file. Throws as `read_dicom_seg_masks`.
+DicomSegments read_dicom_segments(const std::filesystem::path& path, std::int64_t max_voxels = 2'200'000'000,
+                                  const Work& work = {});
+
+/// What a segment says of its structure, beside its name.
+StructureAttributes attributes_of(const DicomSegment& segment);
+
 /// How segments were made, for those who audit them (DICOM PS3.3 table 10-19).
 struct DicomAlgorithm {
     std::string name;  ///< "" : nothing is said

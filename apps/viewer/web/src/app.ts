@@ -29,6 +29,7 @@ import { ViewInput } from "./tools/view_input";
 import { Dividers } from "./ui/dividers";
 import { IdentityCard } from "./ui/identity";
 import { Keyboard } from "./ui/keyboard";
+import { NearDrawings } from "./ui/near_drawings";
 import { Panel } from "./ui/panel";
 import { SecondImageCard } from "./ui/second_image_card";
 import { Notices, StatusBar } from "./ui/status";
@@ -51,6 +52,7 @@ export class App {
   private readonly status = new StatusBar();
   private readonly notices = new Notices();
   private readonly pointers = new Pointers(() => void this.notices.show("info", PEN_DRAWS));
+  private readonly near: NearDrawings;
   private readonly startPage: StartPage;
   private readonly saving: Saving;
   private readonly editor: Editor;
@@ -91,6 +93,7 @@ export class App {
       unsaved: (count, acknowledged) => this.saving.countUnsaved(count, acknowledged),
       knock: () => this.http.knock(),
     });
+    this.near = new NearDrawings({ http: this.http, project: this.project, import: (drawing) => this.actions.importNear(drawing) });
     const failed = (error: unknown) => this.saving.failed(error);
     const screenOf = (view: ViewName) => this.views.get(view)?.screen() ?? null;
     this.editor = new Editor(this.navigation, this.project, {
@@ -140,6 +143,7 @@ export class App {
       surface: this.surface,
       panes: this.panes,
       keeper: this.keeper,
+      near: () => this.near.found,
       cancelPointers: () => [...this.inputs, this.surface, this.keyPointer].some((input) => input.cancel()),
     });
     this.hints = new Hints({ ...shared, stage: this.panes.element, undo: this.actions.undo, seen: () => this.keeper.saveSoon() });
@@ -160,6 +164,7 @@ export class App {
       points: this.editor.points,
       call: this.editor.make,
       identity: this.identity.element,
+      near: this.near.element,
       time: new TimeCard(this.navigation, this.cine).element,
       secondImage: this.secondCard.element,
       suggest: inSight(() => void actions.suggest()),
@@ -338,7 +343,7 @@ export class App {
     this.session = session;
     const page = session.page as SavedPage | null;
     document.title = `${session.title} · kontur`;
-    this.status.start(session.project);
+    this.status.start(session.project, session.read_only);
     this.saving.tell();
     this.identity.start(session);
     this.secondCard.start(session);
@@ -352,6 +357,7 @@ export class App {
     this.surface.forgetRevisions();
     this.project.start(session);
     if (isFirst) this.restore(session, page);
+    if (isFirst) this.near.start(session);
     this.windows.start(session.project);
     void this.surface.start(session.image);
     for (const note of isFirst ? session.image.notes : []) this.notices.show("warning", note);

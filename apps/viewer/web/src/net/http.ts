@@ -2,7 +2,7 @@
 import { BinaryReply } from "./binary";
 import { Link } from "./link";
 import type { CodedMesh } from "./mesh_code";
-import type { Comparison, Folder, ImportReply, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
+import type { Comparison, Folder, ImportReply, NearDrawing, OpenRequest, SavedArrangement, SliceHeader, SliceRequest, Statistics, Volume } from "./protocol";
 
 /**
  * An answer that the server gave, or that it gave none; `message` is a sentence for the user. Of calls over the socket two more
@@ -128,6 +128,16 @@ export class Http {
     const query = new URLSearchParams({ name: file.name, ...options });
     const reply = await this.request(`import/${what}?${query}`, { method: "POST", body: file, signal: signal ?? null });
     return (await reply.json()) as ImportReply;
+  }
+
+  /** What others have drawn on the image, in files near it. */
+  async drawings(signal: AbortSignal): Promise<NearDrawing[]> {
+    return ((await (await this.request("drawings", { signal })).json()) as { drawings: NearDrawing[] }).drawings;
+  }
+
+  async importNear(file: string, options: Record<string, string> = {}, signal?: AbortSignal): Promise<ImportReply> {
+    const query = new URLSearchParams({ file, ...options });
+    return (await (await this.request(`import/near?${query}`, { method: "POST", signal: signal ?? null })).json()) as ImportReply;
   }
 
   /** Settles when the server answers: for a file of the page it needs neither the project nor much time. */

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Project } from "../model/project";
 import type { Http } from "../net/http";
-import type { Session } from "../net/protocol";
+import type { NearDrawing, Session } from "../net/protocol";
 import type { Socket } from "../net/socket";
 import type { Editor } from "../tools/editor";
 import { openExport } from "../ui/dialogs";
 import { openHelp } from "../ui/help";
-import { importFile, openImport, type ImportServices } from "../ui/imports";
+import { importFile, importNear, openImport, type ImportServices } from "../ui/imports";
 import { openStatistics } from "../ui/statistics";
 import type { Notices } from "../ui/status";
 import type { SurfaceView } from "../three/surface_view";
@@ -28,6 +28,8 @@ export interface PageActionServices {
   keeper: PageKeeper;
   notices: Notices;
   session(): Session | null;
+  /** What others have drawn on the image, in files near it. */
+  near(): readonly NearDrawing[];
   /** What the pointer does is given up; false where it does nothing. */
   cancelPointers(): boolean;
 }
@@ -110,7 +112,9 @@ export class PageActions {
     );
   };
 
-  readonly openImport = (): void => openImport(this.importServices());
+  readonly openImport = (): void => openImport(this.importServices(), this.services.near());
+
+  readonly importNear = (drawing: NearDrawing): void => importNear(drawing, this.importServices());
 
   readonly importFile = (file: File): void => importFile(file, this.importServices());
 

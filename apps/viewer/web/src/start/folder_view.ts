@@ -144,8 +144,8 @@ export class FolderView {
     const { name, path, kind } = file;
     const row = buttonPiece(
       {
-        icon: kind === "project" ? ICONS.surface : ICONS.file,
-        label: name,
+        icon: kind === "project" ? ICONS.surface : kind === "drawing" ? ICONS.openLine : ICONS.file,
+        label: kind === "drawing" ? `${name} (structures; opens their images, too)` : name,
         title: path,
         class: "start-row file",
         test: "file",

@@ -12,6 +12,8 @@ import type { EditorServices } from "./services";
 import { isContourHidden, isHidden } from "./sight";
 import { Sketch } from "./sketch";
 
+const SAME_PLANE_MM = 0.01;
+
 /** Lines of a structure on a plane that are not contours before the user says so. */
 export interface Proposal {
   structure: number;
@@ -20,7 +22,11 @@ export interface Proposal {
   /** Its one line is an open one; and where the structure lies of it, if that is known. */
   isOpen?: boolean;
   inside?: Hand | undefined;
+  /** What else the lines may be, the next one first: the neighbouring slice's contours as they are. */
+  others?: readonly Lines[];
 }
+
+type Lines = readonly (readonly Vec3[])[];
 
 /** Offers what is fitted on another slice: Enter makes contours of it, Esc drops it. */
 export class Proposals extends Emitter<"proposal"> {
@@ -104,11 +110,31 @@ export class Proposals extends Emitter<"proposal"> {
       if (laid && !instead!.closed) return this.offerOpen(structure, plane, stretchAlong(there, laid) ?? laid, instead!.inside);
       if (there.length === 0 && laid) there.push(laid);
       if (there.length === 0) return this.tellNone(structure);
-      this.shown = { structure, plane, lines: there };
+      const copied = laid && there.includes(laid) ? [] : this.copied(structure, plane);
+      this.shown = { structure, plane, lines: there, others: copied.length > 0 ? [copied] : [] };
       this.emit("proposal");
     } catch (error) {
       this.services.failed(error);
     }
+  }
+
+  /** The contours of the nearest parallel slice, laid into the plane. */
+  private copied(structure: number, plane: Plane): Lines {
+    const parallel = this.project.contoursOf(structure).filter((contour) => contour.closed && areParallel(contour.plane, plane));
+    const away = (contour: Contour) => Math.abs(heightOver(plane, contour.plane.origin));
+    const nearest = parallel.reduce<Contour | null>((best, one) => (best && away(best) <= away(one) ? best : one), null);
+    if (!nearest) return [];
+    const together = parallel.filter((contour) => coincide(contour.plane, nearest.plane, SAME_PLANE_MM));
+    return together.map((contour) => contour.points.map((p) => projected(plane, p)));
+  }
+
+  /** Shows the next of what the lines may be. False where nothing is proposed, or nothing else. */
+  other(): boolean {
+    const [next, ...rest] = this.shown?.others ?? [];
+    if (!this.shown || !next) return false;
+    this.shown = { ...this.shown, lines: next, others: [...rest, this.shown.lines] };
+    this.emit("proposal");
+    return true;
   }
 
   /** Of an open line's neighbour only what runs along it: of the rest the user said nothing. */

@@ -57,6 +57,8 @@ export const HELD_KEYS: readonly HeldKey[] = [
 const KEY_ZOOM = 1.2;
 const POINTER_PIXELS = 2;
 const POINTER_FAR = 8; // times as far with Shift
+const NOTHING_PROPOSED = "Nothing is proposed; G and C propose an outline.";
+const ONE_PROPOSAL = "There is no contour on a slice beside this one that could be copied.";
 const ONE_FRAME = "The image has one frame.";
 
 const scroll = (steps: number, ...keys: string[]): Command => ({ keys, run: ({ navigation, focused }) => navigation.scroll(focused(), steps) });
@@ -156,6 +158,12 @@ export const COMMANDS: readonly Command[] = [
     run: ({ editor, focused }, isShifted) => void editor.proposals.next(focused(), isShifted ? -1 : 1),
   },
   {
+    keys: ["w"],
+    edits: true,
+    help: ["Edit", "W", "of a proposal: the neighbouring slice's contour as it is, and back"],
+    run: ({ editor, tell }) => void (editor.proposals.other() || tell(editor.proposals.shown ? ONE_PROPOSAL : NOTHING_PROPOSED)),
+  },
+  {
     keys: ["a"],
     edits: true,
     help: ["Edit", "A", "make the computed outline under the pointer a contour, as it is"],
@@ -171,7 +179,7 @@ export const COMMANDS: readonly Command[] = [
     keys: ["e"],
     edits: true,
     help: ["Draw", "E", "what is proposed is empty: nothing of the structure is in this plane"],
-    run: ({ editor, tell }) => void (editor.proposals.nothingHere() || tell("Nothing is proposed; G and C propose an outline.")),
+    run: ({ editor, tell }) => void (editor.proposals.nothingHere() || tell(NOTHING_PROPOSED)),
   },
   { keys: ["h"], edits: true, help: ["Edit", "H", "hole on or off"], run: toggleHole },
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
-import type { Contour } from "../net/protocol";
+import type { Contour, ContourEnd } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { buttonPiece, el } from "./dom";
 import { ICONS } from "./icons";
@@ -13,6 +13,27 @@ export interface ActionServices {
   call: Maker;
   /** Proposes the outline that many slices further on. */
   propose(steps: number): void;
+}
+
+const USUAL_WEIGHT = 1;
+const WEIGHTS: readonly (readonly [number, string])[] = [
+  [10, "More weight"],
+  [USUAL_WEIGHT, "Usual weight"],
+  [0.1, "Less weight"],
+  [0.01, "Hardly any weight"],
+];
+const ENDS: readonly (readonly [ContourEnd, string])[] = [
+  ["automatic", "No end here"],
+  ["flat", "Flat end"],
+  ["round", "Round end"],
+];
+
+function choice(part: string, title: string, value: string, entries: readonly (readonly [string | number, string])[], chosen: (value: string) => void): Piece {
+  return piece(
+    "select",
+    { key: part, title, "aria-label": title, "data-test": part, value, on: { change: ({ currentTarget }) => chosen(currentTarget.value) } },
+    ...entries.map(([key, label]) => piece("option", { key, value: String(key) }, label)),
+  );
 }
 
 /** What can be done with the selected contour, or with all that are marked. */
@@ -66,7 +87,22 @@ export class ContourActions {
         ? [this.opener(), piece("label", { class: "check", title: "The inside of this contour does not belong to the structure" }, hole, "Hole")]
         : this.ofOpen(contour)),
       this.owner([contour], "The structure that this contour belongs to"),
-    ];
+      this.weight(contour),
+      contour.closed && !contour.hole ? this.end(contour) : null,
+    ].filter((one) => one !== null);
+  }
+
+  private weight({ id, weight = USUAL_WEIGHT }: Contour): Piece {
+    const title = "How far this contour is trusted: where contours contradict each other, the one that counts more yields less";
+    const known = WEIGHTS.some(([value]) => value === weight);
+    const options = known ? WEIGHTS : [...WEIGHTS, [weight, `Weight ${weight}`] as const];
+    const set = (chosen: string) => this.services.call("contour.set", { id, weight: Number(chosen) });
+    return choice("weight", title, String(weight), options, set);
+  }
+
+  private end({ id, end = "automatic" }: Contour): Piece {
+    const title = "How the structure ends at this contour, where no other one carries it on";
+    return choice("end", title, end, ENDS, (chosen) => this.services.call("contour.set", { id, end: chosen as ContourEnd }));
   }
 
   private opener(): Piece {

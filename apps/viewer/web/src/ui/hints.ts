@@ -6,6 +6,7 @@ const END = "Double click or press Enter to end the open line · the first point
 const GO_ON = "Click on, or drag to draw by hand · Ctrl + Z takes a point back · Esc leaves";
 
 const PROPOSED = "A proposal: Enter makes it a contour · E: nothing is here · Esc drops it · C goes on to the next slice, Shift + C back";
+const PROPOSED_TWO = "A proposal: Enter makes it a contour · W: the neighbour's contour instead · E: nothing is here · Esc drops it · C: next slice";
 
 /** What can be done next, for the status line. */
 export function hintFor(editor: Editor): string {
@@ -13,6 +14,6 @@ export function hintFor(editor: Editor): string {
   if (sketch?.isUnsaved || sketch?.redraws !== undefined) return `${sketch.title} is not saved · Enter tries again · Esc gives it up`;
   if (sketch && editor.drawing.endsOpen && sketch.canEnd) return END;
   if (sketch) return sketch.canClose ? CLOSE : GO_ON;
-  if (editor.proposals.shown) return PROPOSED;
+  if (editor.proposals.shown) return editor.proposals.shown.others?.length ? PROPOSED_TWO : PROPOSED;
   return editor.tool.hint(editor, editor.hover);
 }

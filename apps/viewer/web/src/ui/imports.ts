@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Http } from "../net/http";
-import type { ImportEndings } from "../net/protocol";
+import type { ImportEndings, ImportReply, NearDrawing } from "../net/protocol";
 import { openDialog } from "./dialogs";
 import { button, el } from "./dom";
 import { accepted, importKind, sentence } from "./endings";
+import { nearRows } from "./near_drawings";
 
 export interface ImportServices {
   http: Http;
@@ -14,7 +15,7 @@ export interface ImportServices {
   working(text: string, cancel: () => void): () => void;
 }
 
-export function openImport(services: ImportServices): void {
+export function openImport(services: ImportServices, near: readonly NearDrawing[]): void {
   const choose = () => {
     const file = input.files?.[0];
     dialog.close();
@@ -31,11 +32,22 @@ export function openImport(services: ImportServices): void {
     ),
     input,
   );
+  if (near.length === 0) return;
+  const go = (drawing: NearDrawing) => {
+    dialog.close();
+    importNear(drawing, services);
+  };
+  dialog.append(el("h3", {}, "Near this image"), el("ul", { class: "near-list" }, ...nearRows(near, go)));
+}
+
+/** What others have drawn on the image, by a file near it. */
+export function importNear({ file, name }: NearDrawing, services: ImportServices): void {
+  void send(name, (options, signal) => services.http.importNear(file, options, signal), {}, services);
 }
 
 export function importFile(file: File, services: ImportServices): void {
   const kind = importKind(file.name, services.endings);
-  if (kind === "contours") void send("contours", file, {}, services);
+  if (kind === "contours") sendFile("contours", file, {}, services);
   else if (kind === "mask") openMaskImport(file, services);
   else services.failed(new Error(`${file.name}: ${sentence(services.endings)}`));
 }
@@ -55,7 +67,7 @@ function openMaskImport(file: File, services: ImportServices): void {
     test: "import-mask",
     click: () => {
       dialog.close();
-      void send("mask", file, { axes: axes.value, planes: planes.value }, services);
+      sendFile("mask", file, { axes: axes.value, planes: planes.value }, services);
     },
   });
   const dialog = openDialog(
@@ -68,14 +80,21 @@ function openMaskImport(file: File, services: ImportServices): void {
   );
 }
 
-async function send(what: "contours" | "mask", file: File, options: Record<string, string>, services: ImportServices): Promise<void> {
+type Options = Record<string, string>;
+type Ask = (options: Options, signal: AbortSignal) => Promise<ImportReply>;
+
+function sendFile(what: "contours" | "mask", file: File, options: Options, services: ImportServices): void {
+  void send(file.name, (more, signal) => services.http.import(what, file, more, signal), options, services);
+}
+
+async function send(name: string, ask: Ask, options: Options, services: ImportServices): Promise<void> {
   const abort = new AbortController();
-  const done = services.working(`Importing ${file.name} …`, () => abort.abort());
+  const done = services.working(`Importing ${name} …`, () => abort.abort());
   try {
-    const { structures, doubts, notes } = await services.http.import(what, file, options, abort.signal);
-    if (doubts.length === 0) services.imported(file.name, structures);
-    if (notes.length > 0) tellNotes(file.name, notes);
-    if (doubts.length > 0) askDespite(doubts, file.name, () => void send(what, file, { ...options, anyway: "1" }, services));
+    const { structures, doubts, notes } = await ask(options, abort.signal);
+    if (doubts.length === 0) services.imported(name, structures);
+    if (notes.length > 0) tellNotes(name, notes);
+    if (doubts.length > 0) askDespite(doubts, name, () => void send(name, ask, { ...options, anyway: "1" }, services));
   } catch (error) {
     if (!abort.signal.aborted) services.failed(error);
   }

@@ -14,6 +14,8 @@ import { UseImageSwitch } from "./use_image";
 export interface PanelServices extends RowServices, ActionServices {
   /** Whose image it is. */
   identity: HTMLElement;
+  /** What others have drawn on it. */
+  near: HTMLElement;
   time: HTMLElement;
   secondImage: HTMLElement;
   openStatistics(): void;
@@ -44,6 +46,7 @@ export class Panel {
     });
     this.element.append(
       services.identity,
+      services.near,
       services.time,
       services.secondImage,
       el("div", { class: "panel-title" }, el("span", {}, "Structures"), add),
@@ -85,10 +88,10 @@ export class Panel {
     const { proposals } = this.services.editor;
     const nothingHere =
       structure && proposals.shown?.structure === structure.id ? () => void (this.services.editor.isAnotherTime() || proposals.nothingHere()) : null;
-    render(
-      this.quality,
-      qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, nothingHere, show: (contour) => this.show(contour) }),
-    );
+    const isProposed = structure !== undefined && proposals.shown?.structure === structure.id;
+    const otherProposal = isProposed && proposals.shown?.others?.length ? () => void (this.services.editor.isAnotherTime() || proposals.other()) : null;
+    const actions = { nothingHere, otherProposal, show: (contour: Contour) => this.show(contour) };
+    render(this.quality, qualityOf(surface, structure ? project.contoursOf(structure.id) : [], { ...this.services, ...actions }));
     this.element.dataset["revision"] = String(surface?.revision ?? 0);
     this.element.dataset["stage"] = surface?.stage ?? "none";
     this.element.dataset["image"] = surface?.image?.verdict ?? "none";

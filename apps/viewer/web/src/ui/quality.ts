@@ -22,6 +22,8 @@ export interface QualityServices {
   suggest(): void;
   /** What is proposed is empty; null while nothing is. */
   nothingHere: (() => void) | null;
+  /** Another line is proposed; null where there is none. */
+  otherProposal: (() => void) | null;
   call: Maker;
 }
 
@@ -58,6 +60,16 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
           class: "choice",
           test: "nothing-here",
           click: services.nothingHere,
+        }),
+      );
+    if (services.otherProposal)
+      entries.push(
+        buttonPiece({
+          label: "Other proposal",
+          title: "The neighbouring slice's contour as it is, and back (W)",
+          class: "choice",
+          test: "other-proposal",
+          click: services.otherProposal,
         }),
       );
   }

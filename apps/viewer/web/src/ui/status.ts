@@ -13,6 +13,7 @@ export class StatusBar {
   private readonly bar = el("progress", { max: 1, hidden: true });
   private readonly saved = el("span", { class: "saved", "data-test": "saved" });
   private project = "";
+  private isReadOnly = false;
   private workTimer = 0;
 
   constructor() {
@@ -20,8 +21,9 @@ export class StatusBar {
     this.work.setAttribute("aria-live", "polite");
   }
 
-  start(project: string): void {
+  start(project: string, isReadOnly: boolean): void {
     this.project = project;
+    this.isReadOnly = isReadOnly;
   }
 
   setCursor(text: string): void {
@@ -56,8 +58,9 @@ export class StatusBar {
       unsaved: "Not all is saved",
       saved: `Saved in ${this.project}`,
     };
-    this.saved.textContent = texts[state];
-    this.saved.dataset["state"] = state;
+    const isAtRest = state === "saved" && this.isReadOnly;
+    this.saved.textContent = isAtRest ? `Read only: ${this.project}` : texts[state];
+    this.saved.dataset["state"] = isAtRest ? "read-only" : state;
   }
 }
 

@@ -46,7 +46,7 @@ async function prepare(): Promise<void> {
   viewer = await visits.next();
   await importMask("planes=2&axes=axial,coronal");
   await importMask("planes=5&axes=axial,coronal,sagittal", 8);
-  await viewer.page.waitForFunction((count) => document.querySelectorAll(".structure").length > count + 1, STRUCTURES);
+  await viewer.page.waitForFunction((count) => document.querySelectorAll(".structure").length === count + 1, STRUCTURES);
 }
 
 let opened: Promise<void> | null = null;
@@ -60,8 +60,8 @@ describe("a list of thirty structures", () => {
   test("lists the contours of the active one, under headings, in the order of slices", async () => {
     await open();
     assert.ok((await counts()).reduce((sum, text) => sum + Number(text), 0) > 100);
-    await nameOf("Imported mask").click();
-    await viewer.page.waitForSelector(".structure-row.active button.name[aria-label='Imported mask']");
+    await nameOf("labels").click();
+    await viewer.page.waitForSelector(".structure-row.active button.name[aria-label='labels']");
     const own = Number(await viewer.page.locator(".structure-row.active .count").textContent());
     await viewer.waitForContours(own);
     const groups = await viewer.page.locator(".contour-group").allTextContents();
@@ -142,7 +142,7 @@ describe("a list of thirty structures", () => {
     await viewer.page.waitForFunction(() => document.querySelectorAll(".contour-row.off.selected").length === 3);
     await viewer.page.keyboard.press("Control+z");
     await viewer.page.keyboard.press("Control+z");
-    await nameOf("Imported mask").click();
+    await nameOf("labels").click();
     await viewer.waitForContours(before);
     assert.deepEqual(
       viewer.complaints.filter((text) => !/WebGL/.test(text)),

@@ -65,3 +65,21 @@ test("the keyboard stays in a choice that was made by it, also when the choice g
   await row(2).locator(".contour-row").waitFor();
   assert.equal(await owner.evaluate((select) => select === document.activeElement), true);
 });
+
+test("a contour is told to be the structure's end, and to count less; undo takes each back, a hole is no end", async () => {
+  const { page } = viewer;
+  await page.locator(".contour-row").first().click();
+  const [end, weight] = [page.locator("[data-test=end]"), page.locator("[data-test=weight]")];
+  await end.selectOption({ label: "Flat end" });
+  await viewer.waitForStep("undo", "End at a contour");
+  await weight.selectOption({ label: "Less weight" });
+  await viewer.waitForStep("undo", "Weight of a contour");
+  await viewer.saved();
+  assert.deepEqual([await end.inputValue(), await weight.inputValue()], ["flat", "0.1"]);
+  await page.click("[data-test=undo]");
+  await page.waitForFunction(() => document.querySelector<HTMLSelectElement>("[data-test=weight]")!.value === "1");
+  await page.click("[data-test=undo]");
+  await page.waitForFunction(() => document.querySelector<HTMLSelectElement>("[data-test=end]")!.value === "automatic");
+  await page.click(".contour-actions input[type=checkbox]");
+  await end.waitFor({ state: "detached" });
+});

@@ -92,6 +92,22 @@ describe("the outline of the next slice", () => {
     await viewer.waitForStep("redo", "Accept the proposal");
   });
 
+  test("has another beside it, by W: the neighbour's contour as it is", async () => {
+    const { page } = viewer;
+    await page.keyboard.press("c");
+    await proposed().waitFor();
+    await page.keyboard.press("w");
+    await page.keyboard.press("w");
+    await page.click("[data-test=other-proposal]");
+    await page.keyboard.press("Enter");
+    await viewer.waitForContours(3);
+    await viewer.saved();
+    const copied = await radiiAt(DRAWN_MM - 4);
+    assert.deepEqual(copied.map(Math.round), (await radiiAt(DRAWN_MM)).map(Math.round), "not the ball's, which narrows");
+    await page.keyboard.press("w");
+    await page.locator(".notice", { hasText: "Nothing is proposed" }).waitFor();
+  });
+
   test("goes by Esc, and by scrolling on; Enter does nothing then", async () => {
     const { page } = viewer;
     await page.keyboard.press("Shift+C");

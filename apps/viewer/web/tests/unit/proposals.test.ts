@@ -42,6 +42,24 @@ test("a proposal is no contour before it is accepted, and then it is one by that
   assert.equal(proposals.accept(), false);
 });
 
+test("the neighbouring slice's contours are the other proposal, in turns, and what is seen is accepted", async () => {
+  const { proposals, drawing, settled, added, project } = proposing((z) => [ring(4, z)], [square(5)]);
+  const drawn = project.contour(5)!.points;
+  assert.equal(proposals.other(), false, "nothing is proposed");
+  await proposals.next("axial", 1);
+  const fitted = proposals.shown!.lines;
+  const copied = [drawn.map(([x, y]): Vec3 => [x, y, -2])];
+  assert.equal(proposals.other(), true);
+  assert.deepEqual(proposals.shown!.lines, copied);
+  proposals.other();
+  assert.deepEqual(proposals.shown!.lines, fitted);
+  proposals.other();
+  proposals.accept();
+  await drawing.outbox.afterSending(() => undefined);
+  await settled();
+  assert.equal(added().length, 1);
+});
+
 test("the next one lies a slice on from what is proposed; dropped, it begins again from the contour", async () => {
   const { proposals, calls, navigation } = proposing((z) => [ring(5, z)]);
   await proposals.next("axial", 1);

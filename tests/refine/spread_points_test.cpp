@@ -61,5 +61,15 @@ TEST(Spread, KeepsAboutAsManyAsAskedForAndLeavesNoPlaceOut) {
     EXPECT_EQ(spread(points, points.size(), {}), points);
 }
 
+TEST(Spread, EndsWherePointsAreInOnePlace) {
+    std::vector<Vec3> points;
+    for (int n = 0; n < 3000; ++n) points.push_back({1.0 * (n % 10), 1.0 * (n / 10 % 10), 0});
+    EXPECT_EQ(spread(points, 450, {}).size(), 100u) << "each place once";
+    EXPECT_GE(spread(points, 90, {}).size(), 50u);
+    EXPECT_LE(spread(points, 90, {}).size(), 100u);
+    EXPECT_GE(spread(points, 1, {}).size(), 1u);
+    EXPECT_EQ(spread(std::vector<Vec3>(20, Vec3{1, 2, 3}), 7, {}).size(), 1u);
+}
+
 }  // namespace
 }  // namespace kontur

@@ -37,7 +37,9 @@ std::vector<std::size_t> one_per_cell(std::span<const Vec3> points, const Vec3& 
 /// the points.
 double edge_of_cells(std::span<const Vec3> points, const Box3& box, double count) {
     constexpr double kStep = 1.1892071150027210;  // four to an octave
-    double edge = box.diagonal() / std::sqrt(count);
+    constexpr int kMostSteps = 32;                // points in one place are never in cells of their own
+    if (!(box.diagonal() > 0)) return 1;
+    double edge = box.diagonal() / std::sqrt(count), finer = edge;
     double sum = 0, weights = 0;
     const auto cells_of = [&](double edge_mm) {
         const auto cells = static_cast<double>(one_per_cell(points, box.min, edge_mm).size());
@@ -48,9 +50,11 @@ double edge_of_cells(std::span<const Vec3> points, const Box3& box, double count
     };
     const double first = cells_of(edge);
     const double most = std::min(2 * count, static_cast<double>(points.size()));
-    for (double cells = first, finer = edge; cells < most;) cells = cells_of(finer /= kStep);
-    for (double cells = first; cells > count / 2;) cells = cells_of(edge *= kStep);
-    return std::exp(sum / weights);
+    double cells = first;
+    for (int step = 0; step < kMostSteps && cells < most; ++step) cells = cells_of(finer /= kStep);
+    cells = first;
+    for (int step = 0; step < kMostSteps && cells > count / 2; ++step) cells = cells_of(edge *= kStep);
+    return weights > 0 ? std::exp(sum / weights) : finer;
 }
 
 double side(const Contour& contour, std::size_t i) {

@@ -14,6 +14,7 @@ import type { LinkedWindows } from "./linked_windows";
 import type { Panes } from "./panes";
 import type { PageKeeper } from "./saved_page";
 import type { Saving } from "./saving";
+import { snapshot } from "./snapshot";
 
 export interface PageActionServices {
   token: string;
@@ -101,7 +102,11 @@ export class PageActions {
 
   readonly openHelp = (): void => openHelp(this.services.session()?.version ?? "");
 
-  readonly openExport = (): void => openExport({ ...this.services, hasDicom: () => this.services.session()?.has_dicom ?? false });
+  readonly openExport = (): void => {
+    const { panes, surface, project, session } = this.services;
+    const picture = () => snapshot({ stage: panes.element, redraw3D: () => surface.redraw(), project, session: session()! });
+    openExport({ ...this.services, hasDicom: () => session()?.has_dicom ?? false, snapshot: picture });
+  };
 
   readonly openStatistics = (): void => {
     const { http, panes, surface } = this.services;

@@ -296,6 +296,11 @@ export class Scene {
     this.materials.drawOn(share);
   }
 
+  /** Once more and at once, for who wants to copy it: the canvas forgets its picture after each frame. */
+  redraw(): void {
+    this.renderer.render(this.scene, this.camera);
+  }
+
   private async render(fine: boolean): Promise<boolean> {
     if (this.canvas.clientWidth === 0) return false; // another view is shown alone; resize() draws when this one comes back
     this.setPixels(fine);

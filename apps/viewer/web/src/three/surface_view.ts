@@ -101,6 +101,11 @@ export class SurfaceView {
     new ResizeObserver(() => this.resized()).observe(this.element);
   }
 
+  /** For a picture that is taken in this very task. */
+  redraw(): void {
+    this.scene?.redraw();
+  }
+
   async start(image: ImageInfo): Promise<void> {
     if (!this.scene) {
       try {

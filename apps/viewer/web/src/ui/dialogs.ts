@@ -60,7 +60,9 @@ const OF_ALL: [string, string, string][] = [
   ["labels.seg.nrrd", "3D Slicer segmentation", ".seg.nrrd"],
   ["meshes.stl.zip", "Surfaces, STL", ".zip"],
   ["meshes.ply.zip", "Surfaces, PLY", ".zip"],
+  ["views.png", "All views as they are seen", ".png"],
 ];
+const SEEN = "views.png";
 const OF_ALL_IN_DICOM: [string, string, string][] = [
   ["seg.dcm", "DICOM SEG", ".dcm"],
   ["rtstruct.dcm", "DICOM RTSTRUCT", ".dcm"],
@@ -70,6 +72,8 @@ export interface ExportServices {
   http: Http;
   /** Whether the image is a DICOM series, to which other objects can refer. */
   hasDicom(): boolean;
+  /** A picture of what is seen. */
+  snapshot(): Promise<Blob>;
   project: Project;
   editor: Editor;
 }
@@ -83,7 +87,7 @@ function missing({ drawing }: Editor): HTMLElement[] {
   return [el("p", { class: "warning-text", "data-test": "export-missing" }, `${what}: no export contains it.`)];
 }
 
-export function openExport({ http, project, editor, hasDicom }: ExportServices): void {
+export function openExport({ http, project, editor, hasDicom, snapshot }: ExportServices): void {
   const structure = el("select", { title: "Structure to export", "data-test": "export-structure" });
   for (const { id, name } of project.structures.values())
     structure.append(el("option", { value: String(id), selected: id === project.activeStructure?.id }, name));
@@ -98,7 +102,7 @@ export function openExport({ http, project, editor, hasDicom }: ExportServices):
     render(status, [`Preparing ${name} …`, cancel]);
     let outcome: string;
     try {
-      const file = await http.export(name, of, own.signal);
+      const file = name === SEEN ? { blob: await snapshot(), name: SEEN } : await http.export(name, of, own.signal);
       download(file.blob, file.name);
       outcome = `${file.name} was handed to the browser's downloads.`;
     } catch (error) {

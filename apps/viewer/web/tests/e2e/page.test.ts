@@ -119,6 +119,30 @@ describe("the page", () => {
       assert.equal((await viewer.export(name)).bytes.subarray(0, start.length).toString("latin1"), start, name);
   });
 
+  test("exports one picture of all views as they are seen, the surface, too", async () => {
+    await viewer.surfaceShown();
+    const picture = (await viewer.export("views.png")).bytes.toString("base64");
+    const colored = await viewer.page.evaluate(async (data) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [image.width, image.height];
+      const context = canvas.getContext("2d")!;
+      context.drawImage(image, 0, 0);
+      const stage = document.querySelector(".stage")!.getBoundingClientRect();
+      return [...document.querySelectorAll(".pane")].map((pane) => {
+        const { left, top, width, height } = pane.getBoundingClientRect();
+        const { data: values } = context.getImageData(left - stage.left, top - stage.top, width, height);
+        let count = 0;
+        for (let at = 0; at < values.length; at += 4) count += values[at]! - values[at + 2]! > 60 ? 1 : 0; // the structure is orange
+        return count;
+      });
+    }, picture);
+    assert.ok(colored.length === 5 && colored.every((count) => count > 100), colored.join(", "));
+    assert.ok(colored.at(-1)! > 1000, "the surface in 3D");
+  });
+
   test("drags a point of the live-wire contour; undo and redo bring back both states", async () => {
     const { page } = viewer;
     const original = await contoursNow();

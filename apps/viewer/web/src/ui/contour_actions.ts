@@ -16,12 +16,8 @@ export interface ActionServices {
 }
 
 const USUAL_WEIGHT = 1;
-const WEIGHTS: readonly (readonly [number, string])[] = [
-  [10, "More weight"],
-  [USUAL_WEIGHT, "Usual weight"],
-  [0.1, "Less weight"],
-  [0.01, "Hardly any weight"],
-];
+const weightEntry = (weight: number): readonly [number, string] => [weight, `Counts ${weight} ×`];
+const WEIGHTS = [10, USUAL_WEIGHT, 0.1, 0.01].map(weightEntry);
 const ENDS: readonly (readonly [ContourEnd, string])[] = [
   ["automatic", "No end here"],
   ["flat", "Flat end"],
@@ -95,7 +91,7 @@ export class ContourActions {
   private weight({ id, weight = USUAL_WEIGHT }: Contour): Piece {
     const title = "How far this contour is trusted: where contours contradict each other, the one that counts more yields less";
     const known = WEIGHTS.some(([value]) => value === weight);
-    const options = known ? WEIGHTS : [...WEIGHTS, [weight, `Weight ${weight}`] as const];
+    const options = known ? WEIGHTS : [...WEIGHTS, weightEntry(weight)];
     const set = (chosen: string) => this.services.call("contour.set", { id, weight: Number(chosen) });
     return choice("weight", title, String(weight), options, set);
   }

@@ -72,7 +72,7 @@ test("a contour is told to be the structure's end, and to count less; undo takes
   const [end, weight] = [page.locator("[data-test=end]"), page.locator("[data-test=weight]")];
   await end.selectOption({ label: "Flat end" });
   await viewer.waitForStep("undo", "End at a contour");
-  await weight.selectOption({ label: "Less weight" });
+  await weight.selectOption({ label: "Counts 0.1 ×" });
   await viewer.waitForStep("undo", "Weight of a contour");
   await viewer.saved();
   assert.deepEqual([await end.inputValue(), await weight.inputValue()], ["flat", "0.1"]);

@@ -87,6 +87,22 @@ TEST(Tidy, ThinsHugeContoursWithinTheDistanceThatItStates) {
     }
 }
 
+TEST(Tidy, ThinsARingToTheSamePointsHoweverItIsStored) {
+    std::mt19937 random = test::random_of_this_test();
+    std::normal_distribution<double> jitter(0, 0.05);
+    Contour huge = test::circle(kTilted, 40, 5000);
+    for (Vec3& p : huge.points) p += jitter(random) * kTilted.u + jitter(random) * kTilted.v;
+    const std::vector<Vec3> kept = tidied(huge);
+    EXPECT_LE(kept.size(), 1000u);
+    for (const int later : {1, 1700, 4999}) {
+        Contour other = huge;
+        std::ranges::rotate(other.points, other.points.begin() + later);
+        EXPECT_EQ(tidied(other), kept);
+        std::ranges::reverse(other.points);
+        EXPECT_EQ(tidied(other), kept);
+    }
+}
+
 TEST(Tidy, AHundredThousandPointsAndTheirCornersAreNoTrouble) {
     Contour square = polygon({{0, 0}, {30, 0}, {30, 30}, {0, 30}});
     std::vector<Vec3> fine;

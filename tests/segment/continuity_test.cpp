@@ -169,6 +169,56 @@ TEST(Continuity, VolumeChangesLittleAsAContourLosesItsWeight) {
     EXPECT_LT(lighter.worst_step, 0.02) << "at 10^-" << lighter.worst_at;
 }
 
+TEST(Continuity, VolumeChangesLittleAsAContourGainsWeight) {
+    const auto drawing = [](double gained) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        set.contours[2] = scaled(set.contours[2], 0.8);
+        set.contours[2].weight = std::pow(10, gained);
+        return set;
+    };
+    const Sweep heavier = sweep(0, 3, 0.1, drawing);
+    EXPECT_LT(heavier.worst_step, 0.02) << "at 10^" << heavier.worst_at;
+}
+
+/// A second reader's contour, half a mm wider, from beside a plane to the next one that was drawn. In the plane itself it
+/// would make a hole of the narrower one.
+TEST(Continuity, VolumeChangesLittleAsAPlaneIsDrawnTwice) {
+    const double once_ml = volume_ml(sections({-16, -8, 0, 8, 16}));
+    const auto drawing = [](double mm) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        set.contours.push_back(scaled(section({0, 0, mm}, {0, 0, 1}), 1.0125));
+        return set;
+    };
+    const Sweep apart = sweep(0.1, 8, 0.4, drawing);
+    EXPECT_LT(apart.worst_step, 0.01) << "at " << apart.worst_at << " mm";
+    EXPECT_GT(apart.least_ml, 0.99 * once_ml);
+    EXPECT_LT(apart.most_ml, 1.02 * once_ml);
+}
+
+/// As with a brush or a control point: a bulge of a fifth of the outline.
+TEST(Continuity, VolumeFollowsABulgeThatIsPulledOutOfAContour) {
+    const auto drawing = [](double mm) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        for (Vec3& p : set.contours[2].points) {
+            const double away = (std::atan2(p.y, p.x) - 0.9) / 0.35;
+            p += mm * std::exp(-away * away) * normalized(p);
+        }
+        return set;
+    };
+    const Sweep pulled = sweep(-10, 14, 0.8, drawing);
+    EXPECT_LT(pulled.worst_step, 0.01) << "at " << pulled.worst_at << " mm";
+}
+
+TEST(Continuity, VolumeFollowsAContourThatIsDraggedInItsPlane) {
+    const auto drawing = [](double mm) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        for (Vec3& p : set.contours[2].points) p.x += mm;
+        return set;
+    };
+    const Sweep dragged = sweep(0, 16, 0.8, drawing);
+    EXPECT_LT(dragged.worst_step, 0.01) << "at " << dragged.worst_at << " mm";
+}
+
 TEST(Continuity, VolumeChangesLittleAsAPointIsDraggedAcrossAContour) {
     const auto drawing = [](double mm) {
         ContourSet set = sections({-16, -8, 0, 8, 16});

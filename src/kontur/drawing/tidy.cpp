@@ -8,6 +8,7 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/drawing/ring_starts.h"
 
 namespace kontur {
 namespace {
@@ -105,6 +106,10 @@ private:
 void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
     const std::size_t most = std::max<std::size_t>(options.most_points, 4);
     if (contour.points.size() <= most) return;
+    ContourSet alone;
+    alone.contours = {contour};
+    begin_alike(alone, smallest_ball(contour.points));  // what is kept follows from where one begins
+    contour = std::move(alone.contours.front());
     const Significance significance(contour);
     std::vector<double> sorted = significance.values();
     const auto last_kept = sorted.begin() + static_cast<std::ptrdiff_t>(most);

@@ -25,7 +25,8 @@ struct Tidied {
 bool is_only_spikes(const Contour& contour, double spike_tolerance_mm);
 
 /// Takes out what carries no shape: spikes, whose tip and way back enclose nothing, and the excess of contours with more
-/// than `most_points` points. Thinning keeps the corners that Douglas and Peucker (1973) would; shorter contours keep every
+/// than `most_points` points. Thinning keeps the corners that Douglas and Peucker (1973) would; closed ones
+/// begin then as begin_alike says, so that the same points are kept however they are stored. Shorter contours keep every
 /// point. O(n log n) for n points of a drawn line, O(n^2) at worst. Throws Error(invalid_input), naming the contour, when
 /// nothing is left of it.
 Tidied tidy(ContourSet& set, const TidyOptions& options = {});

@@ -78,7 +78,7 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.input.path), images))
             console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
-    if (is_dicom_name(output) && by_itself)
+    if (by_itself && (is_dicom_name(output) || has_extension(output, ".seg.nrrd")))
         return console.note(write_structures(output, structures_of(command, console), images, made, console.work()));
     const Image image = read_labels(input, command.label, console.work());
     console.note(write_image(output, image, input, images, made, console.work()));

@@ -6,6 +6,8 @@
 #include "kontur/base/error.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/dicom_seg.h"
+#include "kontur/io/nrrd.h"
+#include "kontur/io/segment_tags.h"
 
 namespace kontur::app {
 namespace {
@@ -25,14 +27,6 @@ std::string parameters(const SegmentReport& report, const Provenance& provenance
     std::string text = fmt::format("contours={} points={}", report.contours, report.points);
     for (const auto& [name, value] : provenance) text += fmt::format("; {}: {}", name, value);
     return text;
-}
-
-std::vector<LabelName> label_names(const std::vector<DicomSegment>& segments) {
-    std::vector<LabelName> names;
-    for (const DicomSegment& segment : segments) {
-        names.push_back({segment.number, segment.label, to_levels(segment.color.value_or(kStructureColor))});
-    }
-    return names;
 }
 
 }  // namespace
@@ -93,10 +87,12 @@ std::vector<std::string> write_contours(const fs::path& path, const ContourSet& 
 std::vector<std::string> write_mask(const fs::path& path, const Segmentation& result, const StructureAttributes& attributes,
                                     const ImageInput& images, const WriteMaskOptions& options, const Work& work) {
     if (!is_dicom_name(path)) {
-        kontur::write_mask(path, result.mask, options);
+        WriteMaskOptions said = options;
+        said.segment_tags = tags_of_terms({attributes.category, attributes.code});
+        kontur::write_mask(path, result.mask, said);
         return {};
     }
-    DicomSegment segment = segment_like(attributes);
+    DicomSegment segment = fitted_segment(attributes);
     segment.label = options.segment_name;
     segment.color = to_rgb8(options.segment_color);
     const DicomAlgorithm algorithm{"kontur variational interpolation", KONTUR_VERSION,
@@ -109,7 +105,7 @@ std::vector<std::string> write_image(const fs::path& path, const Image& image, c
                                      const ImageInput& images, const Provenance& provenance, const Work& work) {
     if (!is_dicom_name(path)) {
         const bool has_names = has_extension(path, ".seg.nrrd");
-        const std::vector<LabelName> names = has_names ? label_names(named_segments(source)) : std::vector<LabelName>{};
+        const std::vector<LabelName> names = has_names ? label_names(source) : std::vector<LabelName>{};
         kontur::write_image(path, image, {names, provenance});
         return {};
     }
@@ -118,6 +114,16 @@ std::vector<std::string> write_image(const fs::path& path, const Image& image, c
 
 std::vector<std::string> write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,
                                           const Provenance& provenance, const Work& work) {
+    if (!is_dicom_name(path)) {
+        std::vector<NrrdSegment> segments;
+        for (std::size_t n = 0; n < structures.segments.size(); ++n) {
+            const DicomSegment& one = structures.segments[n];
+            segments.push_back({.name = one.label, .color = to_levels(one.color.value_or(kStructureColor))});
+            segments.back().tags = n < structures.tags.size() ? structures.tags[n] : tags_of_terms({one.category, one.code});
+        }
+        write_seg_nrrd_masks(path, structures.masks, segments, provenance);
+        return {};
+    }
     return write_dicom_seg_masks(path, structures.masks, structures.segments, series_of(images), {.provenance = provenance},
                                  work);
 }

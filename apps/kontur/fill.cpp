@@ -10,6 +10,7 @@
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "facts.h"
+#include "fill_structures.h"
 #include "input_digests.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
@@ -85,6 +86,29 @@ std::string slices_of(const FilledLabel& one) {
     return text;
 }
 
+/// What was painted on, where it is to be asked and can be read; else it is said why not.
+std::optional<Image> asked_image(const FillCommand& command, const ImageInput& images, const Work& work, Console& console,
+                                 std::vector<std::string>& warnings) {
+    if (command.image.empty() || command.options.use_image == UseImage::off) return {};
+    std::string unused;
+    std::optional<Image> image = readable_image(images, work, unused);
+    if (!unused.empty()) {
+        console.warn(unused);
+        warnings.push_back(std::move(unused));
+    }
+    return image;
+}
+
+/// What `fill` makes; errors name the input.
+template <class Fill>
+auto named(const ImageInput& input, const Fill& fill) {
+    try {
+        return fill();
+    } catch (const Error& error) {
+        throw error.with_context(input.path.string());
+    }
+}
+
 }  // namespace
 
 FillReport fill_files(const FillCommand& command, Console& console, const Work& work) {
@@ -94,28 +118,27 @@ FillReport fill_files(const FillCommand& command, Console& console, const Work& 
     if (is_dicom_name(command.output))
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(input.path), images))
             console.warn(note);
+    const bool overlaps = may_overlap(input);
+    if (overlaps) check_room_for_overlap(command);
     std::vector<std::string> warnings;
-    Filling filling = [&] {
+    Filling filling;
+    FilledStructures each;
+    if (overlaps) {
+        const std::optional<Image> image = asked_image(command, images, work, console, warnings);
+        each = named(input, [&] { return fill_structures(input, image ? &*image : nullptr, command.options, work); });
+        filling.report = each.report;
+    } else {
         Image labels = read_labels(input, {}, work);
-        std::optional<Image> image;
-        if (!command.image.empty() && command.options.use_image != UseImage::off) {
-            std::string unused;
-            image = readable_image(images, work, unused);
-            if (!unused.empty()) {
-                console.warn(unused);
-                warnings.push_back(std::move(unused));
-            }
-        }
-        try {
-            return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, work);
-        } catch (const Error& error) {
-            throw error.with_context(input.path.string());
-        }
-    }();
+        const std::optional<Image> image = asked_image(command, images, work, console, warnings);
+        filling =
+            named(input, [&] { return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, work); });
+    }
     const Provenance made = provenance_of(command, work);
     Outputs outputs;
-    outputs.write(command.output,
-                  [&](const fs::path& path) { console.note(write_image(path, filling.labels, input, images, made, work)); });
+    outputs.write(command.output, [&](const fs::path& path) {
+        console.note(overlaps ? write_filled(path, each, images, made, work)
+                              : write_image(path, filling.labels, input, images, made, work));
+    });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {
             write_file_atomically(path, to_json_text(report_of(filling.report, warnings, made)));

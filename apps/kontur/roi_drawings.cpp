@@ -49,15 +49,38 @@ StructurePair rule_of(const char* option, const std::string& words, Relation rel
     refuse(fmt::format("{} is '{}'; two different ROIs of {} are needed, with a colon between them", option, words, names));
 }
 
+/// Of all ROIs those that `check` throws Error for are left out, and a note says why; of named ones it is thrown.
+template <class Check>
+void leave_out(RoiDrawings& drawings, bool takes_all, const Check& check) {
+    std::vector<Roi> kept;
+    for (Roi& roi : drawings.rois) {
+        try {
+            check(roi.contours);
+            kept.push_back(std::move(roi));
+        } catch (const Error& error) {
+            if (!takes_all || (kept.empty() && &roi == &drawings.rois.back()))
+                throw error.with_context(fmt::format("ROI '{}'", roi.name));
+            drawings.notes.push_back(fmt::format("the ROI '{}' is left out: {}", roi.name, error.what()));
+            drawings.left_out.push_back({std::move(roi), error.what()});
+        }
+    }
+    drawings.rois = std::move(kept);
+}
+
+/// Of all ROIs those in which nothing is drawn. Many plans have such; of those that lost all by reading it is said why.
+void leave_out_empty(RoiDrawings& drawings, const StructureSet& set) {
+    for (const Roi& roi : set.rois) {
+        if (!roi.contours.contours.empty() || !roi.damage.empty()) continue;
+        for (const std::string& note : roi.notes)
+            drawings.notes.push_back(fmt::format("the ROI '{}' is left out: {}", roi.name, note));
+        drawings.left_out.push_back({roi, contour_problems(roi.contours).front()});
+    }
+}
+
 /// Of all that was drawn, once it is known to make sense.
 Box3 box_of(const std::vector<Roi>& rois) {
     Box3 box;
     for (const Roi& roi : rois) {
-        try {
-            check_contours(roi.contours);
-        } catch (const Error& error) {
-            throw error.with_context(fmt::format("ROI '{}'", roi.name));
-        }
         const Box3 its = bounding_box(roi.contours);
         box.extend(its.min);
         box.extend(its.max);
@@ -70,7 +93,8 @@ Box3 box_of(const std::vector<Roi>& rois) {
 RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
     const std::filesystem::path& file = command.contours.front();
     const StructureSet set = read_rtstruct(file);
-    RoiDrawings drawings{{}, {}, {}, set.notes};
+    RoiDrawings drawings{.notes = set.notes};
+    if (command.all_rois) leave_out_empty(drawings, set);
     for (const std::string& name : names_of(command, set)) {
         try {
             const Roi roi = select_roi(set, name);
@@ -83,6 +107,7 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
             throw error.with_context(file.string());
         }
     }
+    leave_out(drawings, command.all_rois, [](const ContourSet& contours) { check_contours(contours); });
     for (std::string& note : frame_of_reference_notes(drawings.rois.front().frame_of_reference_uid, command.image))
         drawings.notes.push_back(std::move(note));
     if (command.image.path.empty()) {
@@ -92,11 +117,15 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
     DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, drawings.notes);
     drawings.grid = drawn_on.grid;
     drawings.image = std::move(drawn_on.image);
+    leave_out(drawings, command.all_rois,
+              [&](const ContourSet& contours) { check_contours_inside(contours, drawings.grid); });
     return drawings;
 }
 
-std::vector<StructurePair> roi_rules(const SegmentCommand& command, const std::vector<Roi>& rois) {
+std::vector<StructurePair> roi_rules(const SegmentCommand& command, const RoiDrawings& drawings) {
     std::vector<StructurePair> rules;
+    std::vector<Roi> rois = drawings.rois;
+    for (const LeftOutRoi& one : drawings.left_out) rois.push_back(one.roi);
     const auto add = [&](const char* option, const std::vector<std::string>& all, Relation relation) {
         for (const std::string& words : all) {
             const StructurePair rule = rule_of(option, words, relation, rois);
@@ -110,6 +139,8 @@ std::vector<StructurePair> roi_rules(const SegmentCommand& command, const std::v
     add("--inside", command.inside, Relation::inside);
     add("--may-overlap", command.may_overlap, Relation::overlap);
     add("--exclusive", command.exclusive, Relation::exclusive);
+    std::erase_if(rules,
+                  [&](const StructurePair& rule) { return std::max(rule.first, rule.second) >= drawings.rois.size(); });
     return rules;
 }
 

@@ -12,20 +12,28 @@
 
 namespace kontur::app {
 
-/// What is read once for all ROIs.
-struct RoiDrawings {
-    std::vector<Roi> rois;  ///< as named
-    Grid grid;
-    std::optional<Image> image;  ///< only where its voxels matter
-    std::vector<std::string> notes;
+/// One of all ROIs that cannot be segmented here.
+struct LeftOutRoi {
+    Roi roi;
+    std::string reason;
 };
 
-/// The ROIs and the image that a command names. Throws as the readers do, and Error(invalid_input) for a ROI that has no
-/// contour or is named twice.
+/// What is read once for all ROIs.
+struct RoiDrawings {
+    std::vector<Roi> rois{};             ///< as named
+    std::vector<LeftOutRoi> left_out{};  ///< of --all-rois
+    Grid grid{};
+    std::optional<Image> image{};  ///< only where its voxels matter
+    std::vector<std::string> notes{};
+};
+
+/// The ROIs and the image that a command names. Of --all-rois those whose contours cannot be segmented or lie outside of the
+/// image are left out, unless that are all. Throws as the readers do, for a damaged ROI, and Error(invalid_input) for a ROI
+/// that has no contour or is named twice.
 RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work);
 
-/// What a command says about pairs of ROIs, by their positions. Throws Error(invalid_input) for words that do not name two
-/// of them.
-std::vector<StructurePair> roi_rules(const SegmentCommand& command, const std::vector<Roi>& rois);
+/// What a command says about pairs of ROIs, by their positions; nothing about those that are left out. Throws
+/// Error(invalid_input) for words that do not name two of them.
+std::vector<StructurePair> roi_rules(const SegmentCommand& command, const RoiDrawings& drawings);
 
 }  // namespace kontur::app

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "roi_outputs.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/region_mesh.h"
+#include "kontur/io/segment_tags.h"
 #include "kontur/report.h"
 
 namespace kontur::app {
@@ -23,6 +28,24 @@ Facts pairs_of(const std::vector<StructurePair>& pairs, const std::vector<Fitted
 
 }  // namespace
 
+void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box) {
+    outlines.name = one.roi.name;
+    outlines.attributes = std::move(one.roi.contours.attributes);
+    one.roi.contours = std::move(outlines);
+    all.push_back(std::move(one));
+    DicomSegment& segment = all.back().segment;
+    segment.number = static_cast<std::int64_t>(all.size());
+    if (!is_dicom_name(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
+    if (std::find(mask.values.begin(), mask.values.end(), 1) == mask.values.end()) {
+        segment.number = 0;
+        notes.push_back(fmt::format("'{}' has no voxels of this grid and is no segment of the SEG", segment.label));
+        return;
+    }
+    segment.number = static_cast<std::int64_t>(structures.segments.size() + 1);
+    structures.segments.push_back(segment);
+    structures.masks.push_back(std::move(mask));
+}
+
 Facts roi_report(const RoiResults& result, const Provenance& made) {
     Facts structures = Facts::array();
     for (const FittedRoi& one : result.all) {
@@ -34,6 +57,8 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
     for (const auto& [name, value] : made) provenance[name] = value;
     Facts report{
         {"version", KONTUR_VERSION}, {"provenance", provenance}, {"structures", structures}, {"warnings", result.notes}};
+    for (const LeftOutRoi& one : result.left_out)
+        report["left_out"].push_back({{"name", one.roi.name}, {"number", one.roi.number}, {"reason", one.reason}});
     if (result.together)
         report["together"] = {{"pairs", pairs_of(result.together->pairs, result.all)},
                               {"contested_voxels", result.together->contested_voxels},
@@ -48,7 +73,8 @@ std::vector<std::string> write_label_map(const fs::path& path, const RoiResults&
     std::vector<std::string> words;
     for (const FittedRoi& one : result.all) {
         words.push_back(one.segment.label);
-        names.push_back({one.segment.number, one.segment.label, to_levels(*one.segment.color)});
+        names.push_back({one.segment.number, one.segment.label, to_levels(*one.segment.color),
+                         tags_of_terms({one.segment.category, one.segment.code})});
     }
     kontur::write_image(path, result.labels.image(), {names, made});
     return result.labels.notes(words);

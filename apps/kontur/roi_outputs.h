@@ -12,6 +12,7 @@
 #include "kontur/io/rtstruct.h"
 #include "kontur/labels/shared_surface.h"
 #include "kontur/segment_together.h"
+#include "roi_drawings.h"
 #include "roi_label_map.h"
 
 namespace kontur::app {
@@ -26,22 +27,19 @@ struct FittedRoi {
 
 /// What all ROIs became.
 struct RoiResults {
-    std::vector<FittedRoi> all;
-    RoiLabelMap labels;                    ///< unless a SEG is asked for
-    Structures structures;                 ///< of a SEG, which keeps all voxels
-    std::optional<SharedSurface> surface;  ///< where a mesh is asked for
-    std::optional<Together> together;      ///< without the structures: what they are to each other
+    std::vector<FittedRoi> all{};
+    std::vector<LeftOutRoi> left_out;
+    RoiLabelMap labels;                      ///< unless a SEG is asked for
+    Structures structures{};                 ///< of a SEG, which keeps all voxels
+    std::optional<SharedSurface> surface{};  ///< where a mesh is asked for
+    std::optional<Together> together{};      ///< without the structures: what they are to each other
     std::vector<std::string> notes;
 
-    void add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box) {
-        outlines.name = one.roi.name;
-        outlines.attributes = std::move(one.roi.contours.attributes);
-        one.roi.contours = std::move(outlines);
-        all.push_back(std::move(one));
-        if (!is_dicom_name(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
-        structures.segments.push_back(all.back().segment);
-        structures.masks.push_back(std::move(mask));
-    }
+    explicit RoiResults(const RoiDrawings& drawings)
+        : left_out(drawings.left_out), labels(drawings.grid), notes(drawings.notes) {}
+
+    /// A structure without voxels is none of a SEG's segments, and gets the label 0 there.
+    void add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box);
 };
 
 /// The content of --report.

@@ -67,8 +67,7 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
     StructureAttributes attributes = fitted_attributes(roi.contours.attributes);
     if (!attributes.color) attributes.color = kColors[n % kColors.size()];
     FittedRoi fitted;
-    fitted.segment = segment_like(attributes);
-    fitted.segment.number = static_cast<std::int64_t>(n + 1);
+    fitted.segment = fitted_segment(attributes);
     fitted.segment.label = roi.name;
     fitted.made = provenance(roi.contours, drawings.grid, result.report);
     fitted.report = std::move(result.report);
@@ -80,7 +79,7 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
 }
 
 RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
-    RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
+    RoiResults result(drawings);
     const Image* const image = drawings.image ? &*drawings.image : nullptr;
     const Index3& size = drawings.grid.size;
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
@@ -105,10 +104,10 @@ std::string sentence(const StructurePair& pair, const std::vector<Roi>& rois) {
 }
 
 RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
-    RoiResults result{{}, RoiLabelMap(drawings.grid), {}, {}, {}, drawings.notes};
+    RoiResults result(drawings);
     std::vector<ContourSet> contours;
     for (const Roi& roi : drawings.rois) contours.push_back(roi.contours);
-    const TogetherOptions options{.segment = command.options, .rules = roi_rules(command, drawings.rois)};
+    const TogetherOptions options{.segment = command.options, .rules = roi_rules(command, drawings)};
     Together all = segment_together(contours, drawings.grid, drawings.image ? &*drawings.image : nullptr, options, work);
     for (const StructurePair& pair : all.pairs) {
         if (pair.relation == Relation::inside)
@@ -116,8 +115,9 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
                                      static_cast<std::uint16_t>(pair.second + 1));
         result.notes.push_back(sentence(pair, drawings.rois));
     }
-    result.notes.push_back(counted(all.closed_voxels, "voxel") + " between structures that touch " +
-                           (all.closed_voxels == 1 ? "was" : "were") + " given to the nearest");
+    if (all.closed_voxels > 0)
+        result.notes.push_back(counted(all.closed_voxels, "voxel") + " between structures that touch " +
+                               (all.closed_voxels == 1 ? "was" : "were") + " given to the nearest");
     if (all.borrowed_points > 0)
         result.notes.push_back(fmt::format("{} of borders that one structure alone has drawn count{} for its neighbour, too",
                                            counted(all.borrowed_points, "point"), all.borrowed_points == 1 ? "s" : ""));

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/image.h"
 #include "kontur/io/nrrd.h"
+#include "kontur/io/segment_tags.h"
 
 namespace kontur::app {
 namespace {
@@ -18,7 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 DicomSegment to_dicom(const NrrdSegment& segment) {
-    return {.number = segment.label_value, .label = segment.name, .color = to_rgb8(segment.color)};
+    const SegmentTerms terms = terms_in_tags(segment.tags);
+    return {.number = segment.label_value,
+            .label = segment.name,
+            .color = to_rgb8(segment.color),
+            .category = terms.category,
+            .code = terms.code};
 }
 
 std::vector<NrrdSegment> nrrd_segments(const fs::path& path) {
@@ -40,6 +45,7 @@ Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& 
             layers.emplace(segment.layer, read_image(input.path, options, work));
         }
         found.segments.push_back(to_dicom(segment));
+        found.tags.push_back(segment.tags);
         found.masks.push_back(select_label(layers.at(segment.layer), static_cast<double>(segment.label_value)));
     }
     return found;
@@ -56,6 +62,7 @@ Structures without_empty(Structures found, const ImageInput& input) {
         }
         kept.segments.push_back(std::move(found.segments[s]));
         kept.masks.push_back(std::move(found.masks[s]));
+        if (s < found.tags.size()) kept.tags.push_back(std::move(found.tags[s]));
     }
     return kept;
 }
@@ -67,31 +74,6 @@ std::string stem(const fs::path& path) {
 }
 
 }  // namespace
-
-std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& color) {
-    std::array<std::uint8_t, 3> result{};
-    std::transform(color.begin(), color.end(), result.begin(),
-                   [](double level) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(level, 0.0, 1.0))); });
-    return result;
-}
-
-std::array<double, 3> to_levels(const std::array<std::uint8_t, 3>& color) {
-    return {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0};
-}
-
-DicomSegment segment_like(const StructureAttributes& attributes) {
-    return {.label = "",
-            .algorithm_name = "kontur",
-            .color = attributes.color,
-            .description = attributes.description,
-            .category = attributes.category,
-            .code = attributes.code};
-}
-
-StructureAttributes fitted_attributes(StructureAttributes drawn) {
-    drawn.generation_algorithm = "SEMIAUTOMATIC";
-    return drawn;
-}
 
 Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, const Work& work) {
     if (label && is_dicom_seg(input.path)) {
@@ -117,6 +99,21 @@ std::vector<DicomSegment> named_segments(const ImageInput& source) {
     for (const NrrdSegment& segment : nrrd_segments(source.path))
         if (segment.layer == source.options.frame.value_or(0)) segments.push_back(to_dicom(segment));
     return segments;
+}
+
+std::vector<LabelName> label_names(const ImageInput& source) {
+    std::vector<LabelName> names;
+    const auto add = [&](const DicomSegment& segment, std::string tags) {
+        const auto color = segment.color.value_or(kStructureColor);
+        names.push_back({segment.number, segment.label, to_levels(color), std::move(tags)});
+    };
+    const bool is_seg = is_dicom_seg(source.path);
+    for (const NrrdSegment& segment : is_seg ? std::vector<NrrdSegment>{} : nrrd_segments(source.path))
+        if (segment.layer == source.options.frame.value_or(0)) add(to_dicom(segment), segment.tags);
+    if (is_seg)
+        for (const DicomSegment& segment : read_dicom_segmentation(source.path).segments)
+            add(segment, tags_of_terms({segment.category, segment.code}));
+    return names;
 }
 
 std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& source) {

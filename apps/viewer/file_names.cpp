@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "kontur/shape/structure_attributes.h"
+
 namespace kontur::viewer {
 
 std::string plain_name(const std::string& name) {
@@ -15,11 +17,7 @@ std::string plain_name(const std::string& name) {
     return plain.empty() ? "structure" : plain;
 }
 
-std::array<double, 3> rgb(const std::string& color) {
-    std::array<double, 3> parts{};
-    for (std::size_t i = 0; i < 3; ++i) parts[i] = rgb8(color)[i] / 255.0;
-    return parts;
-}
+std::array<double, 3> rgb(const std::string& color) { return to_levels(rgb8(color)); }
 
 std::array<std::uint8_t, 3> rgb8(const std::string& color) {
     std::array<std::uint8_t, 3> levels{};

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -19,6 +17,7 @@
 #include "kontur/io/image.h"
 #include "kontur/io/nrrd.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/io/segment_tags.h"
 #include "kontur/shape/repeated_contours.h"
 #include "viewer/views.h"
 
@@ -133,21 +132,17 @@ Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }
 
-std::array<std::uint8_t, 3> rgb8(const std::array<double, 3>& levels) {
-    std::array<std::uint8_t, 3> color{};
-    std::ranges::transform(levels, color.begin(), [](double level) {
-        return static_cast<std::uint8_t>(std::lround(255 * std::clamp(level, 0.0, 1.0)));
-    });
-    return color;
-}
-
 /// What 3D Slicer's segmentations say of their labels.
 std::map<std::int64_t, Traced> named_labels(const fs::path& path) {
     std::map<std::int64_t, Traced> named;
     if (path.extension() != ".nrrd") return named;
     for (const NrrdSegment& segment : read_nrrd_segments(path))
-        if (segment.layer == 0)
-            named[segment.label_value] = {segment.name, StructureAttributes{.color = rgb8(segment.color)}};
+        if (segment.layer == 0) {
+            const SegmentTerms terms = terms_in_tags(segment.tags);
+            named[segment.label_value] = {
+                segment.name,
+                StructureAttributes{.color = to_rgb8(segment.color), .category = terms.category, .code = terms.code}};
+        }
     return named;
 }
 

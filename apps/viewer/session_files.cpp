@@ -12,6 +12,7 @@
 #include "kontur/io/image.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/png.h"
+#include "kontur/io/segment_tags.h"
 #include "kontur/segment.h"
 #include "kontur/view/picture.h"
 #include "viewer/file_names.h"
@@ -47,6 +48,7 @@ void write_mask_file(const fs::path& path, const FittedStructure& one) {
     WriteMaskOptions options;
     options.segment_name = one.structure.name;
     options.segment_color = rgb(one.structure.color);
+    options.segment_tags = tags_of_terms({one.set.attributes.category, one.set.attributes.code});
     options.provenance = provenance(one.set, one.made.mask.grid, one.made.report);
     write_mask(path, one.made.mask, options);
 }

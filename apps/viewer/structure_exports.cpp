@@ -15,6 +15,7 @@
 #include "kontur/io/image.h"
 #include "kontur/io/mesh.h"
 #include "kontur/io/rtstruct.h"
+#include "kontur/io/segment_tags.h"
 #include "kontur/labels/section_contours.h"
 #include "kontur/segment_together.h"
 #include "viewer/border_sharing.h"
@@ -71,7 +72,8 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     WriteImageOptions options;
     options.provenance = together(all);
     for (std::size_t n = 0; n < all.size(); ++n)
-        options.names.push_back({static_cast<std::int64_t>(n + 1), all[n].structure.name, rgb(all[n].structure.color)});
+        options.names.push_back({static_cast<std::int64_t>(n + 1), all[n].structure.name, rgb(all[n].structure.color),
+                                 tags_of_terms({all[n].set.attributes.category, all[n].set.attributes.code})});
     Image image{all.front().made.mask.grid, labels};
     if (all.size() <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
     write_image(path, image, options);
@@ -89,14 +91,9 @@ std::vector<std::string> write_seg(const fs::path& path, const All& all, const D
     std::vector<DicomSegment> segments;
     for (const FittedStructure& one : all) {
         masks.push_back(one.made.mask);
-        const StructureAttributes& attributes = one.set.attributes;
-        segments.push_back({.number = static_cast<std::int64_t>(segments.size() + 1),
-                            .label = one.structure.name,
-                            .algorithm_name = "kontur",
-                            .color = attributes.color,
-                            .description = attributes.description,
-                            .category = attributes.category,
-                            .code = attributes.code});
+        segments.push_back(fitted_segment(one.set.attributes));
+        segments.back().number = static_cast<std::int64_t>(segments.size());
+        segments.back().label = one.structure.name;
     }
     return write_dicom_seg_masks(
         path, masks, segments, images,
@@ -111,8 +108,7 @@ std::vector<std::string> write_regions(const fs::path& path, const All& all, con
         roi.contours =
             one.shares_border ? slice_outlines(one.made.mask) : slice_contours(one.made.mask, one.made.function, work);
         roi.contours.name = one.structure.name;
-        roi.contours.attributes = one.set.attributes;
-        roi.contours.attributes.generation_algorithm = "SEMIAUTOMATIC";
+        roi.contours.attributes = fitted_attributes(one.set.attributes);
         set.rois.push_back(std::move(roi));
     }
     WriteRtstructOptions options;

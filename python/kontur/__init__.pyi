@@ -1615,6 +1615,7 @@ def write_image(
     *,
     provenance: dict[str, str] | None = None,
     label_names: dict[int, str] = ...,
+    label_tags: dict[int, str] = ...,
 ) -> None: ...
 
 def write_markups(path: _Path, contours: ContourSet, provenance: dict[str, str] | None = None) -> None: ...
@@ -1627,6 +1628,7 @@ def write_mask(
     label_value: int = 1,
     segment_name: str = "Segment_1",
     segment_color: Sequence[float] = ...,
+    segment_tags: str = "",
 ) -> None: ...
 
 def write_mesh(path: _Path, mesh: TriangleMesh, provenance: dict[str, str] | None = None) -> None: ...

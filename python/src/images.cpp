@@ -94,7 +94,10 @@ Mask
         Keywords<WriteMaskOptions>()
             .field("label_value", &WriteMaskOptions::label_value, "Value inside, 1 to 65535.")
             .field("segment_name", &WriteMaskOptions::segment_name, "For .seg.nrrd.")
-            .field("segment_color", &WriteMaskOptions::segment_color, "For .seg.nrrd: red, green, blue from 0 to 1.");
+            .field("segment_color", &WriteMaskOptions::segment_color, "For .seg.nrrd: red, green, blue from 0 to 1.")
+            .field(
+                "segment_tags", &WriteMaskOptions::segment_tags,
+                "For .seg.nrrd: tags of 3D Slicer, NAME:VALUE with bars between them; 'TerminologyEntry' says what it is.");
     define(
         m, "write_mask", R"(Writes a mask, whole or not at all.
 
@@ -124,17 +127,21 @@ image : Image
 @provenance
 label_names : dict of int to str, optional
     For .seg.nrrd: the names of labels; others are called 'label N'.
+label_tags : dict of int to str, optional
+    For .seg.nrrd: tags of labels that have a name, as `segment_tags` of `write_mask`.
 )",
         [](const fs::path& path, const Image& image, const py::object& provenance,
-           const std::map<std::int64_t, std::string>& label_names) {
+           const std::map<std::int64_t, std::string>& label_names, const std::map<std::int64_t, std::string>& label_tags) {
             WriteImageOptions options;
             options.provenance = provenance_from(provenance);
             for (const auto& [label, name] : label_names) options.names.push_back({label, name});
+            for (LabelName& one : options.names)
+                if (const auto tags = label_tags.find(one.label); tags != label_tags.end()) one.tags = tags->second;
             const ReleasedLock released;
             write_image(path, image, options);
         },
         py::arg("path"), py::arg("image"), py::kw_only(), py::arg("provenance") = py::none(),
-        py::arg("label_names") = py::dict());
+        py::arg("label_names") = py::dict(), py::arg("label_tags") = py::dict());
 }
 
 }  // namespace kontur::python

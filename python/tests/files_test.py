@@ -166,3 +166,14 @@ def test_reslice_outline_and_window(case, kidney):
     assert image.samples.min() < centre_hu < image.samples.max() and width_hu > 0
     lines = kontur.outline(kidney.mesh, plane)
     assert lines and all(closed and abs(plane.distance_to(points)).max() < 1e-9 for points, closed in lines)
+
+
+def test_what_3d_slicer_says_of_segments_is_written(tmp_path):
+    grid = kontur.Grid((4, 3, 2), numpy.eye(4), "LPS")
+    tags = "TerminologyEntry:A~SCT^123037004^Anatomical Structure~SCT^10200004^Liver~^^~B~^^~^^|"
+    labels = kontur.Image(numpy.arange(24, dtype="float32").reshape(2, 3, 4) % 3, grid)
+    kontur.write_image(tmp_path / "a.seg.nrrd", labels, label_names={1: "liver", 2: "cyst"}, label_tags={1: tags})
+    header = (tmp_path / "a.seg.nrrd").read_bytes()
+    assert b"type: uint8" in header and f"Segment0_Tags:={tags}\n".encode() in header and b"Segment1_Tags:=\n" in header
+    kontur.write_mask(tmp_path / "b.seg.nrrd", kontur.Mask(numpy.ones((2, 3, 4)), grid), segment_tags=tags)
+    assert f"Segment0_Tags:={tags}\n".encode() in (tmp_path / "b.seg.nrrd").read_bytes()

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -12,59 +14,22 @@
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 #include "kontur/base/stopwatch.h"
+#include "kontur/labels/fill_range.h"
 #include "kontur/labels/filled_map.h"
 #include "kontur/labels/gaps.h"
 #include "kontur/labels/outline_noise.h"
 #include "kontur/labels/painted_object.h"
+#include "kontur/labels/scattered.h"
 #include "kontur/labels/shape_interpolation.h"
 #include "kontur/segment.h"
 
 namespace kontur {
 namespace {
 
-/// The largest distance in mm of neighbouring slices; 0 for single ones.
-double largest_gap_mm(const PaintedObject& object) {
-    double gap = 0;
-    const Vec3 spacing = object.grid.spacing_mm();
-    for (std::size_t n = 1; n < object.slices.size(); ++n) {
-        const PaintedSlice &low = object.slices[n - 1], &high = object.slices[n];
-        if (low.axis == high.axis) gap = std::max(gap, spacing[low.axis] * static_cast<double>(high.index - low.index));
-    }
-    return gap;
-}
-
-/// Where an object may be filled. Between parallel slices it may be wider than on them, by less than they are apart. Slices
-/// of several directions show its extent; between them it bulges.
-IndexBox range_of(const PaintedObject& object, const Grid& image, FillEnds ends) {
-    const Vec3 spacing = image.spacing_mm();
-    const IndexBox& box = object.found.box;
-    const int axis = object.only_axis();
-    const double gap_mm = largest_gap_mm(object);
-    Index3 margin;
-    for (int a = 0; a < 3; ++a) {
-        const double bulge_mm = axis >= 0 ? gap_mm : 0.25 * spacing[a] * static_cast<double>(box.size()[a]);
-        margin[a] = 3 + static_cast<std::int64_t>(std::ceil(bulge_mm / spacing[a]));
-    }
-    IndexBox range = box.padded(margin, image.size);
-    if (axis < 0 || ends == FillEnds::open) return range;
-    const std::vector<std::int64_t> slices = object.indices(axis);
-    const std::size_t last = slices.size() - 1;
-    const auto beyond = [&](std::size_t a, std::size_t b) {
-        return ends == FillEnds::half && last > 0 ? (slices[b] - slices[a]) / 2 : 0;
-    };
-    range.low[axis] = std::max<std::int64_t>(slices[0] - beyond(0, 1), 0);
-    range.high[axis] = std::min<std::int64_t>(slices[last] + beyond(last - 1, last), image.size[axis] - 1);
-    return range;
-}
-
-/// Whether a voxel of the range is unknown.
-bool is_anything_left_out(const PaintedObject& object, const IndexBox& range) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto first = object.is_whole[static_cast<std::size_t>(axis)].begin();
-        const auto low = static_cast<std::ptrdiff_t>(range.low[axis]), high = static_cast<std::ptrdiff_t>(range.high[axis]);
-        if (std::all_of(first + low, first + high + 1, [](bool whole) { return whole; })) return false;
-    }
-    return true;
+/// In gaps between slices.
+double beyond(FillEnds ends) {
+    if (ends == FillEnds::open) return std::numeric_limits<double>::infinity();
+    return ends == FillEnds::half ? 0.5 : 0;
 }
 
 /// By which factor the image makes the variance of the fit smaller; 1 where it is not used.
@@ -111,7 +76,7 @@ public:
         double widest_mm = 0;
         for (const PaintedObject* object : objects) widest_mm = std::max(widest_mm, largest_gap_mm(*object));
         if (largest_gap_mm(all) > widest_mm) return;  // painted in turns: each is better known than the union
-        const IndexBox range = range_of(all, grid(), options_.ends);
+        const IndexBox range = range_to_fill(all, grid(), beyond(options_.ends));
         if (!is_anything_left_out(all, range)) return;
         Segmentation result = segment_object(all, range, nullptr, {});
         follow_shapes(all, range, result);
@@ -290,15 +255,9 @@ void or_warn(std::int64_t label, std::vector<std::string>& warnings, const Task&
 }  // namespace
 
 std::string_view name(FillEnds ends) noexcept {
-    switch (ends) {
-        case FillEnds::closed:
-            return "closed";
-        case FillEnds::half:
-            return "half";
-        case FillEnds::open:
-            return "open";
-    }
-    return "?";
+    constexpr std::array<std::string_view, 3> kNames{"closed", "half", "open"};
+    const auto n = static_cast<std::size_t>(ends);
+    return n < kNames.size() ? kNames[n] : "?";
 }
 
 Filling fill_labels(Image labels, const FillOptions& options, const Work& work) {
@@ -310,6 +269,7 @@ Filling fill_labels(Image labels, const Image* image, const FillOptions& options
     Stopwatch watch(report.seconds);
     const std::map<std::int64_t, LabelBox> boxes = label_boxes(labels);
     check(boxes, options);
+    if (options.labels.empty()) check_no_image(labels, boxes.size());
     check_threads(work.threads);
     check_image_near(image, labels.grid);
     const std::vector<PaintedObject> objects = look(labels, boxes, options, work);
@@ -322,10 +282,10 @@ Filling fill_labels(Image labels, const Image* image, const FillOptions& options
         FilledLabel& filled = report.labels.emplace_back();
         filled.label = object.label, filled.painted_voxels = object.found.voxels;
         for (const PaintedSlice& slice : object.slices) ++filled.slices[static_cast<std::size_t>(slice.axis)];
-        const IndexBox range = range_of(object, filler.grid(), options.ends);
+        const IndexBox range = range_to_fill(object, filler.grid(), beyond(options.ends));
         if (is_anything_left_out(object, range))
             or_warn(object.label, filled.warnings, [&] { filled.image = filler.add(object, range); });
-        else filled.warnings.push_back("no slice was left out");
+        else filled.warnings.push_back(why_as_it_was(object));
     }
     watch.lap("fill");
     for (const auto& set : touching) filler.close_gaps(set);

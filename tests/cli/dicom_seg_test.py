@@ -70,11 +70,18 @@ def test_segments_keep_names_and_colours_between_dicom_and_3d_slicer(tmp_path, i
     colors = re.findall(rb"Segment\d_Color:=(.*)", content)
     for number, name in ((1, "Läsion"), (2, "Leber rechts")):
         content = content.replace(f"Name:=label {number}\n".encode(), f"Name:={name}\n".encode())
+    terms = b"TerminologyEntry:Some list~SCT^123037004^Anatomical Structure~SCT^10200004^Leber~^^~Other list~^^~^^|"
+    content = content.replace(b"Segment1_Tags:=\n", b"Segment1_Tags:=Segmentation.Status:inprogress|" + terms + b"\n")
     (tmp_path / "a.seg.nrrd").write_bytes(content)
+    assert kontur("convert", tmp_path / "a.seg.nrrd", tmp_path / "same.seg.nrrd").returncode == 0
+    assert b"Segment1_Tags:=Segmentation.Status:inprogress|" + terms + b"\n" in (tmp_path / "same.seg.nrrd").read_bytes()
     assert kontur("convert", tmp_path / "a.seg.nrrd", tmp_path / "seg.dcm", "--image", images).returncode == 0
+    code = pydicom.dcmread(tmp_path / "seg.dcm").SegmentSequence[1].SegmentedPropertyTypeCodeSequence[0]
+    assert (code.CodeValue, code.CodingSchemeDesignator, code.CodeMeaning) == ("10200004", "SCT", "Leber")
     assert kontur("convert", tmp_path / "seg.dcm", tmp_path / "b.seg.nrrd").returncode == 0
     again = (tmp_path / "b.seg.nrrd").read_bytes()
     assert [n.decode() for n in re.findall(rb"Segment\d_Name:=(.*)", again)] == ["Läsion", "Leber rechts"]
+    assert b"~SCT^123037004^Anatomical Structure~SCT^10200004^Leber~" in again
     for before, after in zip(colors, re.findall(rb"Segment\d_Color:=(.*)", again)):
         assert numpy.allclose([float(x) for x in before.split()], [float(x) for x in after.split()], atol=0.01)  # by way of CIELab
 

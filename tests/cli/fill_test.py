@@ -57,6 +57,56 @@ def test_segments_keep_names(tmp_path):
     assert len(name) == 1 and name[0] in after
 
 
+def test_whole_numbers_stored_as_floats_become_a_segmentation(tmp_path):
+    file = write_nifti(tmp_path / "sparse.nii.gz", painted().astype("float32") * 100)
+    for name in ("full.nii.gz", "full.seg.nrrd"):
+        succeed("fill", file, "--output", tmp_path / name)
+    assert b"type: int16" in (tmp_path / "full.seg.nrrd").read_bytes()
+    succeed("convert", tmp_path / "full.seg.nrrd", tmp_path / "again.nii.gz")
+    assert (read(tmp_path / "again.nii.gz") == read(tmp_path / "full.nii.gz")).all()
+    result = kontur("fill", write_nifti(tmp_path / "big.nii.gz", painted().astype("float32") * 1e9), "--output", tmp_path / "big.seg.nrrd")
+    assert result.returncode == 69 and "the labels 0 to 5000000000" in result.stderr and "integers of 32 bits" in result.stderr, result
+    assert not (tmp_path / "big.seg.nrrd").exists()
+
+
+def overlapping_segments(path):
+    """Two balls of 3D Slicer that overlap, each a layer, painted on every fourth slice."""
+    balls = [painted() > 0, numpy.roll(painted(), 4, axis=0) > 0]
+    header = ["NRRD0004", "type: uint8", "dimension: 4", "space: left-posterior-superior", "sizes: 2 40 40 40",
+              "space directions: none (1,0,0) (0,1,0) (0,0,1)", "kinds: list domain domain domain", "encoding: raw",
+              "space origin: (-8,-27,-15)"]
+    for n, name in enumerate(("cyst", "kidney")):
+        header += [f"Segment{n}_ID:=s{n}", f"Segment{n}_Name:={name}", f"Segment{n}_LabelValue:={n + 1}", f"Segment{n}_Layer:={n}",
+                   f"Segment{n}_Color:=1 0 0.5", f"Segment{n}_Tags:=Status:done|"]
+    layers = numpy.stack([ball * (n + 1) for n, ball in enumerate(balls)], axis=-1).astype("u1")
+    path.write_bytes("\n".join(header).encode() + b"\n\n" + layers.transpose(2, 1, 0, 3).tobytes())
+    return balls
+
+
+def test_segments_that_overlap_are_filled_each_by_itself(tmp_path):
+    balls = overlapping_segments(tmp_path / "two.seg.nrrd")
+    assert (balls[0] & balls[1]).any()
+    refused = kontur("fill", tmp_path / "two.seg.nrrd", "--output", tmp_path / "full.nii")
+    assert refused.returncode == 65 and "segments of" in refused.stderr and "overlap" in refused.stderr, refused
+    assert names(tmp_path) == ["two.seg.nrrd"]
+    succeed("fill", tmp_path / "two.seg.nrrd", "--label", 2, "--output", tmp_path / "full.seg.nrrd", "--report", tmp_path / "fill.json")
+    assert b"Name:=kidney" in (tmp_path / "full.seg.nrrd").read_bytes() and b"cyst" not in (tmp_path / "full.seg.nrrd").read_bytes()
+    [label] = json.loads((tmp_path / "fill.json").read_text())["labels"]
+    succeed("convert", tmp_path / "full.seg.nrrd", tmp_path / "full.nii")
+    full = read(tmp_path / "full.nii")
+    assert set(numpy.unique(full)) == {0, 2} and (full[balls[1]] == 2).all()
+    assert label["label"] == 2 and label["painted_voxels"] + label["added_voxels"] == (full == 2).sum()
+    succeed("fill", write_nifti(tmp_path / "alone.nii", (balls[1] * 2).astype("u1")), "--output", tmp_path / "alone_full.nii")
+    assert (full == read(tmp_path / "alone_full.nii")).all()
+    succeed("fill", tmp_path / "two.seg.nrrd", "--output", tmp_path / "both.seg.nrrd")
+    header = (tmp_path / "both.seg.nrrd").read_bytes()
+    assert b"sizes: 2 40 40 40" in header and b"Segment1_Tags:=Status:done|" in header
+    succeed("convert", tmp_path / "both.seg.nrrd", tmp_path / "second.nii", "--frame", 1)
+    assert (read(tmp_path / "second.nii") == full).all()
+    unknown = kontur("fill", tmp_path / "two.seg.nrrd", "--label", 7, "--output", tmp_path / "x.nii")
+    assert unknown.returncode == 65 and "the label 7 is to be filled, but no segment has it" in unknown.stderr, unknown
+
+
 def test_the_image_is_asked_and_said(tmp_path):
     noise = numpy.random.default_rng(5).normal(0, 10, ball_array().shape)
     file, image = write_nifti(tmp_path / "sparse.nii.gz", painted()), write_nifti(tmp_path / "mr.nii.gz", (ball_array() * 100 + noise).astype("int16"))
@@ -87,6 +137,14 @@ def test_maps_that_cannot_be_filled(tmp_path):
         result = kontur("fill", file, "--output", tmp_path / "full.nii.gz")
         assert result.returncode == 65 and sentence in result.stderr and "sparse.nii.gz" in result.stderr, result
         assert names(tmp_path) == ["sparse.nii.gz"]
+
+
+def test_an_image_in_place_of_its_label_map_is_refused(tmp_path):
+    noise = numpy.random.default_rng(5).normal(0, 10, ball_array().shape)
+    file = write_nifti(tmp_path / "ct.nii.gz", (ball_array() * 100 + noise).astype("int16"))
+    result = kontur("fill", file, "--output", tmp_path / "full.nii.gz")
+    assert result.returncode == 65 and "ct.nii.gz: this looks like an image, not like a label map: " in result.stderr, result
+    assert result.stderr.count("\n") == 1 and names(tmp_path) == ["ct.nii.gz"]
 
 
 def test_nothing_left_out_is_said(tmp_path):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Several ROIs of one structure set at once, as pydicom and nibabel see them, and names of ROIs in other capitals."""
+import copy
 import json
 import pathlib
 import subprocess
@@ -212,6 +213,41 @@ def test_the_image_is_asked_for_each_structure(tmp_path, structures, images):
     assert [one["image"]["verdict"] in ("used", "no_help", "unknown", "labels") for one in report["structures"]] == [True] * 3
 
 
+@pytest.mark.parametrize("together", [(), ("--together", "--inside", "far:Bladder")])
+def test_of_all_rois_those_outside_of_the_image_are_left_out(tmp_path, structures, images, together):
+    """One lies elsewhere, one is a line without area: the others are what they are without these."""
+    more = pydicom.dcmread(structures)
+    for sequence, number in (("StructureSetROISequence", "ROINumber"), ("ROIContourSequence", "ReferencedROINumber"),
+                             ("RTROIObservationsSequence", "ReferencedROINumber")):
+        more[sequence].value = [copy.deepcopy(more[sequence].value[0]), *more[sequence].value, copy.deepcopy(more[sequence].value[0])]
+        for item, its in ((more[sequence].value[0], 8), (more[sequence].value[-1], 9)):
+            setattr(item, number, its)
+    more.StructureSetROISequence[0].ROIName, more.StructureSetROISequence[-1].ROIName = "far", "flat"
+    for contour in more.ROIContourSequence[0].ContourSequence:
+        contour.ContourData = [value + 500 for value in contour.ContourData]
+    for contour in more.ROIContourSequence[-1].ContourSequence:
+        contour.ContourData = [value if n % 3 else contour.ContourData[0] for n, value in enumerate(contour.ContourData)]
+    more.save_as(tmp_path / "more.dcm")
+    outputs = {}
+    for name, file in (("all", structures), ("more", tmp_path / "more.dcm")):
+        rules = [word for word in together if "far" not in word and (word != "--inside")] if name == "all" else together
+        result = kontur("segment", file, "--all-rois", *rules, "--image", images, "--output", tmp_path / f"{name}.nii",
+                        "--report", tmp_path / f"{name}.json")
+        assert result.returncode == 0, result
+        outputs[name] = result, json.loads((tmp_path / f"{name}.json").read_text())
+    (_, before), (result, after) = outputs["all"], outputs["more"]
+    assert [(one["name"], one["number"]) for one in before["left_out"]] == [("CTV", 4)] and len(before["structures"]) == 3
+    assert [(one["name"], one["number"]) for one in after["left_out"]] == [("CTV", 4), ("flat", 9), ("far", 8)]
+    assert [one["reason"] for one in after["left_out"][:2]] == ["there is no contour; at least 1 is needed"] * 2
+    far = after["left_out"][2]["reason"]
+    assert "contour points lie outside of the image" in far and f"the ROI 'far' is left out: {far}" in result.stderr
+    assert "the ROI 'flat' is left out: " in result.stderr and "the ROI 'CTV'" not in result.stderr
+    assert [one["name"] for one in after["structures"]] == list(BALLS)
+    assert (read_nifti(tmp_path / "more.nii") == read_nifti(tmp_path / "all.nii")).all()
+    named = kontur("segment", tmp_path / "more.dcm", "--roi", "far", "--roi", "Bladder", "--image", images, "--output", tmp_path / "x.nii")
+    assert named.returncode == 65 and "ROI 'far': all " in named.stderr and not (tmp_path / "x.nii").exists(), named
+
+
 def read_region_mesh(path):
     """Points, triangles with the regions behind and in front of them, and the regions' names."""
     header, body = path.read_bytes().split(b"end_header\n", 1)
@@ -279,7 +315,7 @@ def test_together_small_structures_borrow_no_border_from_afar(tmp_path):
     (("--all-rois", "--mesh", "out.stl"), 65, "--mesh has room for one structure"),
     (("--all-rois", "--together", "--mesh", "out.stl"), 65, "out.stl: the surfaces of several ROIs share their borders; only a .ply"),
     (("--all-rois", "--inside", "PTV:Bladder"), 64, "--inside requires --together"),
-    (("--all-rois", "--together", "--inside", "PTV:CTV"), 65, "--inside is 'PTV:CTV'; two different ROIs of 'Bladder', 'rectum', 'PTV' are needed"),
+    (("--all-rois", "--together", "--inside", "PTV:GTV"), 65, "--inside is 'PTV:GTV'; two different ROIs of 'Bladder', 'rectum', 'PTV', 'CTV' are needed"),
     (("--all-rois", "--together", "--exclusive", "PTV"), 65, "--exclusive is 'PTV'; two different ROIs"),
     (("--all-rois", "--together", "--inside", "PTV:Bladder", "--may-overlap", "1:3"), 65, "2 rules are about 'Bladder' and 'PTV'; 1 is possible"),
 ])

@@ -78,7 +78,9 @@ def test_an_images_slices_also_cut_into_a_contour_file(tmp_path):
     assert kontur("trace", mask, "--image", mask, "--output", tmp_path / "out.json").returncode == 0
     planes = json.loads((tmp_path / "out.json").read_text())["planes"]
     assert [p["origin"][2] for p in planes] == [float(z) for z in range(-4, 15)]
-    assert kontur("trace", mask, "--output", tmp_path / "none.json").returncode == 64
+    assert kontur("trace", mask, "--output", tmp_path / "own.json").returncode == 0  # the mask's own slices
+    own = json.loads((tmp_path / "own.json").read_text())["planes"]
+    assert [p["contours"] for p in own if p["contours"]] == [p["contours"] for p in planes]
 
 
 def test_a_structure_set_survives_the_way_through_kontur(tmp_path):
@@ -170,7 +172,9 @@ def test_what_segment_makes_says_the_same_and_that_kontur_made_it(tmp_path, imag
     assert json.loads((tmp_path / "traced.json").read_text())["structure"] == "ball"
     assert kontur("segment", said, "--image", images, "-o", tmp_path / "m.seg.nrrd").returncode == 0
     assert kontur("trace", tmp_path / "m.seg.nrrd", "--image", images, "-o", tmp_path / "traced.json").returncode == 0
-    assert said_in(tmp_path / "traced.json") == {"color": SAID["color"], "generation_algorithm": "SEMIAUTOMATIC"}
+    traced = said_in(tmp_path / "traced.json")
+    assert traced.pop("category")["meaning"] == "Tissue" and traced.pop("code") == made["code"]
+    assert traced == {"color": SAID["color"], "generation_algorithm": "SEMIAUTOMATIC"}
     assert kontur("convert", said, tmp_path / "ball.mrk.json").returncode == 0
     assert kontur("convert", tmp_path / "ball.mrk.json", tmp_path / "again.json").returncode == 0
     assert said_in(tmp_path / "again.json") == {"color": SAID["color"]}

@@ -91,7 +91,8 @@ TEST(Nrrd, ReadsWhatAnIndependentWriterWrites) {
 TEST(Nrrd, SegmentsComeBack) {
     const test::TemporaryFolder folder;
     Image labels = test::pattern_image<std::uint8_t>(test::all_orientations()[0]);
-    const std::vector<NrrdSegment> segments{{"liver := \\n", {0.9, 0.5, 0}, 10, 0}, {"two\nlines", {0, 0.25, 1}, 20, 0}};
+    const std::vector<NrrdSegment> segments{{"liver := \\n", {0.9, 0.5, 0}, 10, 0, "a:b|c:\\n|"},
+                                            {"two\nlines", {0, 0.25, 1}, 20, 0}};
     write_seg_nrrd(folder / "a.seg.nrrd", labels, segments);
     const auto again = read_nrrd_segments(folder / "a.seg.nrrd");
     ASSERT_EQ(again.size(), 2u);
@@ -99,11 +100,40 @@ TEST(Nrrd, SegmentsComeBack) {
         EXPECT_EQ(again[n].name, segments[n].name);
         EXPECT_EQ(again[n].color, segments[n].color);
         EXPECT_EQ(again[n].label_value, segments[n].label_value);
+        EXPECT_EQ(again[n].tags, segments[n].tags);
     }
     write_nrrd(folder / "plain.nrrd", labels);
     EXPECT_TRUE(read_nrrd_segments(folder / "plain.nrrd").empty());
     expect_error(ErrorKind::unsupported, "floats",
                  [&] { write_seg_nrrd(folder / "b.seg.nrrd", test::pattern_image<float>(labels.grid), segments); });
+}
+
+TEST(Nrrd, MasksThatOverlapLieOnLayers) {
+    const test::TemporaryFolder folder;
+    const Grid grid = test::all_orientations()[5];
+    std::vector<Mask> masks(3, {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))});
+    masks[0].values[0] = masks[0].values[1] = masks[1].values[1] = masks[1].values[2] = masks[2].values[3] = 1;
+    const std::vector<NrrdSegment> segments{{"one", {1, 0, 0}}, {"two", {0, 1, 0}}, {"three", {0, 0, 1}, 1, 0, "a:b|"}};
+    write_seg_nrrd_masks(folder / "a.seg.nrrd", masks, segments);
+    const auto again = read_nrrd_segments(folder / "a.seg.nrrd");
+    ASSERT_EQ(again.size(), 3U);
+    EXPECT_EQ(again[2].tags, "a:b|");
+    EXPECT_EQ(again[0].layer, again[2].layer);  // they share no voxel
+    for (std::size_t n = 0; n < 3; ++n) {
+        EXPECT_EQ(again[n].name, segments[n].name);
+        ReadImageOptions options;
+        options.frame = again[n].layer;
+        const Image layer = read_nrrd(folder / "a.seg.nrrd", options);
+        EXPECT_EQ(select_label(layer, static_cast<double>(again[n].label_value)).values, masks[n].values) << n;
+        EXPECT_EQ(layer.grid.size, grid.size);
+    }
+    write_seg_nrrd_masks(folder / "flat.seg.nrrd", std::span(masks).subspan(1, 1), std::span(segments).first(1));
+    EXPECT_EQ(select_nonzero(read_nrrd(folder / "flat.seg.nrrd")).values, masks[1].values);
+    expect_error(ErrorKind::invalid_input, "there are 3 masks for 2 segments",
+                 [&] { write_seg_nrrd_masks(folder / "b.seg.nrrd", masks, std::span(segments).first(2)); });
+    masks[1].grid = test::all_orientations()[6];
+    expect_error(ErrorKind::invalid_input, "the masks lie on different grids",
+                 [&] { write_seg_nrrd_masks(folder / "b.seg.nrrd", masks, segments); });
 }
 
 TEST(Nrrd, RejectsEveryTruncatedPrefix) {

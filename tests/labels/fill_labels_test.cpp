@@ -310,7 +310,10 @@ TEST(FillLabels, NothingLeftOutStaysAsItIs) {
     const Filling filled = fill_labels(full);
     EXPECT_EQ(bytes_of_labels(filled.labels), bytes_of_labels(full));
     const Image one = sparse_of(full, [](const Index3& at) { return at.k == 20; });
-    EXPECT_EQ(bytes_of_labels(fill_labels(one).labels), bytes_of_labels(one));
+    const Filling alone = fill_labels(one);
+    EXPECT_EQ(bytes_of_labels(alone.labels), bytes_of_labels(one));
+    EXPECT_EQ(alone.report.labels[0].warnings.at(0),
+              "left as it was painted: that is 1 slice, and at least 2 are needed unless the ends are open");
 }
 
 TEST(FillLabels, KeepsTheSampleType) {

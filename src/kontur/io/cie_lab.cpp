@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kontur/shape/structure_attributes.h"
+
 namespace kontur {
 namespace {
 
@@ -51,10 +53,9 @@ Rgb8 to_rgb(const DicomLab& lab) {
     Triple xyz{};
     for (std::size_t n = 0; n < 3; ++n) xyz[n] = kWhiteD50[n] * lab_cube(f[n]);
     const Triple rgb = product(kXyzToRgb, xyz);
-    Rgb8 result{};
-    for (std::size_t n = 0; n < 3; ++n)
-        result[n] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded(std::max(rgb[n], 0.0)), 0.0, 1.0)));
-    return result;
+    Triple levels{};
+    for (std::size_t n = 0; n < 3; ++n) levels[n] = encoded(std::max(rgb[n], 0.0));
+    return to_rgb8(levels);
 }
 
 }  // namespace kontur

@@ -385,6 +385,16 @@ DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path, std
     });
 }
 
+DicomSegment fitted_segment(const StructureAttributes& attributes) {
+    return {.label = "",
+            .algorithm_type = fitted_attributes(attributes).generation_algorithm,
+            .algorithm_name = "kontur",
+            .color = attributes.color,
+            .description = attributes.description,
+            .category = attributes.category,
+            .code = attributes.code};
+}
+
 DicomSeg read_dicom_seg(const std::filesystem::path& path, std::optional<std::int64_t> segment, std::int64_t max_voxels,
                         const Work& work) {
     check_limit(max_voxels);

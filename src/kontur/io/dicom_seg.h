@@ -30,6 +30,9 @@ struct DicomSegment {
     std::int64_t shared_voxels = 0;  ///< those of them that lie in other segments, too; set by reading
 };
 
+/// A segment of a structure whose surface kontur fits: what is said of it, without name and number.
+DicomSegment fitted_segment(const StructureAttributes& attributes);
+
 /// What a DICOM segmentation says about itself, and how much each segment holds.
 struct DicomSegmentation {
     Grid grid;  ///< from the first to the last stored slice; slices without a frame between them belong to it

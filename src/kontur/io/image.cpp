@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <span>
 #include <string_view>
@@ -113,6 +114,31 @@ Image read_labels(const fs::path& path, std::optional<std::int64_t> label, const
 }
 
 template <typename Value>
+Image with_samples_of(const Image& image) {
+    const auto& floats = std::get<std::vector<float>>(image.samples);
+    std::vector<Value> integers(floats.size());
+    std::transform(floats.begin(), floats.end(), integers.begin(), [](float v) { return static_cast<Value>(v); });
+    return {image.grid, std::move(integers)};
+}
+
+/// A label map of floats in the narrowest integers that hold it.
+Image with_integers(const Image& image, const fs::path& path) {
+    const std::map<std::int64_t, std::int64_t> labels = labels_of(image, path);
+    const std::int64_t low = labels.empty() ? 0 : std::min<std::int64_t>(labels.begin()->first, 0);
+    const std::int64_t high = labels.empty() ? 0 : labels.rbegin()->first;
+    const auto fits = [&]<typename Value>(Value) {
+        return low >= std::numeric_limits<Value>::min() && high <= std::numeric_limits<Value>::max();
+    };
+    if (fits(std::uint8_t{})) return with_samples_of<std::uint8_t>(image);
+    if (fits(std::int16_t{})) return with_samples_of<std::int16_t>(image);
+    if (fits(std::uint16_t{})) return with_samples_of<std::uint16_t>(image);
+    if (fits(std::int32_t{})) return with_samples_of<std::int32_t>(image);
+    throw Error(ErrorKind::unsupported, path.string() + " would have the labels " + std::to_string(low) + " to " +
+                                            std::to_string(high) +
+                                            "; a segmentation of 3D Slicer has room for integers of 32 bits");
+}
+
+template <typename Value>
 std::vector<Value> with_value_inside(const Mask& mask, std::int64_t value) {
     std::vector<Value> values(mask.values.size());
     std::transform(mask.values.begin(), mask.values.end(), values.begin(),
@@ -135,7 +161,7 @@ std::vector<NrrdSegment> one_segment_each(const std::map<std::int64_t, std::int6
     std::vector<NrrdSegment> segments;
     for (const auto& [label, count] : labels) {
         const auto known = std::find_if(names.begin(), names.end(), [&, l = label](const auto& n) { return n.label == l; });
-        if (known != names.end()) segments.push_back({known->name, known->color, label, 0});
+        if (known != names.end()) segments.push_back({known->name, known->color, label, 0, known->tags});
         else segments.push_back({"label " + std::to_string(label), kPalette[segments.size() % kPalette.size()], label, 0});
     }
     return segments;
@@ -243,7 +269,9 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
     const std::int64_t value = options.label_value;
     check_label_value(value);
     check_color(options.segment_color, options.segment_name);
-    const auto segment = [&] { return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0}}; };
+    const auto segment = [&] {
+        return std::vector{NrrdSegment{options.segment_name, options.segment_color, value, 0, options.segment_tags}};
+    };
     const auto write_view = [&](ImageView view) {
         view.provenance = options.provenance;
         write(path, view, segment);
@@ -257,9 +285,13 @@ void write_mask(const fs::path& path, const Mask& mask, const WriteMaskOptions& 
 void write_image(const fs::path& path, const Image& image, const WriteImageOptions& options) {
     check_image(image);
     for (const LabelName& name : options.names) check_color(name.color, name.name);
-    ImageView view(image);
-    view.provenance = options.provenance;
-    write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });
+    const auto write_view = [&](ImageView view) {
+        view.provenance = options.provenance;
+        write(path, view, [&] { return one_segment_each(labels_of(image, path), options.names); });
+    };
+    const bool has_floats = std::holds_alternative<std::vector<float>>(image.samples);
+    if (has_floats && rule_for(path).format == Format::seg_nrrd) write_view(with_integers(image, path));
+    else write_view(image);
 }
 
 }  // namespace kontur

@@ -34,16 +34,18 @@ struct WriteMaskOptions {
     std::int64_t label_value = 1;            ///< value inside, 1 to 65535; 8-bit samples up to 255, else 16-bit ones
     std::string segment_name = "Segment_1";  ///< for .seg.nrrd
     std::array<double, 3> segment_color{0.9, 0.7, 0.3};  ///< for .seg.nrrd; red, green, blue from 0 to 1
+    std::string segment_tags{};                          ///< for .seg.nrrd, as LabelName's
     /// Goes into the text fields: NRRD's key/value pairs; a comment extension of NIfTI and, shortened, its description;
     /// MetaImage's comment, shortened; a tag behind MGH's voxels.
     Provenance provenance{};
 };
 
-/// A label's name and colour in a .seg.nrrd.
+/// What a .seg.nrrd says of a label.
 struct LabelName {
     std::int64_t label = 1;
     std::string name;
     std::array<double, 3> color{0.9, 0.7, 0.3};  ///< red, green, blue from 0 to 1
+    std::string tags{};  ///< of 3D Slicer, NAME:VALUE with bars between them; "TerminologyEntry" says what it is
 };
 
 struct WriteImageOptions {
@@ -56,7 +58,8 @@ struct WriteImageOptions {
 void write_mask(const std::filesystem::path& path, const Mask& mask, const WriteMaskOptions& options = {});
 
 /// Writes an image with its sample type, likewise; as .seg.nrrd a label map with one segment for each label, named as in
-/// `segments` where these know the label.
+/// `names` where these know the label; whole numbers that are stored as floats become integers there. Throws
+/// Error(invalid_input) for a .seg.nrrd of what is no label map, Error(unsupported) for labels beyond 32 bits in it.
 void write_image(const std::filesystem::path& path, const Image& image, const WriteImageOptions& options = {});
 
 /// Throws Error(unsupported), as the writers do, for a name whose extension is not among theirs: so that a long computation

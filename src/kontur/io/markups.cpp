@@ -147,11 +147,9 @@ std::optional<std::array<std::uint8_t, 3>> read_color(const json& markup) {
     if (!display.is_object()) return std::nullopt;
     const json levels = display.value("selectedColor", display.value("color", json()));
     if (!levels.is_array() || levels.size() != 3) return std::nullopt;
-    std::array<std::uint8_t, 3> color{};
-    for (std::size_t n = 0; n < 3; ++n) {
-        if (!levels[n].is_number() || !(levels[n] >= 0) || !(levels[n] <= 1)) return std::nullopt;
-        color[n] = static_cast<std::uint8_t>(std::lround(255 * levels[n].get<double>()));
-    }
+    for (const json& level : levels)
+        if (!level.is_number() || !(level >= 0) || !(level <= 1)) return std::nullopt;
+    const std::array<std::uint8_t, 3> color = to_rgb8(levels.get<std::array<double, 3>>());
     if (color == kGivenToAll) return std::nullopt;
     return color;
 }
@@ -229,8 +227,8 @@ std::vector<ControlPoint> single_points_of(const ContourSet& set) {
 /// Levels from 0 to 1. Both keys: 3D Slicer shows points, and the curves through them, as selected until someone chooses.
 std::string display_member(const std::optional<std::array<std::uint8_t, 3>>& color) {
     if (!color) return "";
-    const std::string levels =
-        fmt::format("[{:.6f}, {:.6f}, {:.6f}]", (*color)[0] / 255.0, (*color)[1] / 255.0, (*color)[2] / 255.0);
+    const auto [red, green, blue] = to_levels(*color);
+    const std::string levels = fmt::format("[{:.6f}, {:.6f}, {:.6f}]", red, green, blue);
     return fmt::format("\"display\": {{\"color\": {0}, \"selectedColor\": {0}}}, ", levels);
 }
 

@@ -12,6 +12,7 @@
 #include "kontur/base/work.h"
 #include "kontur/io/image_view.h"
 #include "kontur/io/read_image_options.h"
+#include "kontur/shape/provenance.h"
 
 namespace kontur {
 
@@ -36,12 +37,18 @@ struct NrrdSegment {
     std::string name;
     std::array<double, 3> color{};  ///< red, green, blue from 0 to 1
     std::int64_t label_value = 1;
-    std::int64_t layer = 0;  ///< which frame of the file holds it; 0 in what kontur writes
+    std::int64_t layer = 0;  ///< which frame of the file holds it
+    std::string tags = "";   ///< NAME:VALUE with bars between them, see terms_in_tags
 };
 
 /// Writes a label map of integers as 3D Slicer reads it, one segment for each of its values that is listed. Throws
-/// Error(invalid_input) for a name that is no UTF-8.
+/// Error(invalid_input) for a name that is no UTF-8. Error(unsupported) for floats.
 void write_seg_nrrd(const std::filesystem::path& path, const ImageView& labels, std::span<const NrrdSegment> segments);
+
+/// The same for masks of one grid that may overlap: their labels are 1, 2, ..., on as many layers as that takes. Throws
+/// Error(invalid_input) also for other than one segment for each mask and for different grids.
+void write_seg_nrrd_masks(const std::filesystem::path& path, std::span<const Mask> masks,
+                          std::span<const NrrdSegment> segments, const Provenance& provenance = {});
 
 /// The segments that a file names, in its order; none in a plain NRRD file. Names that are no UTF-8 count as Latin-1.
 std::vector<NrrdSegment> read_nrrd_segments(const std::filesystem::path& path);

@@ -41,4 +41,13 @@ struct StructureAttributes {
     friend bool operator==(const StructureAttributes&, const StructureAttributes&) = default;
 };
 
+/// What a structure says whose surface was fitted to what was drawn: the same, but for how it was made.
+StructureAttributes fitted_attributes(StructureAttributes drawn);
+
+/// A colour of levels from 0 to 1, which are cut to that, as bytes; to the nearest.
+std::array<std::uint8_t, 3> to_rgb8(const std::array<double, 3>& levels);
+
+/// The same colour as levels from 0 to 1.
+std::array<double, 3> to_levels(const std::array<std::uint8_t, 3>& rgb);
+
 }  // namespace kontur

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fill_structures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "dicom_output.h"
+#include "kontur/base/error.h"
+#include "kontur/io/image.h"
+#include "kontur/io/segment_tags.h"
+
+namespace kontur::app {
+namespace {
+
+/// The chosen ones.
+Structures structures_of(const ImageInput& input, const std::vector<std::int64_t>& chosen, const Work& work) {
+    Structures all = read_structures(input, work), some;
+    if (chosen.empty()) return all;
+    const auto is_chosen = [&](std::int64_t number) {
+        return std::find(chosen.begin(), chosen.end(), number) != chosen.end();
+    };
+    for (std::size_t n = 0; n < all.segments.size(); ++n) {
+        if (!is_chosen(all.segments[n].number)) continue;
+        some.segments.push_back(std::move(all.segments[n]));
+        some.masks.push_back(std::move(all.masks[n]));
+        if (n < all.tags.size()) some.tags.push_back(std::move(all.tags[n]));
+    }
+    for (const std::int64_t number : chosen)
+        if (std::none_of(some.segments.begin(), some.segments.end(), [&](const auto& s) { return s.number == number; }))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("the label {} is to be filled, but no segment has it", number));
+    return some;
+}
+
+bool has_room_for_overlap(const std::filesystem::path& output) {
+    return is_dicom_name(output) || has_extension(output, ".seg.nrrd");
+}
+
+/// A label map of one structure.
+Image label_map(const Mask& mask, std::int64_t label) {
+    std::vector<std::uint16_t> labels(mask.values.size());
+    std::transform(mask.values.begin(), mask.values.end(), labels.begin(),
+                   [label](std::uint8_t v) { return static_cast<std::uint16_t>(v != 0 ? label : 0); });
+    if (label <= 255) return {mask.grid, std::vector<std::uint8_t>(labels.begin(), labels.end())};
+    return {mask.grid, std::move(labels)};
+}
+
+}  // namespace
+
+FilledStructures fill_structures(const ImageInput& input, const Image* image, const FillOptions& options, const Work& work) {
+    FilledStructures filled{structures_of(input, options.labels, work), {}};
+    FillOptions each = options;
+    each.labels.clear();
+    for (std::size_t n = 0; n < filled.structures.masks.size(); ++n) {
+        const DicomSegment& segment = filled.structures.segments[n];
+        Mask& mask = filled.structures.masks[n];
+        try {
+            Filling one = fill_labels({mask.grid, std::move(mask.values)}, image, each, work);
+            mask.values = std::move(std::get<std::vector<std::uint8_t>>(one.labels.samples));
+            one.report.labels.front().label = segment.number;
+            filled.report.labels.push_back(std::move(one.report.labels.front()));
+            for (auto& stage : one.report.seconds) filled.report.seconds.push_back(std::move(stage));
+        } catch (const Error& error) {
+            throw error.with_context(fmt::format("segment '{}'", segment.label));
+        }
+    }
+    return filled;
+}
+
+void check_room_for_overlap(const FillCommand& command) {
+    if (has_room_for_overlap(command.output) || command.options.labels.size() == 1) return;
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
+                            ".seg.nrrd, or choose one with --label",
+                            command.labels.path.string(), command.output.string()));
+}
+
+std::vector<std::string> write_filled(const std::filesystem::path& path, const FilledStructures& filled,
+                                      const ImageInput& images, const Provenance& made, const Work& work) {
+    if (is_dicom_name(path) || (has_room_for_overlap(path) && filled.structures.segments.size() > 1))
+        return write_structures(path, filled.structures, images, made, work);
+    const DicomSegment& segment = filled.structures.segments.front();
+    const std::vector<std::string>& tags = filled.structures.tags;
+    const LabelName name{segment.number, segment.label, to_levels(segment.color.value_or(kStructureColor)),
+                         tags.empty() ? tags_of_terms({segment.category, segment.code}) : tags.front()};
+    kontur::write_image(path, label_map(filled.structures.masks.front(), segment.number), {{name}, made});
+    return {};
+}
+
+}  // namespace kontur::app

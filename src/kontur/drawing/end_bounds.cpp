@@ -66,11 +66,12 @@ public:
             if (probe.outline == outline) deepest = std::max(deepest, probe.depth);
         if (deepest == 0) return false;
         const Polygon2& line = own_.section.outlines[outline];
-        const auto [height, belief] = end_height(planes_, own_.section, sign_, std::sqrt(area(line) / M_PI));
+        const EndHeight end = end_height(planes_, own_.section, sign_, std::sqrt(area(line) / M_PI));
+        const double height = end.height_mm;
         const double left = 1 - smooth_step(0, kLedByOthers * height, reach_of_others_);
         if (left < kLeastBelief) return false;
-        const double noise = height * (belief * kNoise + (1 - belief) * kGuessNoise);
-        const bool is_guess = belief < kGuess;
+        const double noise = height * (end.belief * kNoise + (1 - end.belief) * kGuessNoise);
+        const bool is_guess = end.belief < kGuess;
         double open = 0;  // where it is a guess, how surely nothing lies ahead, however near
         const auto add = [&](const Vec3& foot, double above, double most_mm) {
             const double needed = left * (1 - led_on(foot, height));

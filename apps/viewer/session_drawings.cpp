@@ -27,7 +27,7 @@ std::vector<DicomDrawing> drawings_of(const DicomSeries& series, const std::stri
         const bool shares_frame = !frame.empty() && one.frame_of_reference_uid == frame;
         return one.structures.empty() || !(is_of(one, series) || shares_frame);
     });
-    std::ranges::stable_partition(near, [&](const DicomDrawing& one) { return is_of(one, series); });
+    std::stable_partition(near.begin(), near.end(), [&](const DicomDrawing& one) { return is_of(one, series); });
     return near;
 }
 

@@ -228,9 +228,9 @@ std::vector<FittedStructure> fit_structures(const State& state, const Image& ima
 
 std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& state, const Image& image, const Work& work) {
     State within = state;
-    for (const auto& [id, structure] : state.structures)
-        if (!reaches_into(grid, contour_set(state, id)))
-            std::erase_if(within.contours, [&](const auto& item) { return item.second->structure == id; });
+    for (const auto& found : state.structures)
+        if (!reaches_into(grid, contour_set(state, found.first)))
+            std::erase_if(within.contours, [&](const auto& item) { return item.second->structure == found.first; });
     return (state.borders.shared ? fit_together : fit_each)(within, image, grid, false, work);
 }
 

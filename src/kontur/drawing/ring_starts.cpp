@@ -45,7 +45,7 @@ void begin_alike(ContourSet& set, const Ball3& ball) {
         if (!contour.closed) continue;
         std::vector<Key> keys = keys_of(contour, ball), backwards(keys.rbegin(), keys.rend());
         const auto begin_first = [](auto& ring, std::size_t start) {
-            std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(start));
+            std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(start), ring.end());
         };
         const std::size_t start = least_rotation(keys), start_backwards = least_rotation(backwards);
         begin_first(keys, start);

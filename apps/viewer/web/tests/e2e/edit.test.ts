@@ -219,7 +219,7 @@ describe("structures", () => {
     assert.ok((await viewer.countPixels("coronal", isBlue)) > 0, "its outline has its colour");
     assert.equal((await viewer.export("mask.nii.gz")).name, "Lesion.nii.gz");
     await page.locator(".contour-row").first().click();
-    await page.locator(".contour-actions select").selectOption({ label: "Lesion" });
+    await page.locator("[data-test=owner]").selectOption({ label: "Lesion" });
     await viewer.waitForStep("undo", "Change a contour");
     await page.waitForFunction(() => document.querySelectorAll(".structure")[1]!.querySelectorAll(".contour-row").length === 2);
     await viewer.surfaceShown();

@@ -189,7 +189,8 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
     PreparedContours prepared;
     const double diameter = drawing.diameter_mm();
     ContourSet set = drawing.tidied;
-    if (options.least_segments > 0) begin_alike(set, drawing.ball);  // the paper's rules go by the order of drawing
+    if (options.least_segments > 0)  // the paper's rules go by the order of drawing
+        for (Contour& contour : set.contours) begin_alike(contour, drawing.ball);
     const DrawnPlanes planes(set, drawing.ball);
     prepared.ball = drawing.ball;
     const Extents extents(set, drawing.ball);

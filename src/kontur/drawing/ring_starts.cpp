@@ -16,7 +16,6 @@ constexpr double kRounding = 1e-9;  // of the ball's radius
 using Key = std::array<double, 5>;
 
 std::vector<Key> keys_of(const Contour& contour, const Ball3& ball) {
-    Box3 box;
     std::vector<double> x, y, z;
     for (const Vec3& p : contour.points) {
         x.push_back(p.x);
@@ -39,21 +38,18 @@ std::vector<Key> keys_of(const Contour& contour, const Ball3& ball) {
 
 }  // namespace
 
-void begin_alike(ContourSet& set, const Ball3& ball) {
-    if (!(ball.radius > 0)) return;
-    for (Contour& contour : set.contours) {
-        if (!contour.closed) continue;
-        std::vector<Key> keys = keys_of(contour, ball), backwards(keys.rbegin(), keys.rend());
-        const auto begin_first = [](auto& ring, std::size_t start) {
-            std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(start), ring.end());
-        };
-        const std::size_t start = least_rotation(keys), start_backwards = least_rotation(backwards);
-        begin_first(keys, start);
-        begin_first(backwards, start_backwards);
-        const bool turns = backwards < keys;
-        if (turns) std::ranges::reverse(contour.points);
-        begin_first(contour.points, turns ? start_backwards : start);
-    }
+void begin_alike(Contour& contour, const Ball3& ball) {
+    if (!contour.closed || !(ball.radius > 0)) return;
+    std::vector<Key> keys = keys_of(contour, ball), backwards(keys.rbegin(), keys.rend());
+    const auto begin_first = [](auto& ring, std::size_t start) {
+        std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(start), ring.end());
+    };
+    const std::size_t start = least_rotation(keys), start_backwards = least_rotation(backwards);
+    begin_first(keys, start);
+    begin_first(backwards, start_backwards);
+    const bool turns = backwards < keys;
+    if (turns) std::ranges::reverse(contour.points);
+    begin_first(contour.points, turns ? start_backwards : start);
 }
 
 }  // namespace kontur

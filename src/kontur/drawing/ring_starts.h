@@ -6,10 +6,10 @@
 
 namespace kontur {
 
-/// Lets every closed contour begin at its point that is farthest from the middle of all that was drawn, and run towards the
-/// farther one of those beside it, however it was stored. Of points that are equally far away the one farthest from the
-/// contour's own middle counts, then coordinates. What is computed from a contour may depend on where it begins by rounding
-/// alone, or where it is so regular that nothing else tells its points apart.
-void begin_alike(ContourSet& set, const Ball3& ball);
+/// Lets a closed contour begin at its point that is farthest from the middle of the ball around all that was drawn, and run
+/// towards the farther one of those beside it, however it was stored. Of points that are equally far away the one farthest
+/// from the contour's own middle counts, then coordinates. What is computed from a contour may depend on where it begins by
+/// rounding alone, or where it is so regular that nothing else tells its points apart.
+void begin_alike(Contour& contour, const Ball3& ball);
 
 }  // namespace kontur

@@ -106,10 +106,7 @@ private:
 void thin(Contour& contour, const TidyOptions& options, Tidied& tidied) {
     const std::size_t most = std::max<std::size_t>(options.most_points, 4);
     if (contour.points.size() <= most) return;
-    ContourSet alone;
-    alone.contours = {contour};
-    begin_alike(alone, smallest_ball(contour.points));  // what is kept follows from where one begins
-    contour = std::move(alone.contours.front());
+    begin_alike(contour, smallest_ball(contour.points));  // what is kept follows from where one begins
     const Significance significance(contour);
     std::vector<double> sorted = significance.values();
     const auto last_kept = sorted.begin() + static_cast<std::ptrdiff_t>(most);

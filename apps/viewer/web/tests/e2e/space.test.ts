@@ -9,25 +9,9 @@ let viewer: Viewer;
 
 /** Places of the 3D view, from its corner, whose colour is like this one. */
 async function placesLike(r: number, g: number, b: number, tolerance: number): Promise<[number, number][]> {
-  const picture = (await viewer.pane("surface").screenshot()).toString("base64");
-  return viewer.page.evaluate(
-    async ([data, wanted, most]) => {
-      const image = new Image();
-      image.src = `data:image/png;base64,${data}`;
-      await image.decode();
-      const canvas = document.createElement("canvas");
-      [canvas.width, canvas.height] = [image.width, image.height];
-      const context = canvas.getContext("2d")!;
-      context.drawImage(image, 0, 0);
-      const pixels = context.getImageData(0, 0, image.width, image.height).data;
-      const found: [number, number][] = [];
-      for (let i = 0; i < pixels.length; i += 4)
-        if (wanted.every((value, channel) => Math.abs(pixels[i + channel]! - value) <= most))
-          found.push([(i / 4) % image.width, Math.floor(i / 4 / image.width)]);
-      return found;
-    },
-    [picture, [r, g, b], tolerance] as const,
-  );
+  const { width, colors } = await viewer.decoded(await viewer.pane("surface").screenshot());
+  const isLike = (color: number): boolean => [r, g, b].every((value, channel) => Math.abs(((color >> (8 * channel)) & 255) - value) <= tolerance);
+  return colors.flatMap((color, i): [number, number][] => (isLike(color) ? [[i % width, Math.floor(i / width)]] : []));
 }
 
 const isDrawn = () => viewer.page.waitForTimeout(900); // a fine frame comes when all rests

@@ -377,8 +377,13 @@ export class Viewer {
 
   /** Pixels of a pane whose colour the test accepts. */
   async countPixels(view: string, isWanted: (r: number, g: number, b: number) => boolean): Promise<number> {
-    const picture = (await this.pane(view).screenshot()).toString("base64");
-    const colors = await this.page.evaluate(async (data) => {
+    const { colors } = await this.decoded(await this.pane(view).screenshot());
+    return colors.filter((color) => isWanted(color & 255, (color >> 8) & 255, (color >> 16) & 255)).length;
+  }
+
+  /** A PNG's pixels row by row, red in the lowest byte. */
+  async decoded(picture: Buffer): Promise<{ width: number; colors: number[] }> {
+    return this.page.evaluate(async (data) => {
       const image = new Image();
       image.src = `data:image/png;base64,${data}`;
       await image.decode();
@@ -386,9 +391,8 @@ export class Viewer {
       [canvas.width, canvas.height] = [image.width, image.height];
       const context = canvas.getContext("2d")!;
       context.drawImage(image, 0, 0);
-      return [...new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer)];
-    }, picture);
-    return colors.filter((color) => isWanted(color & 255, (color >> 8) & 255, (color >> 16) & 255)).length;
+      return { width: image.width, colors: [...new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer)] };
+    }, picture.toString("base64"));
   }
 
   /** Waits until so many are seen: a frame comes when there is time for it, a rough one first. */

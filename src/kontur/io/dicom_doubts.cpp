@@ -53,7 +53,8 @@ void tell_of_others(const DicomContent& content, const Likeness& is_like_slices,
     std::vector<fs::path> suspects;
     for (const auto& [path, why] : content.others)
         if (!why.is_dicom && is_like_slices(path)) suspects.push_back(path);
-        else by_reason[why.reason].push_back(name_of(path));
+        else if (why.reason != "RTSTRUCT" && why.reason != "SEG")  // whose place is beside their images
+            by_reason[why.reason].push_back(name_of(path));
     for (const auto& [reason, names] : by_reason) doubts.notes.push_back(left_out_note(reason, names));
     if (suspects.empty()) return;
     std::error_code ignored;

@@ -65,6 +65,7 @@ Structures structures_of(const ConvertCommand& command, Console& console) {
     paths.insert(paths.end(), command.more.begin(), command.more.end());
     for (const fs::path& path : paths) {
         Structures some = read_structures({path, console.noting(command.input.options)}, console.work());
+        for (std::size_t n = 0; n < some.segments.size(); ++n) all.tags.push_back(tags_of(some, n));
         std::move(some.segments.begin(), some.segments.end(), std::back_inserter(all.segments));
         std::move(some.masks.begin(), some.masks.end(), std::back_inserter(all.masks));
     }
@@ -78,8 +79,13 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
         for (const std::string& note : frame_of_reference_notes(frame_of_reference_of(command.input.path), images))
             console.warn(note);
     const bool by_itself = !command.more.empty() || (!command.label && may_overlap(input));
-    if (by_itself && (is_dicom_name(output) || has_extension(output, ".seg.nrrd")))
+    if (by_itself && has_room_for_overlap(output))
         return console.note(write_structures(output, structures_of(command, console), images, made, console.work()));
+    if (by_itself && !is_dicom_seg(input.path))  // of which the reader says which
+        throw Error(ErrorKind::invalid_input,
+                    fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
+                                ".seg.nrrd, or choose one with --label",
+                                command.input.path.string(), command.output.string()));
     const Image image = read_labels(input, command.label, console.work());
     console.note(write_image(output, image, input, images, made, console.work()));
 }
@@ -116,7 +122,8 @@ void check_options(const ConvertCommand& command, FileKind kind) {
         refuse("--series and --volume choose from DICOM images");
     if (command.label && kind != FileKind::image) refuse("--label chooses from a label map or a segmentation");
     if (command.more.empty()) return;
-    if (kind != FileKind::image || !is_dicom) refuse("--add is for segments of a DICOM SEG (.dcm), which may overlap");
+    if (kind != FileKind::image || !has_room_for_overlap(command.output))
+        refuse("--add is for segments of a DICOM SEG (.dcm) or of a .seg.nrrd, which may overlap");
     if (command.label) refuse("--label cannot choose where --add names several files");
     for (const fs::path& path : command.more)
         if (input_kind(path) != FileKind::image) refuse("--add takes masks and label maps");

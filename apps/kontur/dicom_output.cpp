@@ -88,7 +88,7 @@ std::vector<std::string> write_mask(const fs::path& path, const Segmentation& re
                                     const ImageInput& images, const WriteMaskOptions& options, const Work& work) {
     if (!is_dicom_name(path)) {
         WriteMaskOptions said = options;
-        said.segment_tags = tags_of_terms({attributes.category, attributes.code});
+        said.segment_tags = tags_of_terms(attributes);
         kontur::write_mask(path, result.mask, said);
         return {};
     }
@@ -119,7 +119,7 @@ std::vector<std::string> write_structures(const fs::path& path, const Structures
         for (std::size_t n = 0; n < structures.segments.size(); ++n) {
             const DicomSegment& one = structures.segments[n];
             segments.push_back({.name = one.label, .color = to_levels(one.color.value_or(kStructureColor))});
-            segments.back().tags = n < structures.tags.size() ? structures.tags[n] : tags_of_terms({one.category, one.code});
+            segments.back().tags = tags_of(structures, n);
         }
         write_seg_nrrd_masks(path, structures.masks, segments, provenance);
         return {};

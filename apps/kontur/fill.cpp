@@ -57,15 +57,19 @@ Facts image_facts(const RefineReport& image) {
             {"error_with_mm", image.error_with_mm}};
 }
 
-Facts report_of(const FillReport& report, const std::vector<std::string>& warnings, const Provenance& made) {
+Facts report_of(const FilledFile& filled, const std::vector<std::string>& warnings, const Provenance& made) {
+    const FillReport& report = filled.report;
     Facts labels = Facts::array(), provenance = Facts::object(), seconds = Facts::object();
-    for (const FilledLabel& one : report.labels)
-        labels.push_back({{"label", one.label},
-                          {"slices", one.slices},
-                          {"painted_voxels", one.painted_voxels},
-                          {"added_voxels", one.added_voxels},
-                          {"image", image_facts(one.image)},
-                          {"warnings", one.warnings}});
+    for (std::size_t n = 0; n < report.labels.size(); ++n) {
+        const FilledLabel& one = report.labels[n];
+        labels.push_back({{"label", one.label}});
+        if (!filled.names[n].empty()) labels.back()["name"] = filled.names[n];
+        labels.back().update({{"slices", one.slices},
+                              {"painted_voxels", one.painted_voxels},
+                              {"added_voxels", one.added_voxels},
+                              {"image", image_facts(one.image)},
+                              {"warnings", one.warnings}});
+    }
     for (const auto& [name, value] : made) provenance[name] = value;
     for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
     return {{"version", KONTUR_VERSION},
@@ -109,9 +113,26 @@ auto named(const ImageInput& input, const Fill& fill) {
     }
 }
 
+/// Those that the file gives the labels, which each stand for one structure there.
+std::vector<std::string> names_of(const ImageInput& input, const FillReport& report) {
+    const std::vector<DicomSegment> segments = named_segments(input);
+    std::vector<std::string> names;
+    for (const FilledLabel& one : report.labels) {
+        const auto known =
+            std::find_if(segments.begin(), segments.end(), [&](const auto& s) { return s.number == one.label; });
+        names.push_back(known == segments.end() ? "" : known->label);
+    }
+    return names;
+}
+
 }  // namespace
 
-FillReport fill_files(const FillCommand& command, Console& console, const Work& work) {
+std::string title(const FilledFile& filled, std::size_t n) {
+    const std::string& name = filled.names[n];
+    return fmt::format("label {}{}", filled.report.labels[n].label, name.empty() ? "" : " (" + name + ")");
+}
+
+FilledFile fill_files(const FillCommand& command, Console& console, const Work& work) {
     check(command);
     const ImageInput input{command.labels.path, console.noting(command.labels.options)};
     const ImageInput images{command.image, console.noting(command.labels.options)};
@@ -121,40 +142,46 @@ FillReport fill_files(const FillCommand& command, Console& console, const Work& 
     const bool overlaps = may_overlap(input);
     if (overlaps) check_room_for_overlap(command);
     std::vector<std::string> warnings;
-    Filling filling;
+    FilledFile file;
+    Image filled;
     FilledStructures each;
+    const std::optional<Image> image = asked_image(command, images, work, console, warnings);
     if (overlaps) {
-        const std::optional<Image> image = asked_image(command, images, work, console, warnings);
         each = named(input, [&] { return fill_structures(input, image ? &*image : nullptr, command.options, work); });
-        filling.report = each.report;
+        file.report = each.report;
+        for (const DicomSegment& segment : each.structures.segments) file.names.push_back(segment.label);
     } else {
         Image labels = read_labels(input, {}, work);
-        const std::optional<Image> image = asked_image(command, images, work, console, warnings);
-        filling =
+        Filling filling =
             named(input, [&] { return fill_labels(std::move(labels), image ? &*image : nullptr, command.options, work); });
+        filled = std::move(filling.labels);
+        file.names = names_of(input, filling.report);
+        file.report = std::move(filling.report);
     }
     const Provenance made = provenance_of(command, work);
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
         console.note(overlaps ? write_filled(path, each, images, made, work)
-                              : write_image(path, filling.labels, input, images, made, work));
+                              : write_image(path, filled, input, images, made, work));
     });
     if (!command.report.empty())
         outputs.write(command.report, [&](const fs::path& path) {
-            write_file_atomically(path, to_json_text(report_of(filling.report, warnings, made)));
+            write_file_atomically(path, to_json_text(report_of(file, warnings, made)));
         });
     outputs.commit();
-    return std::move(filling.report);
+    return file;
 }
 
 void run(const FillCommand& command, Console& console) {
-    const FillReport report = fill_files(command, console, console.work(command.threads));
-    std::string text = fmt::format("{}: {}\n", command.output.string(), counted(report.labels.size(), "label"));
-    for (const FilledLabel& one : report.labels) {
-        for (const std::string& warning : one.warnings) console.warn(fmt::format("label {}: {}", one.label, warning));
-        text += fmt::format("label {}: {} slices painted; {} painted, {} added\n", one.label, slices_of(one),
+    const FilledFile filled = fill_files(command, console, console.work(command.threads));
+    const std::vector<FilledLabel>& labels = filled.report.labels;
+    std::string text = fmt::format("{}: {}\n", command.output.string(), counted(labels.size(), "label"));
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+        const FilledLabel& one = labels[n];
+        for (const std::string& warning : one.warnings) console.warn(fmt::format("{}: {}", title(filled, n), warning));
+        text += fmt::format("{}: {} slices painted; {} painted, {} added\n", title(filled, n), slices_of(one),
                             counted(one.painted_voxels, "voxel"), one.added_voxels);
-        if (one.image.verdict != ImageVerdict::none) text += fmt::format("label {}: {}\n", one.label, sentence(one.image));
+        if (one.image.verdict != ImageVerdict::none) text += fmt::format("{}: {}\n", title(filled, n), sentence(one.image));
     }
     console.print(text);
 }

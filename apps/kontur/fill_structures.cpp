@@ -9,7 +9,6 @@
 #include "dicom_output.h"
 #include "kontur/base/error.h"
 #include "kontur/io/image.h"
-#include "kontur/io/segment_tags.h"
 
 namespace kontur::app {
 namespace {
@@ -32,10 +31,6 @@ Structures structures_of(const ImageInput& input, const std::vector<std::int64_t
             throw Error(ErrorKind::invalid_input,
                         fmt::format("the label {} is to be filled, but no segment has it", number));
     return some;
-}
-
-bool has_room_for_overlap(const std::filesystem::path& output) {
-    return is_dicom_name(output) || has_extension(output, ".seg.nrrd");
 }
 
 /// A label map of one structure.
@@ -82,9 +77,8 @@ std::vector<std::string> write_filled(const std::filesystem::path& path, const F
     if (is_dicom_name(path) || (has_room_for_overlap(path) && filled.structures.segments.size() > 1))
         return write_structures(path, filled.structures, images, made, work);
     const DicomSegment& segment = filled.structures.segments.front();
-    const std::vector<std::string>& tags = filled.structures.tags;
     const LabelName name{segment.number, segment.label, to_levels(segment.color.value_or(kStructureColor)),
-                         tags.empty() ? tags_of_terms({segment.category, segment.code}) : tags.front()};
+                         tags_of(filled.structures, 0)};
     kontur::write_image(path, label_map(filled.structures.masks.front(), segment.number), {{name}, made});
     return {};
 }

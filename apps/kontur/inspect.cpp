@@ -56,6 +56,14 @@ Facts describe_frame(const fs::path& path, ReadImageOptions options, const Work&
     }
 }
 
+/// Labels get the names that a .seg.nrrd has for them.
+void name_labels(const ImageInput& input, Facts& facts) {
+    if (!facts.contains("labels")) return;
+    for (const DicomSegment& segment : named_segments(input))
+        for (Facts& label : facts["labels"])
+            if (label["label"] == segment.number) label["name"] = segment.label;
+}
+
 Facts inspect_image(const InspectCommand& command, const fs::path& path, Console& console) {
     std::vector<std::string> notes;
     ReadImageOptions options = command.read;
@@ -64,9 +72,39 @@ Facts inspect_image(const InspectCommand& command, const fs::path& path, Console
     options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
     Facts facts = {{"kind", "image"}};
     facts.update(describe_frame(path, options, console.work()));
+    name_labels({path, options}, facts);
     facts["notes"] = notes;
     if (!warnings.empty()) facts["warnings"] = warnings;
     for (const std::string& warning : warnings) console.warn_once(warning);
+    return facts;
+}
+
+/// The segments of a .seg.nrrd that overlap, on layers, as those of a DICOM SEG are shown.
+Facts inspect_layers(const InspectCommand& command, const fs::path& path, Console& console) {
+    std::vector<std::string> notes;
+    ImageInput input{path, command.read};
+    input.options.on_note = [&](std::string_view note) { notes.emplace_back(note); };
+    const Structures found = read_structures(input, console.work());
+    const Grid grid = read_grid(path, command.read);
+    std::vector<std::uint16_t> structures_at(static_cast<std::size_t>(grid.voxel_count()));
+    for (const Mask& mask : found.masks)
+        for (std::size_t v = 0; v < structures_at.size(); ++v) structures_at[v] += mask.values[v];
+    Facts segments = Facts::array();
+    for (std::size_t n = 0; n < found.masks.size(); ++n) {
+        std::int64_t voxels = 0, shared = 0;
+        for (std::size_t v = 0; v < structures_at.size(); ++v)
+            if (found.masks[n].values[v] != 0) ++voxels, shared += structures_at[v] > 1;
+        segments.push_back({{"number", found.segments[n].number},
+                            {"name", found.segments[n].label},
+                            {"voxels", voxels},
+                            {"shared_voxels", shared},
+                            {"volume_ml", number(static_cast<double>(voxels) * grid.voxel_volume_mm3() / 1000)}});
+        segments.back().update(describe(attributes_of(found.segments[n])));
+    }
+    Facts facts = {{"kind", "segmentation"}};
+    facts.update(describe(grid));
+    facts["segments"] = segments;
+    facts["notes"] = notes;
     return facts;
 }
 
@@ -171,6 +209,7 @@ Facts inspect_by_kind(const InspectCommand& command, const fs::path& path, Conso
     switch (input_kind(path)) {
         case FileKind::image:
             if (is_dicom_seg(path)) return inspect_segmentation(command, path);
+            if (may_overlap({path, command.read})) return inspect_layers(command, path, console);
             return inspect_image(command, path, console);
         case FileKind::contours:
             return inspect_contours(command, path);

@@ -34,9 +34,9 @@ std::vector<std::string> RoiLabelMap::notes(const std::vector<std::string>& name
     std::vector<std::string> notes;
     for (const auto& [labels, voxels] : shared_) {
         const char* const s = voxels == 1 ? "s" : "";
-        notes.push_back(
-            fmt::format("{} of '{}' lie{} in '{}', too, and keep{} its label {}; a DICOM SEG (.dcm) has room for both",
-                        counted(voxels, "voxel"), names[labels.second - 1u], s, names[labels.first - 1u], s, labels.first));
+        notes.push_back(fmt::format(
+            "{} of '{}' lie{} in '{}', too, and keep{} its label {}; a SEG (.dcm) or .seg.nrrd has room for both",
+            counted(voxels, "voxel"), names[labels.second - 1u], s, names[labels.first - 1u], s, labels.first));
     }
     return notes;
 }

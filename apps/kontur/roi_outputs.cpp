@@ -7,7 +7,6 @@
 
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/region_mesh.h"
-#include "kontur/io/segment_tags.h"
 #include "kontur/report.h"
 
 namespace kontur::app {
@@ -35,8 +34,8 @@ void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet ou
     all.push_back(std::move(one));
     DicomSegment& segment = all.back().segment;
     segment.number = static_cast<std::int64_t>(all.size());
-    if (!is_dicom_name(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
-    if (std::find(mask.values.begin(), mask.values.end(), 1) == mask.values.end()) {
+    if (!has_room_for_overlap(command.output)) return labels.add(mask, box, static_cast<std::uint16_t>(all.size()));
+    if (is_dicom_name(command.output) && std::find(mask.values.begin(), mask.values.end(), 1) == mask.values.end()) {
         segment.number = 0;
         notes.push_back(fmt::format("'{}' has no voxels of this grid and is no segment of the SEG", segment.label));
         return;
@@ -69,15 +68,10 @@ Facts roi_report(const RoiResults& result, const Provenance& made) {
 }
 
 std::vector<std::string> write_label_map(const fs::path& path, const RoiResults& result, const Provenance& made) {
-    std::vector<LabelName> names;
-    std::vector<std::string> words;
-    for (const FittedRoi& one : result.all) {
-        words.push_back(one.segment.label);
-        names.push_back({one.segment.number, one.segment.label, to_levels(*one.segment.color),
-                         tags_of_terms({one.segment.category, one.segment.code})});
-    }
-    kontur::write_image(path, result.labels.image(), {names, made});
-    return result.labels.notes(words);
+    std::vector<std::string> names;
+    for (const FittedRoi& one : result.all) names.push_back(one.segment.label);
+    kontur::write_image(path, result.labels.image(), {{}, made});
+    return result.labels.notes(names);
 }
 
 std::vector<std::string> write_roi_contours(const fs::path& path, const SegmentCommand& command,

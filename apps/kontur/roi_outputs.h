@@ -29,8 +29,8 @@ struct FittedRoi {
 struct RoiResults {
     std::vector<FittedRoi> all{};
     std::vector<LeftOutRoi> left_out;
-    RoiLabelMap labels;                      ///< unless a SEG is asked for
-    Structures structures{};                 ///< of a SEG, which keeps all voxels
+    RoiLabelMap labels;                      ///< unless the output has room for overlap
+    Structures structures{};                 ///< where it has: a SEG or a .seg.nrrd keeps all voxels
     std::optional<SharedSurface> surface{};  ///< where a mesh is asked for
     std::optional<Together> together{};      ///< without the structures: what they are to each other
     std::vector<std::string> notes;

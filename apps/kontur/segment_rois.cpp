@@ -78,18 +78,18 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
     return fitted;
 }
 
+IndexBox whole_box(const Grid& grid) { return {{0, 0, 0}, {grid.size.i - 1, grid.size.j - 1, grid.size.k - 1}}; }
+
 RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
     RoiResults result(drawings);
     const Image* const image = drawings.image ? &*drawings.image : nullptr;
-    const Index3& size = drawings.grid.size;
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         try {
             Segmentation made = segment(drawings.rois[n].contours, drawings.grid, image, command.options, work);
             ContourSet outlines;
             if (!command.rtstruct.empty()) outlines = slice_contours(made.mask, made.function, work);
             FittedRoi one = fitted_from(drawings, n, made);
-            result.add(command, std::move(one), std::move(outlines), std::move(made.mask),
-                       {{0, 0, 0}, {size.i - 1, size.j - 1, size.k - 1}});
+            result.add(command, std::move(one), std::move(outlines), std::move(made.mask), whole_box(drawings.grid));
         } catch (const Error& error) {
             throw error.with_context(fmt::format("ROI '{}'", drawings.rois[n].name));
         }
@@ -126,6 +126,8 @@ RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawin
         BoxedMask object{all.boxes[n], std::move(all.structures[n].mask)};
         ContourSet outlines = command.rtstruct.empty() ? ContourSet{} : slice_outlines(object, drawings.grid);
         FittedRoi one = fitted_from(drawings, n, all.structures[n]);
+        if (has_extension(command.output, ".seg.nrrd"))  // all layers have one grid
+            object = widened(object, whole_box(drawings.grid), drawings.grid);
         result.add(command, std::move(one), std::move(outlines), std::move(object.mask), object.box);
     }
     all.structures.clear();
@@ -171,8 +173,8 @@ void segment_rois(const SegmentCommand& command, Console& console) {
     };
     Outputs outputs;
     outputs.write(command.output, [&](const fs::path& path) {
-        add(is_dicom_name(path) ? write_structures(path, result.structures, command.image, made, work)
-                                : write_label_map(path, result, made));
+        add(has_room_for_overlap(path) ? write_structures(path, result.structures, command.image, made, work)
+                                       : write_label_map(path, result, made));
     });
     if (!command.rtstruct.empty())
         outputs.write(command.rtstruct, [&](const fs::path& path) { add(write_roi_contours(path, command, all, made)); });

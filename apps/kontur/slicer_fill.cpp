@@ -79,11 +79,13 @@ void run(const SlicerFillCommand& command, Console& console) {
     check_outputs(std::array{command.fill.output, command.return_parameters},
                   std::array{command.fill.labels.path, command.fill.image});
     SlicerRun run(kName);
-    const FillReport report = fill_files(command.fill, console, run.work(command.fill.threads, console.stop_token()));
-    if (!command.return_parameters.empty()) write_file_atomically(command.return_parameters, return_parameters(report));
-    for (const FilledLabel& one : report.labels) {
-        for (const std::string& warning : one.warnings) run.say(fmt::format("warning: label {}: {}", one.label, warning));
-        if (one.image.verdict != ImageVerdict::none) run.say(fmt::format("label {}: {}", one.label, sentence(one.image)));
+    const FilledFile filled = fill_files(command.fill, console, run.work(command.fill.threads, console.stop_token()));
+    if (!command.return_parameters.empty())
+        write_file_atomically(command.return_parameters, return_parameters(filled.report));
+    for (std::size_t n = 0; n < filled.report.labels.size(); ++n) {
+        const FilledLabel& one = filled.report.labels[n];
+        for (const std::string& warning : one.warnings) run.say(fmt::format("warning: {}: {}", title(filled, n), warning));
+        if (one.image.verdict != ImageVerdict::none) run.say(fmt::format("{}: {}", title(filled, n), sentence(one.image)));
     }
     run.end();
 }

@@ -81,7 +81,9 @@ Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, co
         for (const std::string& note : found.notes) input.options.on_note(note);
         return std::move(found.labels);
     }
-    Image image = read_image(input.path, input.options, work);
+    ReadImageOptions options = input.options;
+    if (label && !options.frame) options.frame = layer_of(nrrd_segments(input.path), *label);
+    Image image = read_image(input.path, options, work);
     if (!label) return image;
     if (!count_labels(image).contains(*label))
         throw Error(ErrorKind::invalid_input, fmt::format("{} has no label {}", input.path.string(), *label));
@@ -112,7 +114,7 @@ std::vector<LabelName> label_names(const ImageInput& source) {
         if (segment.layer == source.options.frame.value_or(0)) add(to_dicom(segment), segment.tags);
     if (is_seg)
         for (const DicomSegment& segment : read_dicom_segmentation(source.path).segments)
-            add(segment, tags_of_terms({segment.category, segment.code}));
+            add(segment, tags_of_terms(attributes_of(segment)));
     return names;
 }
 
@@ -126,6 +128,12 @@ std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& sour
     }
     return segments;
 }
+
+std::string tags_of(const Structures& structures, std::size_t n) {
+    return n < structures.tags.size() ? structures.tags[n] : tags_of_terms(attributes_of(structures.segments[n]));
+}
+
+bool has_room_for_overlap(const fs::path& output) { return is_dicom_name(output) || has_extension(output, ".seg.nrrd"); }
 
 bool may_overlap(const ImageInput& input) {
     if (!is_dicom_seg(input.path)) return !input.options.frame && has_layers(nrrd_segments(input.path));

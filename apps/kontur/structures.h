@@ -37,6 +37,12 @@ struct Structures {
     std::vector<std::string> tags{};  ///< of 3D Slicer, one for each where the file has them
 };
 
+/// What 3D Slicer's tags say of one of them.
+std::string tags_of(const Structures& structures, std::size_t n);
+
+/// Whether structures that overlap can be written to a file of this name: a SEG, or a .seg.nrrd on layers.
+bool has_room_for_overlap(const std::filesystem::path& output);
+
 /// Whether a label map cannot hold what the file does: segments of a DICOM SEG overlap, or a .seg.nrrd has layers.
 bool may_overlap(const ImageInput& input);
 

@@ -132,32 +132,43 @@ Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
     return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
 }
 
-/// What 3D Slicer's segmentations say of their labels.
-std::map<std::int64_t, Traced> named_labels(const fs::path& path) {
-    std::map<std::int64_t, Traced> named;
-    if (path.extension() != ".nrrd") return named;
-    for (const NrrdSegment& segment : read_nrrd_segments(path))
-        if (segment.layer == 0) {
+/// What 3D Slicer's segmentations say of the labels of each of their layers; one layer without names of other files.
+std::map<std::int64_t, std::map<std::int64_t, Traced>> named_layers(const fs::path& path) {
+    std::map<std::int64_t, std::map<std::int64_t, Traced>> layers;
+    if (path.extension() == ".nrrd")
+        for (const NrrdSegment& segment : read_nrrd_segments(path)) {
             const SegmentTerms terms = terms_in_tags(segment.tags);
-            named[segment.label_value] = {
+            layers[segment.layer][segment.label_value] = {
                 segment.name,
                 StructureAttributes{.color = to_rgb8(segment.color), .category = terms.category, .code = terms.code}};
         }
-    return named;
+    if (layers.empty()) layers[0];
+    return layers;
 }
 
-Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
-    const Image labels = read_image(path);
+/// Adds each label; false where there is none.
+bool add_labels(Imported& imported, const Image& labels, const std::map<std::int64_t, Traced>& named,
+                const TraceRequest& request) {
     const auto counts = count_labels(labels, kMostImportedLabels);
-    if (counts.empty()) throw Error(ErrorKind::invalid_input, "the mask is empty");
-    const std::map<std::int64_t, Traced> named = named_labels(path);
-    Imported imported;
     for (const auto& [label, voxels] : counts) {
         const auto known = named.find(label);
         const Traced unnamed{counts.size() == 1 ? "" : fmt::format("Label {}", label)};
         add_traced(imported, select_label(labels, static_cast<double>(label)),
                    known == named.end() ? unnamed : known->second, request);
     }
+    return !counts.empty();
+}
+
+Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
+    Imported imported;
+    bool has_labels = false;
+    const auto layers = named_layers(path);
+    for (const auto& [layer, named] : layers) {
+        ReadImageOptions options;
+        if (layers.size() > 1) options.frame = layer;
+        has_labels |= add_labels(imported, read_image(path, options), named, request);
+    }
+    if (!has_labels) throw Error(ErrorKind::invalid_input, "the mask is empty");
     if (imported.sets.empty()) throw Error(ErrorKind::invalid_input, "the mask has nothing that is large enough to trace");
     return imported;
 }

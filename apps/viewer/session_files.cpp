@@ -48,7 +48,7 @@ void write_mask_file(const fs::path& path, const FittedStructure& one) {
     WriteMaskOptions options;
     options.segment_name = one.structure.name;
     options.segment_color = rgb(one.structure.color);
-    options.segment_tags = tags_of_terms({one.set.attributes.category, one.set.attributes.code});
+    options.segment_tags = tags_of_terms(one.set.attributes);
     options.provenance = provenance(one.set, one.made.mask.grid, one.made.report);
     write_mask(path, one.made.mask, options);
 }

@@ -73,7 +73,7 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     options.provenance = together(all);
     for (std::size_t n = 0; n < all.size(); ++n)
         options.names.push_back({static_cast<std::int64_t>(n + 1), all[n].structure.name, rgb(all[n].structure.color),
-                                 tags_of_terms({all[n].set.attributes.category, all[n].set.attributes.code})});
+                                 tags_of_terms(all[n].set.attributes)});
     Image image{all.front().made.mask.grid, labels};
     if (all.size() <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
     write_image(path, image, options);

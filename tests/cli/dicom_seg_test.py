@@ -181,6 +181,25 @@ def test_layers_of_3d_slicer_become_overlapping_segments(tmp_path, images, overl
     assert overlap == "NO" and list(found) == ["tumour"] and numpy.array_equal(found["tumour"], overlapping[1])
 
 
+def test_masks_become_layers_that_are_told_converted_and_found_by_label(tmp_path, overlapping):
+    layers = tmp_path / "both.seg.nrrd"
+    assert kontur("convert", tmp_path / "liver.nii.gz", layers, "--add", tmp_path / "tumour.nii.gz").returncode == 0
+    [facts] = json.loads(kontur("inspect", layers, "--json").stdout)
+    shared = int(overlapping.all(axis=0).sum())
+    assert facts["kind"] == "segmentation" and [s["name"] for s in facts["segments"]] == ["liver", "tumour"]
+    assert [(s["voxels"], s["shared_voxels"]) for s in facts["segments"]] == [(int(array.sum()), shared) for array in overlapping]
+    layers.write_bytes(layers.read_bytes().replace(b"Segment1_Tags:=", b"Segment1_Tags:=Segmentation.Status:done|", 1))
+    assert kontur("convert", layers, tmp_path / "again.seg.nrrd").returncode == 0
+    assert b"Segment1_Tags:=Segmentation.Status:done|" in (tmp_path / "again.seg.nrrd").read_bytes()
+    refused = kontur("convert", layers, tmp_path / "labels.nii.gz")
+    assert refused.returncode == 65 and "both.seg.nrrd overlap, and" in refused.stderr and "--label" in refused.stderr, refused
+    for number, array in enumerate(overlapping, start=1):
+        assert kontur("convert", layers, tmp_path / "one.nii.gz", "--label", number).returncode == 0
+        assert numpy.array_equal(read_nifti(tmp_path / "one.nii.gz"), array * number)
+        same = json.loads(kontur("compare", layers, tmp_path / "one.nii.gz", "--label", number, "--json").stdout)
+        assert same["dice"] == 1
+
+
 @pytest.mark.parametrize("words, why", [
     (["liver.nii.gz", "out.nii.gz", "--add", "tumour.nii.gz"], "--add is for segments of a DICOM SEG"),
     (["liver.nii.gz", "out.dcm", "--add", "tumour.nii.gz", "--label", "1"], "--label cannot choose where --add"),

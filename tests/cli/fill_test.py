@@ -98,7 +98,9 @@ def test_segments_that_overlap_are_filled_each_by_itself(tmp_path):
     assert label["label"] == 2 and label["painted_voxels"] + label["added_voxels"] == (full == 2).sum()
     succeed("fill", write_nifti(tmp_path / "alone.nii", (balls[1] * 2).astype("u1")), "--output", tmp_path / "alone_full.nii")
     assert (full == read(tmp_path / "alone_full.nii")).all()
-    succeed("fill", tmp_path / "two.seg.nrrd", "--output", tmp_path / "both.seg.nrrd")
+    report = succeed("fill", tmp_path / "two.seg.nrrd", "--output", tmp_path / "both.seg.nrrd", "--report", tmp_path / "fill.json")
+    assert "label 1 (cyst): " in report and "label 2 (kidney): " in report
+    assert [label["name"] for label in json.loads((tmp_path / "fill.json").read_text())["labels"]] == ["cyst", "kidney"]
     header = (tmp_path / "both.seg.nrrd").read_bytes()
     assert b"sizes: 2 40 40 40" in header and b"Segment1_Tags:=Status:done|" in header
     succeed("convert", tmp_path / "both.seg.nrrd", tmp_path / "second.nii", "--frame", 1)

@@ -62,15 +62,12 @@ def one_by_one(folder, structures, images):
 def test_several_rois_become_one_label_map(tmp_path, structures, images):
     masks = one_by_one(tmp_path, structures, images)
     words = ["--roi", "bladder", "--roi", "RECTUM", "--roi", "3", "--image", images]
-    result = kontur("segment", structures, *words, "--output", tmp_path / "all.seg.nrrd", "--report", tmp_path / "all.json")
+    result = kontur("segment", structures, *words, "--output", tmp_path / "all.nii", "--report", tmp_path / "all.json")
     assert result.returncode == 0, result
     both = numpy.count_nonzero(masks["Bladder"] & masks["rectum"])
     assert both > 10
     sentence = f"{both} voxels of 'rectum' lie in 'Bladder', too, and keep its label 1"
     assert sentence in result.stderr
-    header = (tmp_path / "all.seg.nrrd").read_bytes().split(b"\n\n")[0].decode()
-    assert [f"Segment{n}_Name:={name}" in header for n, name in enumerate(BALLS)] == [True] * 3
-    assert kontur("convert", tmp_path / "all.seg.nrrd", tmp_path / "all.nii").returncode == 0
     expected = numpy.zeros(masks["PTV"].shape, int)
     for label, name in reversed(list(enumerate(BALLS, 1))):
         expected[masks[name]] = label
@@ -81,6 +78,18 @@ def test_several_rois_become_one_label_map(tmp_path, structures, images):
     assert any(sentence in warning for warning in report["warnings"])
     digests = [report["provenance"][f"contours_sha256_{n}"] for n in (1, 2, 3)]
     assert len(set(digests)) == 3 and {"version", "options_1", "image_sha256"} <= set(report["provenance"])
+
+
+@pytest.mark.parametrize("together", [(), ("--together", "--may-overlap", "Bladder:rectum")])
+def test_several_rois_become_layers_that_keep_what_overlaps(tmp_path, structures, images, together):
+    words = ["--all-rois", "--image", images, *together]
+    result = kontur("segment", structures, *words, "--output", tmp_path / "all.seg.nrrd")
+    assert result.returncode == 0 and "keep its label" not in result.stderr, result
+    assert kontur("segment", structures, *words, "--output", tmp_path / "all.dcm").returncode == 0
+    [layers], [seg] = (json.loads(kontur("inspect", tmp_path / name, "--json").stdout) for name in ("all.seg.nrrd", "all.dcm"))
+    said = ("number", "name", "voxels", "shared_voxels", "color")
+    assert [{key: s[key] for key in said} for s in layers["segments"]] == [{key: s[key] for key in said} for s in seg["segments"]]
+    assert [s["name"] for s in layers["segments"]] == list(BALLS) and layers["segments"][0]["shared_voxels"] > 10
 
 
 def test_several_rois_become_a_seg_that_keeps_what_overlaps_and_an_rtstruct(tmp_path, structures, images):

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "image_cases.h"
+#include "kontur/io/image.h"
 #include "support/temporary_folder.h"
 
 namespace kontur {
@@ -134,6 +135,30 @@ TEST(Nrrd, MasksThatOverlapLieOnLayers) {
     masks[1].grid = test::all_orientations()[6];
     expect_error(ErrorKind::invalid_input, "the masks lie on different grids",
                  [&] { write_seg_nrrd_masks(folder / "b.seg.nrrd", masks, segments); });
+}
+
+TEST(Nrrd, SegmentsOfThreeAxesLieOnOneLayerThoughTheFileNamesNone) {
+    const test::TemporaryFolder folder;
+    const Image labels = test::pattern_image<std::uint8_t>(test::all_orientations()[5]);
+    write_seg_nrrd(folder / "a.seg.nrrd", labels, std::vector<NrrdSegment>{{"one", {}, 10}, {"two", {}, 20}});
+    std::string text = test::content_of(folder / "a.seg.nrrd");
+    for (std::size_t at = 0; (at = text.find("_Layer:=0")) != std::string::npos;) text.replace(at, 9, "_Other:=0");
+    test::put_content(folder / "b.seg.nrrd", text);
+    for (const NrrdSegment& segment : read_nrrd_segments(folder / "b.seg.nrrd")) EXPECT_EQ(segment.layer, 0) << segment.name;
+}
+
+TEST(Nrrd, ALabelOfOneSegmentSaysItsLayer) {
+    const std::vector<NrrdSegment> segments{{"one", {}, 1, 0}, {"two", {}, 2, 1}, {"three", {}, 3, 0}, {"again", {}, 3, 1}};
+    EXPECT_EQ(layer_of(segments, 2), 1);
+    EXPECT_EQ(layer_of(segments, 3), std::nullopt);
+    EXPECT_EQ(layer_of(segments, 4), std::nullopt);
+    const test::TemporaryFolder folder;
+    const Grid grid = test::all_orientations()[5];
+    std::vector<Mask> masks(2, {grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()), 1)});
+    masks[1].values[3] = 0;
+    write_seg_nrrd_masks(folder / "a.seg.nrrd", masks, std::span(segments).first(2));
+    EXPECT_EQ(read_mask(folder / "a.seg.nrrd", 2).values, masks[1].values);
+    expect_error(ErrorKind::unsupported, "2 frames", [&] { read_mask(folder / "a.seg.nrrd"); });
 }
 
 TEST(Nrrd, RejectsEveryTruncatedPrefix) {

@@ -10,11 +10,11 @@ const CodedConcept kStructure{"123037004", "SCT", "Anatomical Structure"};
 const CodedConcept kKidney{"64033007", "SCT", "Kidney"};
 
 TEST(SegmentTags, TermsComeBack) {
-    const SegmentTerms found = terms_in_tags(tags_of_terms({kStructure, kKidney}));
+    const SegmentTerms found = terms_in_tags(tags_of_terms({.category = kStructure, .code = kKidney}));
     EXPECT_EQ(found.category, kStructure);
     EXPECT_EQ(found.code, kKidney);
     EXPECT_EQ(tags_of_terms({}), "");
-    EXPECT_EQ(terms_in_tags(tags_of_terms({{}, kKidney})).code, kKidney);
+    EXPECT_EQ(terms_in_tags(tags_of_terms({.code = kKidney})).code, kKidney);
 }
 
 TEST(SegmentTags, TermsAreFoundAmongOtherTags) {
@@ -34,7 +34,8 @@ TEST(SegmentTags, WhatIsNoTermIsNone) {
 }
 
 TEST(SegmentTags, WhatWouldEndATermBecomesASpace) {
-    const SegmentTerms found = terms_in_tags(tags_of_terms({{{"1", "99X", "a|b"}}, {{"2", "99X", "c~d^e"}}}));
+    const SegmentTerms found = terms_in_tags(
+        tags_of_terms({.category = CodedConcept{"1", "99X", "a|b"}, .code = CodedConcept{"2", "99X", "c~d^e"}}));
     EXPECT_EQ(found.category->meaning, "a b");
     EXPECT_EQ(found.code->meaning, "c d e");
 }

@@ -106,11 +106,18 @@ Image read_segments(const fs::path& path, std::optional<std::int64_t> segment, c
     return std::move(found.labels);
 }
 
-/// Overlapping segments of one file can be read one by one only.
+bool is_nrrd(const fs::path& path) {
+    const Format format = rule_for(path).format;
+    return format == Format::nrrd || format == Format::seg_nrrd;
+}
+
+/// Overlapping segments of one file can be read one by one only: a label of 3D Slicer's layers says which layer.
 Image read_labels(const fs::path& path, std::optional<std::int64_t> label, const ReadImageOptions& options,
                   const Work& work) {
     if (is_dicom_seg(path)) return read_segments(path, label, options, work);
-    return read_image(path, options, work);
+    ReadImageOptions read = options;
+    if (label && !read.frame && is_nrrd(path)) read.frame = layer_of(read_nrrd_segments(path), *label);
+    return read_image(path, read, work);
 }
 
 template <typename Value>

@@ -155,13 +155,14 @@ std::vector<NrrdSegment> read_nrrd_segments(const fs::path& path) {
         if (found == header.keys.end()) return std::nullopt;
         return found->second;
     };
+    // Files of 3D Slicer before 4.11 have one layer for each segment, with the value 1; those of three axes have one layer.
+    const bool has_layers = header.fields.find("dimension").value_or("") != "3";
     std::vector<NrrdSegment> segments;
     while (value_of(segments.size(), "ID")) {
         const std::size_t number = segments.size();
         NrrdSegment segment;
         segment.name = value_of(number, "Name").value_or(*value_of(number, "ID"));
         if (!is_utf8(segment.name)) segment.name = latin1_to_utf8(segment.name);
-        // Files of 3D Slicer before 4.11 have one layer for each segment, with the value 1.
         const std::string label = value_of(number, "LabelValue").value_or("1");
         const std::optional<std::int64_t> label_value = parse_integer(trimmed(label));
         if (!label_value)
@@ -169,7 +170,8 @@ std::vector<NrrdSegment> read_nrrd_segments(const fs::path& path) {
                 ErrorKind::corrupt_file,
                 fmt::format("the label value of its segment {} is \"{}\", which is no integer", number, label));
         segment.label_value = *label_value;
-        segment.layer = parse_integer(value_of(number, "Layer").value_or(std::to_string(number))).value_or(0);
+        segment.layer = has_layers ? static_cast<std::int64_t>(number) : 0;
+        if (const auto layer = value_of(number, "Layer")) segment.layer = parse_integer(*layer).value_or(0);
         segment.tags = value_of(number, "Tags").value_or("");
         const std::string color = value_of(number, "Color").value_or("");
         const auto parts = words(color);
@@ -177,6 +179,16 @@ std::vector<NrrdSegment> read_nrrd_segments(const fs::path& path) {
         segments.push_back(segment);
     }
     return segments;
+}
+
+std::optional<std::int64_t> layer_of(std::span<const NrrdSegment> segments, std::int64_t label) {
+    std::optional<std::int64_t> layer;
+    for (const NrrdSegment& segment : segments) {
+        if (segment.label_value != label) continue;
+        if (layer) return std::nullopt;
+        layer = segment.layer;
+    }
+    return layer;
 }
 
 }  // namespace kontur

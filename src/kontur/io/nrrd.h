@@ -53,4 +53,7 @@ void write_seg_nrrd_masks(const std::filesystem::path& path, std::span<const Mas
 /// The segments that a file names, in its order; none in a plain NRRD file. Names that are no UTF-8 count as Latin-1.
 std::vector<NrrdSegment> read_nrrd_segments(const std::filesystem::path& path);
 
+/// The layer of the one segment with this label; nullopt where none or several have it.
+std::optional<std::int64_t> layer_of(std::span<const NrrdSegment> segments, std::int64_t label);
+
 }  // namespace kontur

@@ -61,11 +61,11 @@ SegmentTerms terms_in_tags(std::string_view tags) {
     return {};
 }
 
-std::string tags_of_terms(const SegmentTerms& terms) {
-    if (!terms.category && !terms.code) return "";
+std::string tags_of_terms(const StructureAttributes& said) {
+    if (!said.category && !said.code) return "";
     // An entry without either of them is none for 3D Slicer.
-    const std::string category = text_of(terms.category ? terms.category : kTissue);
-    const std::string code = text_of(terms.code ? terms.code : kTissue);
+    const std::string category = text_of(said.category ? said.category : kTissue);
+    const std::string code = text_of(said.code ? said.code : kTissue);
     return std::string(kEntry) + std::string(kTypeContext) + "~" + category + "~" + code + "~^^~" +
            std::string(kAnatomyContext) + "~^^~^^|";
 }

@@ -19,7 +19,7 @@ struct SegmentTerms {
 /// 3D Slicer a list of contexts and terms, SCHEME^VALUE^MEANING, with tildes between them. Unset where there are none.
 SegmentTerms terms_in_tags(std::string_view tags);
 
-/// Tags that say these terms; "" without any. What would end a term or the list becomes a space.
-std::string tags_of_terms(const SegmentTerms& terms);
+/// Tags that say the category and the code; "" without any. What would end a term or the list becomes a space.
+std::string tags_of_terms(const StructureAttributes& said);
 
 }  // namespace kontur

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "kontur/base/error.h"
+
 namespace kontur {
 namespace {
 
@@ -32,6 +34,21 @@ TEST(ParallelFor, RethrowsABodysException) {
     };
     EXPECT_THROW(run(1), std::runtime_error);
     EXPECT_THROW(run(4), std::runtime_error);
+}
+
+TEST(ParallelFor, BeginsNoChunkAfterAStop) {
+    for (const int threads : {1, 4}) {
+        std::stop_source source;
+        std::atomic<int> begun = 0;
+        const auto run = [&] {
+            parallel_for(100, 1, Work{.threads = threads, .stop = source.get_token()}, [&](std::int64_t, std::int64_t) {
+                ++begun;
+                source.request_stop();
+            });
+        };
+        EXPECT_THROW(run(), Error);
+        EXPECT_LE(begun, threads);
+    }
 }
 
 std::int64_t sum_in_parallel(std::int64_t count) {

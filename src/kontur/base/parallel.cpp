@@ -43,4 +43,12 @@ void parallel_for(std::int64_t count, std::int64_t chunk, int threads,
     if (failure) std::rethrow_exception(failure);
 }
 
+void parallel_for(std::int64_t count, std::int64_t chunk, const Work& work,
+                  const std::function<void(std::int64_t, std::int64_t)>& body) {
+    parallel_for(count, chunk, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        work.check();
+        body(begin, end);
+    });
+}
+
 }  // namespace kontur

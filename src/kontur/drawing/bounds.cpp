@@ -17,7 +17,7 @@ Bounds find_bounds(const DrawnPlanes& planes, const Work& work) {
         bool is_guess[2] = {};
     };
     std::vector<Found> found(regions.size());
-    parallel_for(static_cast<std::int64_t>(regions.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(regions.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
             found[r].bounds[0] = plane_bounds(planes, regions, r);
             found[r].bounds[1] = end_bounds(planes, regions, r, 1, found[r].is_guess[0]);

@@ -39,7 +39,7 @@ void append_crossings(const Section& other, DrawnRegion& region) {
 
 std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work) {
     std::vector<std::optional<DrawnRegion>> found(planes.sections.size());
-    parallel_for(static_cast<std::int64_t>(found.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(found.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
             const Section& section = planes.sections[s];
             std::vector<Probe> inside = probes(section);

@@ -178,7 +178,7 @@ void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std:
                const Work& work) {
     const AllLines lines = lines_of(set, tolerance_mm);
     const double own = own_edge(tolerance_mm);
-    parallel_for(static_cast<std::int64_t>(points.size()), 128, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(points.size()), 128, work, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             BoundaryPoint& point = points[static_cast<std::size_t>(begin)];
             if (point.contour == kNoContour || point.inplane_normal == Vec3{}) continue;
@@ -195,7 +195,7 @@ void refine_narrow(const ContourSet& drawn, ContourSet& refined, const FinePiece
     check_same_count("shortest lengths", pieces.shortest_mm.size(), "contours", count);
     check_same_count("long lengths", pieces.long_mm.size(), "contours", count);
     const AllLines lines = lines_of(drawn, tolerance_mm);
-    parallel_for(static_cast<std::int64_t>(count), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(count), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) {
             const auto c = static_cast<std::size_t>(begin);
             const NarrowEdges edges(lines.with(static_cast<std::int32_t>(c)),

@@ -139,7 +139,7 @@ void append_limits(const DrawnPlanes& planes, const PrepareOptions& options, con
 void find_extents(const Extents& extents, const Work& work, PreparedContours& prepared) {
     if (extents.is_one_part()) return;
     const auto find = [&](auto& places) {
-        parallel_for(static_cast<std::int64_t>(places.size()), 256, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(static_cast<std::int64_t>(places.size()), 256, work, [&](std::int64_t begin, std::int64_t end) {
             for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
                 places[i].extent = extents.at(places[i].position);
         });

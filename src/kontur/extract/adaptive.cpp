@@ -255,8 +255,7 @@ private:
     /// Calls visit(number) for all cells of the band, in parallel.
     template <typename Visit>
     void for_each_cell(const Visit& visit) {
-        parallel_for(static_cast<std::int64_t>(band_.size()), 32, work_.threads, [&](std::int64_t begin, std::int64_t end) {
-            work_.check();
+        parallel_for(static_cast<std::int64_t>(band_.size()), 32, work_, [&](std::int64_t begin, std::int64_t end) {
             for (; begin < end; ++begin) visit(static_cast<std::size_t>(begin));
         });
     }

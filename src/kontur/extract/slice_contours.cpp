@@ -156,7 +156,7 @@ ContourSet slice_contours(const Mask& mask, const ImplicitFunction& function, co
     for (std::int64_t start = 0; start < mask.grid.size.k; start += kSlicesAtOnce) {
         work.report("slice", static_cast<double>(start) / static_cast<double>(mask.grid.size.k));
         const std::int64_t count = std::min(kSlicesAtOnce, mask.grid.size.k - start);
-        parallel_for(count, 1, work.threads, [&](std::int64_t first, std::int64_t end) {
+        parallel_for(count, 1, work, [&](std::int64_t first, std::int64_t end) {
             for (std::int64_t k = start + first; k < start + end; ++k)
                 slices[static_cast<std::size_t>(k)] = contours_of_slice(mask, function, k);
         });

@@ -134,7 +134,7 @@ std::vector<std::array<double, 2>> simplified(const std::vector<std::array<doubl
 
 std::vector<double> sample_levels(const MaskSampler& sampler, const PlaneLattice& lattice, const Work& work) {
     std::vector<double> levels(static_cast<std::size_t>(lattice.node_count()));
-    parallel_for(lattice.rows, 16, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(lattice.rows, 16, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t j = begin; j < end; ++j)
             for (std::int64_t i = 0; i < lattice.columns; ++i) {
                 const auto [u, v] = lattice.uv(i, j);

@@ -11,16 +11,15 @@ namespace {
 /// Marks, for every lattice edge along i that the surface cuts, the point behind the cut. The cell of which the edge is the
 /// lowest is among the surface's; beyond the grid no point needs a mark.
 void mark_cuts(const SurfaceLattice& surface, const Work& work, Mask& mask) {
-    parallel_for(static_cast<std::int64_t>(surface.cells.size()), 4096, work.threads,
-                 [&](std::int64_t begin, std::int64_t end) {
-                     for (; begin < end; ++begin) {
-                         const Index3& cell = surface.cells[static_cast<std::size_t>(begin)];
-                         const Index3 behind = Lattice::corner(cell, 1);
-                         if (behind.i >= mask.grid.size.i || cell.j < 0 || cell.k < 0) continue;
-                         if ((surface.lattice.value(cell) > 0) != (surface.lattice.value(behind) > 0))
-                             mask.values[mask.grid.offset(behind.i, behind.j, behind.k)] = 1;
-                     }
-                 });
+    parallel_for(static_cast<std::int64_t>(surface.cells.size()), 4096, work, [&](std::int64_t begin, std::int64_t end) {
+        for (; begin < end; ++begin) {
+            const Index3& cell = surface.cells[static_cast<std::size_t>(begin)];
+            const Index3 behind = Lattice::corner(cell, 1);
+            if (behind.i >= mask.grid.size.i || cell.j < 0 || cell.k < 0) continue;
+            if ((surface.lattice.value(cell) > 0) != (surface.lattice.value(behind) > 0))
+                mask.values[mask.grid.offset(behind.i, behind.j, behind.k)] = 1;
+        }
+    });
 }
 
 /// Inside is what lies behind an odd number of marks.
@@ -55,7 +54,7 @@ Mask fill(const SurfaceLattice& surface, const Work& work) {
     const Grid& grid = surface.lattice.grid();
     Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
     mark_cuts(surface, work, mask);
-    parallel_for(grid.size.j * grid.size.k, 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(grid.size.j * grid.size.k, 64, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             std::uint8_t* const first = mask.values.data() + row * grid.size.i;
             fill_row(first, first + grid.size.i);

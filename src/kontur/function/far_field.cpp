@@ -82,8 +82,7 @@ template <typename Add>
 void FarField::for_each_group(const CellGroups& groups, double edge, const Work& work, const Add& add) {
     std::atomic<std::int64_t> kernel_values{0};
     const auto cells = static_cast<std::int64_t>(groups.cells.size());
-    parallel_for(cells, kGroupsPerChunk, work.threads, [&](std::int64_t begin, std::int64_t end) {
-        work.check();
+    parallel_for(cells, kGroupsPerChunk, work, [&](std::int64_t begin, std::int64_t end) {
         NearSources sources;
         for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
             const Vec3 low = edge * as_vector(groups.cells[c]);

@@ -153,11 +153,10 @@ void load(const PointArrays& targets, std::size_t begin, std::size_t count, Lane
 /// Calls body(begin, count) for runs of at most kLanes targets.
 template <class Body>
 void for_each_lane_group(std::size_t target_count, const Work& work, const Body& body) {
-    parallel_for(
-        static_cast<std::int64_t>(target_count), kTargetsPerChunk, work.threads, [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t t = begin; t < end; t += kLanes)
-                body(static_cast<std::size_t>(t), static_cast<std::size_t>(std::min<std::int64_t>(kLanes, end - t)));
-        });
+    parallel_for(static_cast<std::int64_t>(target_count), kTargetsPerChunk, work, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t t = begin; t < end; t += kLanes)
+            body(static_cast<std::size_t>(t), static_cast<std::size_t>(std::min<std::int64_t>(kLanes, end - t)));
+    });
 }
 
 /// The sums at all targets by one of the functions above.

@@ -55,8 +55,7 @@ std::vector<Vec3> surface_points(const Values& mask) {
 /// From each point to the nearest point of the tree, ascending.
 std::vector<double> sorted_distances(const std::vector<Vec3>& from, const PointTree& to, const Work& work) {
     std::vector<double> distances(from.size());
-    parallel_for(static_cast<std::int64_t>(from.size()), 4096, work.threads, [&](std::int64_t begin, std::int64_t end) {
-        work.check();
+    parallel_for(static_cast<std::int64_t>(from.size()), 4096, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) distances[i] = to.distance_to(from[i]);
     });
     std::sort(distances.begin(), distances.end());

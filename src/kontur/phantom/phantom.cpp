@@ -88,7 +88,7 @@ Image make_phantom_image(const Grid& grid, const PhantomOptions& options, const 
     std::vector<std::int16_t> samples(static_cast<std::size_t>(grid.voxel_count()));
     for (std::int64_t k = 0; k < grid.size.k; ++k) {
         work.report("phantom", static_cast<double>(k) / static_cast<double>(grid.size.k));
-        parallel_for(grid.size.j, 8, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(grid.size.j, 8, work, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t j = begin; j < end; ++j) painter.paint_row(j, k, samples.data() + grid.offset(0, j, k));
         });
     }
@@ -99,7 +99,7 @@ Image make_phantom_image(const Grid& grid, const PhantomOptions& options, const 
 Mask make_truth_mask(const Body& body, const Grid& grid, const Work& work) {
     check_grid(grid);
     Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
-    parallel_for(grid.size.j * grid.size.k, 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(grid.size.j * grid.size.k, 64, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             const std::int64_t j = row % grid.size.j, k = row / grid.size.j;
             if (!overlap(body.bounds(), row_box(grid, j, k))) continue;

@@ -110,7 +110,7 @@ LogProbabilities log_probabilities(const Histograms& h) {
 std::vector<double> intensities_across(const Intensities& image, std::span<const MovingPoint> points, double step_mm,
                                        const Work& work) {
     std::vector<double> values(points.size() * kOffsets);
-    parallel_for(static_cast<std::int64_t>(points.size()), 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(points.size()), 64, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
             for (int t = 0; t < kOffsets; ++t)
                 values[i * kOffsets + static_cast<std::size_t>(t)] =
@@ -128,7 +128,7 @@ Appearance::Appearance(const Intensities& image, const IntensityScale& scale, st
       histograms_(examples.size()),
       mean_{} {
     const std::vector<double> values = intensities_across(image, examples, step_mm, work);
-    parallel_for(static_cast<std::int64_t>(examples.size()), 64, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(examples.size()), 64, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
             histograms_[i] = histograms_of(std::span(values).subspan(i * kOffsets, kOffsets), scale);
     });

@@ -61,11 +61,10 @@ double DrawnLines::distance_to(const Vec3& p) const noexcept { return tree_->dis
 
 std::vector<double> DrawnLines::distances_to(const std::vector<Vec3>& points, const Work& work) const {
     std::vector<double> distances(points.size());
-    parallel_for(static_cast<std::int64_t>(points.size()), kPointsPerChunk, work.threads,
-                 [&](std::int64_t begin, std::int64_t end) {
-                     for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-                         distances[n] = tree_->distance_to(points[n]);
-                 });
+    parallel_for(static_cast<std::int64_t>(points.size()), kPointsPerChunk, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+            distances[n] = tree_->distance_to(points[n]);
+    });
     return distances;
 }
 

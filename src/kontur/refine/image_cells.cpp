@@ -85,7 +85,7 @@ ImageCells image_cells(const Image& image, const ContourSet& contours, std::size
     const Intensities intensities(image);
     const int samples = static_cast<int>(std::clamp(std::round(edge / intensities.voxel_mm()), 1.0, kMostSamples));
     cells.looks.resize(static_cast<std::size_t>(cells.grid.voxel_count()));
-    parallel_for(cells.grid.size.k, 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(cells.grid.size.k, 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k)
             for (std::int64_t j = 0; j < cells.grid.size.j; ++j)
                 for (std::int64_t i = 0; i < cells.grid.size.i; ++i)

@@ -45,6 +45,7 @@ std::optional<Fold> leave_out(const ContourSet& drawn, const PlaneGroup& group, 
             spread(points_of_surface(fold.function, rest.contours, spacing, alone), kSamples, frame_of(rest.contours));
         if (fold.samples.size() < kLeastPoints) return std::nullopt;
         slide_to_surface(fold.function, fold.samples, {.reach_mm = spacing}, alone);
+        alone.check();
         fold.held_out = along_contours(fold.plane, step_mm);
         std::vector<Vec3> nearest = fold.held_out;
         slide_to_surface(fold.function, nearest, {.reach_mm = 0.25 * rest.diameter_mm(), .steps = 3}, alone);
@@ -119,7 +120,7 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     const double step = std::max(voxel, length_mm(drawn) / kHeldOutPoints);
     std::vector<std::optional<Fold>> folds(groups.size());
     const Work alone{.threads = 1, .stop = work.stop};  // folds are computed beside each other
-    parallel_for(static_cast<std::int64_t>(groups.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
             folds[i] = leave_out(drawn, groups[i], image, fit, step, alone);
@@ -132,7 +133,7 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     }};
     std::vector<PlaneErrors> errors(folds.size());
     std::vector<Movement> movements(folds.size());
-    parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(folds.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
             if (!folds[i]) continue;
@@ -146,7 +147,7 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
                            image_cells(image, drawn, kMostCells, work), std::vector<WrongCells>(folds.size())};
     if (left_out.walk_seen() == 0) return left_out;  // no walk would count
     const double moving = left_out.moving();
-    parallel_for(static_cast<std::int64_t>(folds.size()), 1, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(folds.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             work.check();
             if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], left_out.cells, beliefs, moving, alone);

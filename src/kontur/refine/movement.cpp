@@ -24,7 +24,7 @@ std::vector<MovingPoint> moving_points(const DrawnOnImage& drawn, const Implicit
                                        std::span<const Vec3> points, const Beliefs& beliefs, const Work& work) {
     std::vector<MovingPoint> moving = with_normals(function, points, work);
     const double voxel = drawn.image.voxel_mm();
-    parallel_for(static_cast<std::int64_t>(moving.size()), 32, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(moving.size()), 32, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             moving[i].distance_mm = nearest_distance(moving[i].position, drawn.points);
             moving[i].prior_mm = std::max(beliefs.prior_mm(moving[i].distance_mm), kLeastPrior * voxel);
@@ -77,13 +77,12 @@ Movement find_movement(const DrawnOnImage& drawn, const ImplicitFunction& functi
     const IntensityScale scale(intensities_across(drawn.image, examples, step, work));
     const Appearance appearance(drawn.image, scale, examples, step, work);
     evidence.log_likelihood.resize(movement.points.size());
-    parallel_for(static_cast<std::int64_t>(movement.points.size()), 8, work.threads,
-                 [&](std::int64_t begin, std::int64_t end) {
-                     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-                         evidence.log_likelihood[i] = appearance.log_likelihood(movement.points[i], evidence.most);
-                         add_walls(movement.points[i], 0.5 * drawn.image.voxel_mm(), evidence, evidence.log_likelihood[i]);
-                     }
-                 });
+    parallel_for(static_cast<std::int64_t>(movement.points.size()), 8, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            evidence.log_likelihood[i] = appearance.log_likelihood(movement.points[i], evidence.most);
+            add_walls(movement.points[i], 0.5 * drawn.image.voxel_mm(), evidence, evidence.log_likelihood[i]);
+        }
+    });
     if (beliefs.image_mm)
         for (const MovingPoint& p : movement.points) evidence.image_sd_mm.push_back(beliefs.image_mm(p));
 

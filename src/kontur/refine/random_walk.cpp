@@ -51,7 +51,7 @@ std::vector<double> walk_inside(const std::vector<WalkPlace>& places, double tol
     }
     double rest = product(residual, scaled);
     for (int step = 0; step < kMostSteps && product(residual, residual) > tolerance * tolerance * aim; ++step) {
-        if (step % 16 == 0) work.check();
+        work.check();
         multiply(places, diagonal, direction, along);
         const double length = rest / product(direction, along);
         for (std::size_t n = 0; n < count; ++n) {

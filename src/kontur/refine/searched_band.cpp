@@ -23,10 +23,9 @@ std::vector<Vec3> SearchedBand::left_from(std::span<const Vec3> other, const Wor
     std::vector<std::uint8_t> is_left(surface_.size()), is_out(other.size());
     std::vector<std::size_t> nearest(other.size());
     const auto chunks = [&](std::size_t count, const auto& visit) {
-        parallel_for(static_cast<std::int64_t>(count), kPointsPerChunk, work.threads,
-                     [&](std::int64_t begin, std::int64_t end) {
-                         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) visit(i);
-                     });
+        parallel_for(static_cast<std::int64_t>(count), kPointsPerChunk, work, [&](std::int64_t begin, std::int64_t end) {
+            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) visit(i);
+        });
     };
     chunks(surface_.size(), [&](std::size_t i) { is_left[i] = others.distance_to(surface_[i]) > reach_mm_[i]; });
     const PointTree tree(surface_);

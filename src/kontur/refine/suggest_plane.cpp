@@ -22,7 +22,8 @@ constexpr double kAlikeCosine = 0.94;     // 20 degrees
 constexpr double kParallelCosine = 0.94;  // drawn planes that tell nothing of the direction across them
 constexpr std::size_t kLeastInCut = 12;   // samples, 1 %; fewer are a tip that a contour could hardly be drawn around
 
-// After two planes: as many through clusters of far places, which were worth more than the greedy choice (docs/accuracy/sureness.md).
+// After two planes: as many through clusters of far places, which were worth more than the greedy choice
+// (docs/accuracy/sureness.md).
 constexpr std::size_t kFirstByClusters = 2, kByClusters = 2;
 constexpr double kClusterReach = 0.06;  // of the diameter: from one place of a cluster to the next
 
@@ -131,7 +132,7 @@ private:
     std::optional<Cut> best_of(std::vector<Cut> cuts, PlaneSuggestions& cost) const {
         cost.candidates += static_cast<std::int64_t>(cuts.size());
         std::vector<std::int64_t> counts(cuts.size());
-        parallel_for(static_cast<std::int64_t>(cuts.size()), 1, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(static_cast<std::int64_t>(cuts.size()), 1, work_, [&](std::int64_t begin, std::int64_t end) {
             for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
                 cuts[n].gain = gain(distances_with(cuts[n], counts[n]));
         });

@@ -74,7 +74,7 @@ std::vector<double> half_widths_mm(const SurfaceEvidence& evidence, const std::v
     const Band band(evidence);
     const double of_slope = Band::of_slope(band.mean_slope());
     std::vector<double> widths = evidence.lines.distances_to(points, work);
-    parallel_for(static_cast<std::int64_t>(points.size()), 256, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(points.size()), 256, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
             widths[n] = band.half_width_mm(widths[n], of_slope, evidence.image.at(points[n]));
     });

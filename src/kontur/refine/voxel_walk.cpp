@@ -42,7 +42,10 @@ public:
     VoxelWalk walk(const Work& work) {
         find_band();
         if (walk_.asked.empty()) return std::move(walk_);
-        const std::vector<double> inside = walk_inside(places(looks_of_planes()), kTolerance, work);
+        work.check();
+        const LocalLooks looks = looks_of_planes();
+        work.check();
+        const std::vector<double> inside = walk_inside(places(looks), kTolerance, work);
         for (std::size_t n = 0; n < inside.size(); ++n) walk_.inside[walk_.asked[n]] = static_cast<float>(inside[n]);
         for (const bool side : {true, false}) leave_out_islands(side);
         return std::move(walk_);

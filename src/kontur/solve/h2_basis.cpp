@@ -47,7 +47,7 @@ NestedBasis::NestedBasis(Kernel kernel, const PointArrays& points, const Cluster
     const ProxyShells shells(kMostProxies, reach);
     for (std::size_t level = tree.level_begin.size() - 1; level-- > 0;) {
         const std::int32_t first = tree.level_begin[level], last = tree.level_begin[level + 1];
-        parallel_for(last - first, 4, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(last - first, 4, work, [&](std::int64_t begin, std::int64_t end) {
             std::vector<double> a;
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c) {
                 if (!used[c]) continue;
@@ -92,7 +92,7 @@ void NestedBasis::add_level(std::int32_t begin, std::int32_t end) {
 void NestedBasis::collect(std::span<double> weights, const Work& work) const {
     for (std::size_t level = tree_.level_begin.size() - 1; level-- > 0;) {
         const std::int32_t first = tree_.level_begin[level], last = tree_.level_begin[level + 1];
-        parallel_for(last - first, 32, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(last - first, 32, work, [&](std::int64_t begin, std::int64_t end) {
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c)
                 if (const NodeRun to = skeletons_[c]; to.size() > 0)
                     condense(interpolations_[c], &weights[candidates(tree_.clusters[c]).begin], &weights[to.begin]);
@@ -103,7 +103,7 @@ void NestedBasis::collect(std::span<double> weights, const Work& work) const {
 void NestedBasis::spread(std::span<double> fields, const Work& work) const {
     for (std::size_t level = 0; level + 1 < tree_.level_begin.size(); ++level) {
         const std::int32_t first = tree_.level_begin[level], last = tree_.level_begin[level + 1];
-        parallel_for(last - first, 32, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(last - first, 32, work, [&](std::int64_t begin, std::int64_t end) {
             for (auto c = static_cast<std::size_t>(first + begin); c < static_cast<std::size_t>(first + end); ++c)
                 if (const NodeRun from = skeletons_[c]; from.size() > 0)
                     expand(interpolations_[c], &fields[from.begin], &fields[candidates(tree_.clusters[c]).begin]);

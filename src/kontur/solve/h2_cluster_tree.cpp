@@ -55,21 +55,20 @@ ClusterTree::ClusterTree(const PointArrays& points, std::int32_t leaf_size, cons
             cluster.first_child = static_cast<std::int32_t>(clusters.size());
             clusters.insert(clusters.end(), 2, {});
         }
-        parallel_for(level_begin[level + 1] - level_begin[level], 1, work.threads,
-                     [&](std::int64_t begin, std::int64_t end) {
-                         for (auto c = static_cast<std::size_t>(level_begin[level] + begin);
-                              c < static_cast<std::size_t>(level_begin[level] + end); ++c) {
-                             const Cluster& parent = clusters[c];
-                             if (parent.is_leaf()) continue;
-                             Cluster *lower = &clusters[static_cast<std::size_t>(parent.first_child)], *upper = lower + 1;
-                             const std::int32_t middle = halve(points, parent, leaf_size, order);
-                             lower->begin = parent.begin;
-                             lower->end = upper->begin = middle;
-                             upper->end = parent.end;
-                             enclose(points, order, *lower);
-                             enclose(points, order, *upper);
-                         }
-                     });
+        parallel_for(level_begin[level + 1] - level_begin[level], 1, work, [&](std::int64_t begin, std::int64_t end) {
+            for (auto c = static_cast<std::size_t>(level_begin[level] + begin);
+                 c < static_cast<std::size_t>(level_begin[level] + end); ++c) {
+                const Cluster& parent = clusters[c];
+                if (parent.is_leaf()) continue;
+                Cluster *lower = &clusters[static_cast<std::size_t>(parent.first_child)], *upper = lower + 1;
+                const std::int32_t middle = halve(points, parent, leaf_size, order);
+                lower->begin = parent.begin;
+                lower->end = upper->begin = middle;
+                upper->end = parent.end;
+                enclose(points, order, *lower);
+                enclose(points, order, *upper);
+            }
+        });
         level_begin.push_back(static_cast<std::int32_t>(clusters.size()));
     }
     level_begin.pop_back();  // an empty level

@@ -96,7 +96,7 @@ void H2KernelMatrix::multiply(std::span<const double> weights, std::span<double>
     const PointArrays& nodes = basis_.nodes();
     const NodeView view{nodes.x.data(), nodes.y.data(), nodes.z.data(), node_weights.data()};
     sums_.resize(groups_.size());
-    parallel_for(static_cast<std::int64_t>(groups_.size()), 1, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(groups_.size()), 1, work_, [&](std::int64_t begin, std::int64_t end) {
         for (auto g = static_cast<std::size_t>(begin); g < static_cast<std::size_t>(end); ++g) {
             std::vector<double>& sums = sums_[g];
             sums.resize(count);

@@ -61,7 +61,7 @@ void DirectKernelMatrix::multiply_all(std::span<const double> weights, std::span
         add_mutual_sums(kernel_, nodes, rows, {&beyond, 1}, sum);
     };
     // Early tiles have more columns than late ones: tile g goes to the same group as its mirror image.
-    parallel_for(static_cast<std::int64_t>(groups), 1, work_.threads, [&](std::int64_t first, std::int64_t last) {
+    parallel_for(static_cast<std::int64_t>(groups), 1, work_, [&](std::int64_t first, std::int64_t last) {
         for (auto g = static_cast<std::size_t>(first); g < static_cast<std::size_t>(last); ++g)
             for (std::size_t tile = 0; tile < tiles; ++tile) {
                 const std::size_t turn = tile % (2 * groups);
@@ -70,7 +70,7 @@ void DirectKernelMatrix::multiply_all(std::span<const double> weights, std::span
                 multiply_tile(tile, sums.data() + g * size_);
             }
     });
-    parallel_for(static_cast<std::int64_t>(size_), 4096, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(size_), 4096, work_, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             double total = 0;
             for (std::size_t g = 0; g < groups; ++g) total += sums[g * size_ + i];

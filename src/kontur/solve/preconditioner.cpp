@@ -150,7 +150,7 @@ Preconditioner::Preconditioner(Kernel kernel, std::shared_ptr<const Precondition
 template <class Task>
 void Preconditioner::for_top_and_nodes(std::int64_t chunk, const Task& task) const {
     const auto nodes = static_cast<std::int64_t>(pattern_->supernodes().size());
-    parallel_for(nodes + 1, chunk, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(nodes + 1, chunk, work_, [&](std::int64_t begin, std::int64_t end) {
         for (; begin < end; ++begin) task(begin == 0 ? kTop : static_cast<std::size_t>(begin - 1));
     });
 }
@@ -209,7 +209,7 @@ void Preconditioner::apply(std::span<const double> r, std::span<double> z) const
         for (std::size_t c = 0; c < columns.size(); ++c) in[c] = ordered[static_cast<std::size_t>(columns[c])];
         apply_rows(&rows_[rows_begin_[s]], nodes[s].members, nodes[s].size(), in.data(), &contributions[nodes[s].columns]);
     });
-    parallel_for(static_cast<std::int64_t>(order.size()), 4096, work_.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(order.size()), 4096, work_, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::int32_t>(begin); i < static_cast<std::int32_t>(end); ++i) {
             double sum = i < pattern_->top() ? top_scale_ * top[static_cast<std::size_t>(i)] : 0.0;
             for (const std::uint32_t at : pattern_->occurrences(i)) sum += contributions[at];

@@ -67,8 +67,7 @@ void PreconditionerPattern::cut_into_supernodes(const MultiscaleOrder& order) {
 void PreconditionerPattern::find_neighbours(const Work& work) {
     const EarlierNeighbours neighbours(points_, work);
     std::vector<std::vector<std::int32_t>> found(supernodes_.size());
-    parallel_for(static_cast<std::int64_t>(supernodes_.size()), 16, work.threads, [&](std::int64_t begin, std::int64_t end) {
-        work.check();
+    parallel_for(static_cast<std::int64_t>(supernodes_.size()), 16, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s)
             found[s] =
                 neighbours.of(supernodes_[s].begin, supernodes_[s].begin + supernodes_[s].members, options_.neighbours);

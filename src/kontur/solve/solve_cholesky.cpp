@@ -79,7 +79,7 @@ struct ReducedBasis {
 /// `entry(i, j)` is symmetric; the lower triangle is wanted.
 template <class Entry>
 void fill(TiledMatrix& a, const Entry& entry, const Work& work) {
-    parallel_for(static_cast<std::int64_t>(a.tiles()), 1, work.threads, [&](std::int64_t first, std::int64_t last) {
+    parallel_for(static_cast<std::int64_t>(a.tiles()), 1, work, [&](std::int64_t first, std::int64_t last) {
         for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row)
             for (std::size_t column = 0; column <= row; ++column) {
                 double* tile = a.tile(row, column);
@@ -102,13 +102,13 @@ void factorise(TiledMatrix& a, const Work& work) {
                                                         std::to_string(a.begin(k) + static_cast<std::size_t>(info)) +
                                                         "; constraints coincide or contradict each other");
         const auto below = static_cast<std::int64_t>(a.tiles() - k - 1);
-        parallel_for(below, 1, work.threads, [&](std::int64_t first, std::int64_t last) {
+        parallel_for(below, 1, work, [&](std::int64_t first, std::int64_t last) {
             for (auto i = k + 1 + static_cast<std::size_t>(first); i < k + 1 + static_cast<std::size_t>(last); ++i)
                 cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, a.rows(i), nk, 1.0,
                             a.tile(k, k), kLead, a.tile(i, k), kLead);
         });
         // Tile (i, j) of the trailing triangle, numbered row by row.
-        parallel_for(below * (below + 1) / 2, 1, work.threads, [&](std::int64_t first, std::int64_t last) {
+        parallel_for(below * (below + 1) / 2, 1, work, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t t = first; t < last; ++t) {
                 auto r = static_cast<std::int64_t>((std::sqrt(8.0 * static_cast<double>(t) + 1) - 1) / 2);
                 while (r * (r + 1) / 2 > t) --r;

@@ -101,7 +101,7 @@ DepthBuffer render_depth(const TriangleMesh& mesh, const Camera& camera, const W
     buffer.pixels.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
     const std::vector<ScreenPoint> points = project(mesh, camera);
     const auto bands = triangles_by_band(mesh, points, camera.height);
-    parallel_for(static_cast<std::int64_t>(bands.size()), 1, work.threads, [&](std::int64_t band, std::int64_t) {
+    parallel_for(static_cast<std::int64_t>(bands.size()), 1, work, [&](std::int64_t band, std::int64_t) {
         const int first_row = static_cast<int>(band) * kBandRows;
         const BandFiller filler(buffer, first_row, std::min(first_row + kBandRows, camera.height) - 1);
         for (const std::uint32_t t : bands[static_cast<std::size_t>(band)]) {

@@ -54,7 +54,7 @@ public:
 private:
     template <class Body>
     void for_rows(const Work& work, const Body& body) const {
-        parallel_for(buffer_.height, kChunkRows, work.threads, [&](std::int64_t begin, std::int64_t end) {
+        parallel_for(buffer_.height, kChunkRows, work, [&](std::int64_t begin, std::int64_t end) {
             for (auto y = static_cast<int>(begin); y < end; ++y) body(y);
         });
     }
@@ -163,7 +163,7 @@ ShadedSurface shade(const TriangleMesh& mesh, const Camera& camera, const ShadeO
                 }
         return covered == 0 ? 0 : premultiplied_argb(sum / covered, static_cast<double>(covered) / (samples * samples));
     };
-    parallel_for(camera.height, kChunkRows, work.threads, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(camera.height, kChunkRows, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = static_cast<int>(begin); y < end; ++y)
             for (int x = 0; x < camera.width; ++x) {
                 const std::size_t i =

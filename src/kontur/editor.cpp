@@ -18,6 +18,9 @@ namespace {
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
 constexpr double kPreviewTolerance = 50;  // times that of the refined surface
 constexpr std::size_t kPreviewLines = 2;  // times as many points as the preview has tell where lines run
+// Of what follows the image's last word until the next one: a liver of 30 contours with 8,540 points is on average 0.105
+// instead of 0.049 mm off that, and told in a third of the time.
+constexpr std::size_t kFollowedPoints = 3000;
 // A screen shows an organ on some 500 pixels: a triangle then is five of them wide, and off by a twentieth of one.
 constexpr double kSpacingFraction = 0.01;   // of the contours' diameter
 constexpr double kLeastSpacing = 0.5;       // of that ...
@@ -264,6 +267,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
         const std::size_t shown = follow_image(followed, *asked_, drawing.contours, kShownNoise * spacing_mm);
         FitOptions once = stages.fit;
         once.most_solves = 1;
+        once.most_points = kFollowedPoints;
         if (shown > 0) {
             EditedSurface surface = refined_surface(fit(followed, once, work));
             surface.shown_before = shown;

@@ -70,7 +70,8 @@ public:
     EditedSurface refine(const ContourSet& contours, const Work& work = {}) const;
     /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` is told first what the
     /// contours alone make, which stays the result where the image does not help; and before that, where the image has been
-    /// asked about an earlier drawing, what the contours make with what it said then. Throws as `kontur::refine`, too.
+    /// asked about an earlier drawing, what some 3,000 of the drawn points make with what it said then. Throws as
+    /// `kontur::refine`, too.
     EditedSurface refine(const ContourSet& contours, const Image* image, const Work& work = {},
                          const std::function<void(const EditedSurface&)>& alone = {});
     /// Previews no longer follow what an image said: it is another one now, or none.

@@ -191,6 +191,34 @@ TEST(LiveEditor, FollowsWhatTheImageSaidWhileItIsAskedAgain) {
     expect_same_function(made.surface.function, segment(edited(contours), image.grid, &image).function);
 }
 
+/// The same lines with so many points for each one.
+ContourSet finer(ContourSet contours, int times) {
+    for (Contour& contour : contours.contours) {
+        std::vector<Vec3> points;
+        for (std::size_t n = 0; n < contour.points.size(); ++n) {
+            const Vec3 from = contour.points[n], to = contour.points[(n + 1) % contour.points.size()];
+            for (int part = 0; part < times; ++part) points.push_back(from + (double(part) / times) * (to - from));
+        }
+        contour.points = std::move(points);
+    }
+    return contours;
+}
+
+TEST(Editor, FollowsWhatTheImageSaidByThreeThousandOfManyPoints) {
+    const ContourSet contours = finer(drawn_on(orthogonal_planes()), 11);
+    ASSERT_EQ(point_count(contours), 3960u);
+    Editor editor;
+    const auto image = helpful_image();
+    editor.refine(contours, image.get());
+    std::vector<std::size_t> centres;
+    editor.refine(edited(contours), image.get(), {}, [&](const EditedSurface& told) {
+        EXPECT_LT(told.residual.rms_mm, 0.3);
+        centres.push_back(told.function.centers().size() - told.shown_before);
+    });
+    ASSERT_EQ(centres.size(), 2u);
+    EXPECT_LT(centres[0] + 960, centres[1]) << "960 points fewer, and what stands beside them";
+}
+
 TEST(LiveEditor, KeepsTheRefinedSurfaceWhereTheImageDoesNotHelp) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     Listened live;

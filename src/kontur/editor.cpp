@@ -282,9 +282,13 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
     RefinedFunction with_image = kontur::refine(drawing, prepared, by_contours, *image, stages, work, fits_.get());
     if (with_image.report.verdict == ImageVerdict::used) surface = refined_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
-    asked_.reset();
-    if (!surface.image.asked.empty()) asked_.emplace(drawing.contours, surface.image.asked);
+    follow_image_of(drawn, surface.image);
     return surface;
+}
+
+void Editor::follow_image_of(const ContourSet& drawn, const RefineReport& said) {
+    forget_image();
+    if (!said.asked.empty()) asked_.emplace(read_drawing(drawn, options_.segment.fill_rule).contours, said.asked);
 }
 
 }  // namespace kontur

@@ -74,6 +74,8 @@ public:
     /// `kontur::refine`, too.
     EditedSurface refine(const ContourSet& contours, const Image* image, const Work& work = {},
                          const std::function<void(const EditedSurface&)>& alone = {});
+    /// Previews follow what an image said of these contours, as it was told when they were refined.
+    void follow_image_of(const ContourSet& contours, const RefineReport& said);
     /// Previews no longer follow what an image said: it is another one now, or none.
     void forget_image() { asked_.reset(); }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -38,12 +39,27 @@ struct LiveEditor::Worker {
         }
     };
 
+    /// What an edit was told when nothing more came.
+    struct Answer {
+        ContourSet contours;
+        std::weak_ptr<const Image> image;
+        bool has_image;
+        std::optional<EditedSurface> alone;  ///< told before the image was asked
+        EditorUpdate last;
+
+        bool answers(const Edit& edit) const {
+            return has_image == (edit.image != nullptr) && edit.asks_the_same(contours, image.lock());
+        }
+    };
+
     Editor editor;
     int threads;
     std::chrono::milliseconds rest;
     Listener listener;
     BandListener ahead;
-    std::weak_ptr<const Image> last_image;  ///< of the last edit; the editor's thread alone uses it
+    // The editor's thread alone uses these.
+    std::weak_ptr<const Image> last_image;  ///< of the last edit
+    std::deque<Answer> answers;             ///< the one needed last first
     std::mutex mutex;                       // guards all below
     std::condition_variable changed;
     std::uint64_t newest = 0;    ///< number of edits so far
@@ -93,28 +109,54 @@ struct LiveEditor::Worker {
             std::function<void(const SurfaceBand&)> tell_ahead;
             if (edit.image != last_image.lock()) editor.forget_image();
             last_image = edit.image;
+            if (tell_again(edit)) return;
             if (ahead) tell_ahead = [&](const SurfaceBand& band) { ahead(number_of(edit), band); };
             update.surface = editor.preview(edit.contours, work_for(edit, closed), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;
             tell(edit, update);
             const std::stop_token stop = start_refining();
             if (stop.stop_requested()) return;
-            update.kind = EditorUpdate::Kind::refined;
-            const auto tell_alone = [&](const EditedSurface& alone) {
-                update.kind = EditorUpdate::Kind::refined;
-                update.surface = alone;
-                update.asks_image = true;
-                tell(edit, update);
-                update.asks_image = false;
-                update.kind = EditorUpdate::Kind::with_image;
+            Answer answer{edit.contours, edit.image, edit.image != nullptr, std::nullopt, {}};
+            answer.last.kind = EditorUpdate::Kind::refined;
+            const auto tell_before = [&](const EditedSurface& surface) {
+                tell_before_image(edit, surface);
+                answer.alone = surface;  // the last of them
+                answer.last.kind = EditorUpdate::Kind::with_image;
             };
-            update.surface = editor.refine(edit.contours, edit.image.get(), work_for(edit, stop), tell_alone);
-            tell_last(edit, update);
+            answer.last.surface = editor.refine(edit.contours, edit.image.get(), work_for(edit, stop), tell_before);
+            tell_last(edit, answer.last);
+            keep(std::move(answer));
         } catch (const std::exception& error) {
             const auto* known = dynamic_cast<const Error*>(&error);
             if (known && known->kind() == ErrorKind::cancelled) return;
             tell_problem(edit, error.what());
         }
+    }
+
+    /// What was told when the drawing was the same before; false where it never was, or too long ago.
+    bool tell_again(const Edit& edit) {
+        const auto known = std::ranges::find_if(answers, [&](const Answer& answer) { return answer.answers(edit); });
+        if (known == answers.end()) return false;
+        Answer answer = std::move(*known);
+        answers.erase(known);
+        editor.follow_image_of(edit.contours, answer.last.surface.image);
+        if (answer.alone) tell_before_image(edit, *answer.alone);
+        tell_last(edit, answer.last);
+        keep(std::move(answer));
+        return true;
+    }
+
+    void keep(Answer answer) {
+        answers.push_front(std::move(answer));
+        if (answers.size() > kKeptAnswers) answers.pop_back();
+    }
+
+    void tell_before_image(const Edit& edit, const EditedSurface& surface) {
+        EditorUpdate update;
+        update.kind = EditorUpdate::Kind::refined;
+        update.surface = surface;
+        update.asks_image = true;
+        tell(edit, update);
     }
 
     std::uint64_t number_of(const Edit& edit) {

@@ -36,9 +36,12 @@ struct EditorUpdate {
 /// An edit cancels a running refinement, and the question to the image, at once. A running preview is finished first, so
 /// that surfaces keep coming while a hand drags a contour; edits that arrive meanwhile are answered by the newest of them
 /// alone. An edit that changes nothing, as when a hand lets go, does not begin anything anew: what is being computed answers
-/// it, too.
+/// it, too. One that makes the drawing what it was for one of the last `kKeptAnswers` edits that have their final surface,
+/// as when it is undone, is answered by that surface at once, without a preview.
 class LiveEditor {
 public:
+    static constexpr std::size_t kKeptAnswers = 4;
+
     /// Called from the editor's thread, one update at a time; it must neither throw, nor call `wait`, nor destroy the
     /// editor.
     using Listener = std::function<void(const EditorUpdate&)>;

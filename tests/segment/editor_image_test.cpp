@@ -141,10 +141,13 @@ TEST(Editor, PreviewsDoNotFollowAnImageThatIsNoLongerAsked) {
 TEST(LiveEditor, PreviewsWithAnotherImageDoNotFollowTheOneBefore) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     Listened live;
-    for (const auto& image : {helpful_image(), helpful_image(), noise_alone()}) {
-        live.editor.edit(contours, image);
+    const auto answer = [&](const ContourSet& set, const std::shared_ptr<const Image>& image) {
+        live.editor.edit(set, image);
         live.editor.wait();
-    }
+    };
+    answer(contours, helpful_image());
+    answer(edited(contours), helpful_image());
+    answer(contours, noise_alone());
     std::vector<bool> follows;
     for (const EditorUpdate& update : live.updates())
         if (update.kind == Kind::preview) follows.push_back(update.surface.shown_before > 0);
@@ -217,6 +220,32 @@ TEST(Editor, FollowsWhatTheImageSaidByThreeThousandOfManyPoints) {
     });
     ASSERT_EQ(centres.size(), 2u);
     EXPECT_LT(centres[0] + 960, centres[1]) << "960 points fewer, and what stands beside them";
+}
+
+TEST(LiveEditor, AnUndoneEditNeedsNeitherTheImageNorASolve) {
+    const ContourSet contours = drawn_on(orthogonal_planes());
+    Listened live;
+    const auto answers = [&](const ContourSet& set, const std::shared_ptr<const Image>& image) {
+        const std::size_t before = live.updates().size();
+        live.editor.edit(set, image);
+        live.editor.wait();
+        const std::vector<EditorUpdate> all = live.updates();
+        return std::vector(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
+    };
+    const std::vector<EditorUpdate> first = answers(contours, helpful_image());
+    ASSERT_EQ(first.size(), 3u);
+    answers(edited(contours), helpful_image());
+    const std::vector<EditorUpdate> undone = answers(contours, helpful_image());
+    ASSERT_EQ(undone.size(), 2u);
+    for (std::size_t n = 0; n < 2; ++n) {
+        EXPECT_EQ(undone[n].kind, first[n + 1].kind);
+        EXPECT_EQ(undone[n].asks_image, first[n + 1].asks_image);
+        EXPECT_EQ(undone[n].surface.function.weights().data(), first[n + 1].surface.function.weights().data());
+        EXPECT_EQ(undone[n].surface.mesh.points, first[n + 1].surface.mesh.points);
+    }
+    EXPECT_EQ(sentence(undone[1].surface.image), sentence(first[2].surface.image));
+    EXPECT_GT(answers(edited(edited(contours)), helpful_image()).front().surface.shown_before, 50u);
+    EXPECT_EQ(answers(contours, nullptr).front().kind, Kind::preview) << "no image is another question";
 }
 
 TEST(LiveEditor, KeepsTheRefinedSurfaceWhereTheImageDoesNotHelp) {

@@ -39,6 +39,12 @@ private:
     std::vector<EditorUpdate> updates_;
 };
 
+ContourSet moved_ball(double mm = 0.5) {
+    ContourSet set = test::ball_contours();
+    for (Vec3& p : set.contours[0].points) p += mm * set.contours[0].plane.u;
+    return set;
+}
+
 TEST(LiveEditor, PreviewsAndThenRefinesAnEdit) {
     Log log;
     LiveEditor editor({}, log.listener());
@@ -82,8 +88,8 @@ TEST(LiveEditor, TellsOfAPreviewAheadOfItsMesh) {
             EXPECT_EQ(band.cut(test::ball_contours().contours[0].plane).size(), 1u);
             note("ahead ", edit);
         });
-    for (int edit = 0; edit < 2; ++edit) {
-        editor.edit(test::ball_contours());
+    for (const ContourSet& set : {test::ball_contours(), moved_ball(0.01)}) {
+        editor.edit(set);
         editor.wait();
     }
     EXPECT_EQ(told, (std::vector<std::string>{"ahead 1", "preview 1", "refined 1", "ahead 2", "preview 2", "refined 2"}));
@@ -107,12 +113,6 @@ TEST(LiveEditor, AnswersTheNewestOfManyEdits) {
     EXPECT_TRUE(std::ranges::is_sorted(updates, {}, &EditorUpdate::edit)) << "no answer is overtaken by an older one";
 }
 
-ContourSet moved_ball() {
-    ContourSet set = test::ball_contours();
-    for (Vec3& p : set.contours[0].points) p += 0.5 * set.contours[0].plane.u;
-    return set;
-}
-
 /// `second` comes when the preview of the first edit is told; which updates follow from there on.
 std::vector<std::pair<Kind, std::uint64_t>> told_with_edit_at_preview(const ContourSet& second) {
     std::vector<std::pair<Kind, std::uint64_t>> told;
@@ -132,6 +132,30 @@ TEST(LiveEditor, AnswersAnEditThatChangesNothingByWhatItComputes) {
     using Told = std::vector<std::pair<Kind, std::uint64_t>>;
     EXPECT_EQ(told_with_edit_at_preview(test::ball_contours()), (Told{{Kind::preview, 1}, {Kind::refined, 2}}));
     EXPECT_EQ(told_with_edit_at_preview(moved_ball()), (Told{{Kind::preview, 1}, {Kind::preview, 2}, {Kind::refined, 2}}));
+}
+
+TEST(LiveEditor, AnEditThatIsUndoneIsAnsweredByTheSurfaceThatWasThere) {
+    std::vector<EditorUpdate> updates;
+    LiveEditor editor({}, [&](const EditorUpdate& update) { updates.push_back(update); });
+    const auto answers = [&](const ContourSet& set) {
+        editor.wait();
+        updates.clear();
+        editor.edit(set);
+        editor.wait();
+        return updates;
+    };
+    const EditorUpdate first = answers(test::ball_contours()).back();
+    answers(moved_ball());
+    const std::vector<EditorUpdate> undone = answers(test::ball_contours());
+    ASSERT_EQ(undone.size(), 1u) << "neither a preview nor progress";
+    EXPECT_EQ(undone[0].kind, Kind::refined);
+    EXPECT_EQ(undone[0].edit, 3u);
+    EXPECT_EQ(undone[0].surface.function.weights().data(), first.surface.function.weights().data());
+    EXPECT_EQ(undone[0].surface.mesh.points, first.surface.mesh.points);
+    for (std::size_t n = 1; n < LiveEditor::kKeptAnswers; ++n) answers(moved_ball(double(n)));
+    EXPECT_EQ(answers(test::ball_contours()).size(), 1u);
+    for (std::size_t n = 1; n <= LiveEditor::kKeptAnswers; ++n) answers(moved_ball(double(n)));
+    EXPECT_GT(answers(test::ball_contours()).size(), 2u) << "too long ago";
 }
 
 TEST(LiveEditor, RefinesNothingThatIsEditedWhileItRests) {

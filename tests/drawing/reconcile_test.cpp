@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kontur/drawing/prepare.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
@@ -45,13 +47,29 @@ TEST(Reconcile, LowersTheTrustOfBothContoursOnlyWhereTheyDisagree) {
         if (away > 3 * 1.5 + 1) {
             EXPECT_EQ(p.trust, 1) << p.position.x << ' ' << p.position.y << ' ' << p.position.z;
         }
-        if (away < 1.5) {
+        if (away < 1) {
             EXPECT_LT(p.trust, 0.02);
             any = true;
         }
         EXPECT_GT(p.trust, 0);
     }
     EXPECT_TRUE(any);
+}
+
+// A point that a drag moves a little must not be let go of at once, or the surface leaps.
+TEST(Reconcile, TrustFadesByAndByHoweverLargeTheDisagreement) {
+    for (const double excess : {0.1, 1.0, 4.0}) {
+        const ContourSet set = three_great_circles(excess);
+        std::vector<BoundaryPoint> points;
+        for (const Vec3& p : test::circle(set.contours[0].plane, 20, 9000).points)  // 0.014 mm apart
+            points.push_back({.position = p, .contour = 0});
+        reconcile(points, find_crossings(set), {});
+        EXPECT_LT(std::ranges::min(points, {}, &BoundaryPoint::trust).trust, 0.7) << excess;
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const auto [less, more] = std::minmax(points[i - 1].trust, points[i].trust);
+            ASSERT_LT(more, 1.2 * less) << excess << " at point " << i;
+        }
+    }
 }
 
 TEST(Reconcile, TheNewestContourKeepsAllTrust) {

@@ -2,6 +2,7 @@
 #include "kontur/drawing/reconcile.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kontur/base/checks.h"
 
@@ -59,7 +60,8 @@ double trust_at(const Vec3& p, const std::vector<Doubt>& doubts) {
     double doubted = 0;
     for (const Doubt& doubt : doubts) {
         const double away = std::min(distance(p, doubt.position), distance(p, doubt.other_position));
-        doubted = std::max(doubted, doubt.weight * (1 - away / doubt.radius_mm));
+        const double inward = std::max(0.0, 1 - away / doubt.radius_mm);
+        doubted = std::max(doubted, doubt.weight * std::pow(inward, 4));
     }
     return 1 / (1 + doubted);
 }

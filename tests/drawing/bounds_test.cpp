@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "kontur/drawing/end_bounds.h"
 #include "kontur/drawing/plane_bounds.h"
 #include "support/contour_sets.h"
+#include "support/random.h"
 
 namespace kontur {
 namespace {
@@ -169,6 +173,29 @@ TEST(PlaneBounds, KeepAwayFromWhereOtherPlanesShowTheObject) {
         if (distance(bound.position, {40, 0, 0}) < 9 && bound.most_mm < 0) {
             EXPECT_GT(bound.noise_mm, 4) << bound.position.x << " " << bound.position.y;
         }
+}
+
+TEST(GroupedPlaces, FindThoseThatLookingAtEachOneFinds) {
+    std::mt19937 random = test::random_of_this_test();
+    std::uniform_real_distribution<double> number(-10, 10);
+    const auto comes_before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+    for (const std::size_t count : {0u, 1u, 16u, 17u, 300u}) {
+        std::vector<Vec3> places(count);
+        for (Vec3& p : places) p = {number(random), 3 * number(random), 0.3};
+        const GroupedPlaces grouped(places);
+        for (int query = 0; query < 100; ++query) {
+            const Vec3 at{2 * number(random), 4 * number(random), number(random)};
+            // Now and then just as far as one of them, which is not near then.
+            const double reach = count > 0 && query % 4 == 0 ? distance(places[0], at) : std::abs(number(random));
+            std::vector<Vec3> near, found;
+            for (const Vec3& p : places)
+                if (dot(p - at, p - at) < reach * reach) near.push_back(p);
+            grouped.visit_within(at, reach, [&](const Vec3& p) { found.push_back(p); });
+            std::ranges::sort(near, comes_before);
+            std::ranges::sort(found, comes_before);
+            ASSERT_EQ(found, near) << count << " places, " << reach << " mm";
+        }
+    }
 }
 
 TEST(Bounds, MoveAndScaleWithTheContours) {

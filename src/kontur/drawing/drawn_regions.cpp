@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "kontur/base/parallel.h"
 
@@ -37,6 +38,26 @@ void append_crossings(const Section& other, DrawnRegion& region) {
 
 }  // namespace
 
+GroupedPlaces::GroupedPlaces(std::vector<Vec3> places) : places_(std::move(places)) { group(0, places_.size()); }
+
+/// Halves them across their widest axis until few are left.
+void GroupedPlaces::group(std::size_t begin, std::size_t end) {
+    constexpr std::size_t kMost = 16;
+    constexpr double kRounding = 1 + 1e-9;
+    const auto at = [&](std::size_t i) { return places_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const Box3 box = bounding_box(std::span(at(begin), at(end)));
+    if (end - begin <= kMost) {
+        groups_.push_back({box.center(), kRounding * box.diagonal() / 2, begin, end});
+        return;
+    }
+    const Vec3 size = box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(at(begin), at(middle), at(end), [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+    group(begin, middle);
+    group(middle, end);
+}
+
 std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work) {
     std::vector<std::optional<DrawnRegion>> found(planes.sections.size());
     parallel_for(static_cast<std::int64_t>(found.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
@@ -45,7 +66,9 @@ std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& wo
             std::vector<Probe> inside = probes(section);
             std::vector<Vec3> places = places_of(section, inside);
             const Ball3 ball = smallest_ball(places);
-            found[s].emplace(DrawnRegion{section, SectionSearch(section), std::move(inside), std::move(places), ball, {}});
+            GroupedPlaces grouped(places);
+            found[s].emplace(DrawnRegion{
+                section, SectionSearch(section), std::move(inside), std::move(places), std::move(grouped), ball, {}});
             for (const Section& other : planes.sections)
                 if (&other != &section) append_crossings(other, *found[s]);
         }

@@ -16,12 +16,43 @@ struct OutsideCrossing {
     double clearance;  ///< mm to the nearest line of this plane
 };
 
+/// Places in groups of some that lie together, so that those near a place are found without looking at all of them.
+class GroupedPlaces {
+public:
+    explicit GroupedPlaces(std::vector<Vec3> places);
+
+    /// Calls visit(q) for every place q that is nearer to p than so much, in no particular order.
+    template <class Visit>
+    void visit_within(const Vec3& p, double reach_mm, const Visit& visit) const {
+        const double squared = reach_mm * reach_mm;
+        for (const Group& group : groups_) {
+            const double reach = reach_mm + group.radius;
+            if (dot(group.center - p, group.center - p) > reach * reach) continue;
+            for (std::size_t i = group.begin; i < group.end; ++i)
+                if (dot(places_[i] - p, places_[i] - p) < squared) visit(places_[i]);
+        }
+    }
+
+private:
+    struct Group {
+        Vec3 center;
+        double radius;  ///< a little more, lest rounding leave a place out
+        std::size_t begin, end;
+    };
+
+    void group(std::size_t begin, std::size_t end);
+
+    std::vector<Vec3> places_;
+    std::vector<Group> groups_;
+};
+
 /// What was drawn in one plane, for questions about any place.
 struct DrawnRegion {
     const Section& section;
     SectionSearch search;
     std::vector<Probe> inside;  ///< a lattice over the region
     std::vector<Vec3> places;   ///< the same and some of its lines, mm
+    GroupedPlaces grouped;      ///< the places
     Ball3 ball;                 ///< around the places
     std::vector<OutsideCrossing> crossings;
 };

@@ -69,15 +69,15 @@ private:
             const DrawnRegion& other = regions_[index];
             const double share = outside_per_mm(normal_, other.section.plane.normal);
             if (share * apart_mm >= nearest && surely(apart_mm / clear) <= std::min(shown_before, shown_behind)) continue;
-            for (const Vec3& shown : other.places) {
-                const double squared = dot(shown - place, shown - place);
-                if (!(squared > 0 && squared < clear * clear)) continue;
-                const double apart = std::sqrt(squared);
+            other.grouped.visit_within(place, clear, [&](const Vec3& shown) {
+                const double apart = distance(shown, place);
+                if (apart == 0) return;
                 nearest = std::min(nearest, share * apart);
-                const double ahead = dot(shown - place, normal_) / apart;
+                const double ahead = dot(shown - place, normal_);
                 double& side = ahead > 0 ? shown_before : shown_behind;
-                side = std::max(side, surely(apart / clear) * smooth_step(0, 0.5, std::abs(ahead)));
-            }
+                if (const double most = surely(apart / clear); most > side)
+                    side = std::max(side, most * smooth_step(0, 0.5, std::abs(ahead / apart)));
+            });
         }
         return {nearest, 1 - shown_before * shown_behind};
     }
@@ -92,9 +92,12 @@ private:
     /// The other regions that may have places within a distance.
     std::vector<Near> nearest_first(const Vec3& place, double within_mm) const {
         std::vector<Near> near;
+        constexpr double kRounding = 1 + 1e-9;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
+            const double off = std::abs(regions_[r].section.plane.distance_to(place));
+            if (&regions_[r] == &own_ || off > kRounding * within_mm) continue;
             const double apart = distance(regions_[r].ball.center, place) - regions_[r].ball.radius;
-            if (&regions_[r] != &own_ && apart < within_mm) near.push_back({std::max(apart, 0.0), r});
+            if (apart < within_mm) near.push_back({std::max(apart, 0.0), r});
         }
         std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.apart_mm < b.apart_mm; });
         return near;

@@ -216,9 +216,6 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
         stages.fit.rounds = known.all && reused_ < kMostReuses ? 0 : 1;
         stages.fit.start_held = held_before(prepared.bounds);
     }
-    // f misses a place that the image showed by ever so little, which is no reason for more solves than one that shows what
-    // is to be held and one that holds it.
-    if (shown > 0) stages.fit.most_solves = stages.fit.rounds > 0 ? 1 : 2;
     const FittedFunction fitted = fit(prepared, stages.fit, work);
     watch.lap("fit");
     const std::vector<Vec3> starts =

@@ -61,6 +61,22 @@ TEST(ActiveBounds, HoldAtFirstWhereFIsFarthestOffInASurroundingAsWideAsThatIsFar
     EXPECT_EQ(held(active), bounds.size()) << "what they do not keep is held next";
 }
 
+TEST(ActiveBounds, WhereASingleValueIsToldFIsHeldFromTheFirstSolveOn) {
+    const std::vector<BoundaryPoint> drawn{{.position = {0, 0, 0}}};
+    const std::vector<Bound> bounds{{.position = {10, 0, 0}, .least_mm = 2, .most_mm = 2, .noise_mm = 0.1},
+                                    {.position = {10, 1, 0}, .least_mm = -2, .most_mm = -2, .noise_mm = 0.1}};
+    ActiveBounds active(bounds, drawn);
+    for (int solve = 0; solve < 2; ++solve) {
+        std::vector<PointConstraint> points;
+        active.append_to(points);
+        ASSERT_EQ(points.size(), 2u);
+        EXPECT_EQ(points[0].value, 2);
+        EXPECT_EQ(points[1].value, -2);
+        EXPECT_FALSE(active.update(ImplicitFunction(), 1e-3, {})) << "another solve would do the same";
+    }
+    EXPECT_FALSE(active.holds_any()) << "none that has to be settled";
+}
+
 TEST(ActiveBounds, WhatIsLittleBesideANoiseDoesNotCount) {
     const std::vector<BoundaryPoint> drawn{{.position = {0, 0, 0}}};
     const auto counts = [&](double most_mm, double noise_mm) {

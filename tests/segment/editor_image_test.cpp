@@ -113,6 +113,7 @@ TEST(Editor, PreviewsFollowWhatTheImageSaidUntilItIsAskedAgain) {
     const EditedSurface with = editor.preview(edited(contours)), without = fresh.preview(edited(contours));
     EXPECT_EQ(without.shown_before, 0u);
     EXPECT_GT(with.shown_before, 50u);
+    EXPECT_EQ(with.solves, 1);
     EXPECT_LT(surface_error(with.function, contours), 0.6 * surface_error(without.function, contours));
     for (const Contour& contour : edited(contours).contours)
         for (const Vec3& p : contour.points) EXPECT_NEAR(with.function.value(p), without.function.value(p), 0.5);

@@ -13,7 +13,7 @@ namespace kontur {
 struct DrawnPlanes;
 
 /// An interval that f is to keep at a place. It takes part in a fit only where f would leave it, and then as a datum with
-/// noise.
+/// noise; one of a single value always does.
 struct Bound {
     Vec3 position;  ///< mm
     double least_mm = -std::numeric_limits<double>::infinity();

@@ -24,7 +24,10 @@ constexpr double kCountsHeld = 0.5;
 
 ActiveBounds::ActiveBounds(const std::vector<Bound>& bounds, const std::vector<BoundaryPoint>& drawn)
     : bounds_(bounds), drawn_(drawn), held_(bounds.size(), Held::no) {
-    for (const Bound& bound : bounds) positions_.push_back(bound.position);
+    for (std::size_t b = 0; b < bounds.size(); ++b) {
+        positions_.push_back(bounds[b].position);
+        if (bounds[b].least_mm == bounds[b].most_mm) held_[b] = Held::always;
+    }
 }
 
 void ActiveBounds::hold(std::span<const std::size_t> bounds) {
@@ -32,7 +35,7 @@ void ActiveBounds::hold(std::span<const std::size_t> bounds) {
         if (b >= bounds_.size())
             throw Error(ErrorKind::invalid_input,
                         fmt::format("bound {} is to be held to begin with; there are {}", b + 1, bounds_.size()));
-        held_[b] = std::isfinite(bounds_[b].most_mm) ? Held::at_most : Held::at_least;
+        if (held_[b] == Held::no) held_[b] = std::isfinite(bounds_[b].most_mm) ? Held::at_most : Held::at_least;
     }
 }
 
@@ -43,6 +46,7 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
     std::vector<Left> left;
     bool counts = false;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
+        if (held_[i] == Held::always) continue;
         const double above = values[i] - bounds_[i].most_mm, below = bounds_[i].least_mm - values[i];
         const double noise = bounds_[i].noise_mm;
         if (held_[i] == Held::no) {
@@ -79,7 +83,7 @@ std::vector<ActiveBounds::Left> ActiveBounds::farthest_off(std::vector<Left> lef
 }
 
 bool ActiveBounds::holds_any() const {
-    return std::ranges::any_of(held_, [](Held held) { return held != Held::no; });
+    return std::ranges::any_of(held_, [](Held held) { return held == Held::at_least || held == Held::at_most; });
 }
 
 void ActiveBounds::append_to(std::vector<PointConstraint>& points) const {
@@ -87,7 +91,7 @@ void ActiveBounds::append_to(std::vector<PointConstraint>& points) const {
         const Bound& bound = bounds_[i];
         if (held_[i] == Held::no) continue;
         points.push_back({.position = bound.position,
-                          .value = held_[i] == Held::at_most ? bound.most_mm : bound.least_mm,
+                          .value = held_[i] == Held::at_least ? bound.least_mm : bound.most_mm,
                           .noise_mm = bound.noise_mm,
                           .extent = bound.extent});
     }

@@ -28,11 +28,12 @@ public:
     /// farthest off in a surrounding as wide as it is far to what was drawn.
     bool update(const ImplicitFunction& function, double tolerance_mm, const Work& work);
 
+    /// Whether f is held anywhere where it need not be.
     bool holds_any() const;
     void append_to(std::vector<PointConstraint>& points) const;
 
 private:
-    enum class Held : std::uint8_t { no, at_least, at_most };
+    enum class Held : std::uint8_t { no, at_least, at_most, always };
 
     /// A bound whose interval f leaves.
     struct Left {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stop_token>
 
 #include "kontur/function/implicit_function.h"
 #include "support/expect_error.h"
@@ -150,6 +151,19 @@ TEST(ImplicitFunction, ValueDoesNotDependOnTheBatch) {
 }
 
 /// Near the centres the sums of phi and the even powers, farther out sums of k itself.
+TEST(ImplicitFunction, AStopEndsItsSums) {
+    std::mt19937 random(3);
+    const std::vector<Vec3> points = random_points(5000, random);
+    const ImplicitFunction f(Kernel::screened, {}, PointArrays(points), std::vector<double>(points.size(), 1.0), {});
+    std::vector<double> values(points.size());
+    std::vector<Vec3> gradients(points.size());
+    std::stop_source source;
+    source.request_stop();
+    const Work work{.stop = source.get_token()};
+    EXPECT_KONTUR_ERROR(f.values(points, values, work), ErrorKind::cancelled, "");
+    EXPECT_KONTUR_ERROR(f.values_and_gradients(points, values, gradients, work), ErrorKind::cancelled, "");
+}
+
 TEST(ImplicitFunction, ScreenedIsTheSumOfItsKernelAndTheMeanEverywhere) {
     std::mt19937 random = test::random_of_this_test();
     const ImplicitFunction f = random_function(Kernel::screened, random);

@@ -167,8 +167,17 @@ private:
     }
 
     void give_gaps(const std::vector<std::size_t>& group, TouchingStructures structures, const std::vector<Index3>& gaps) {
-        for (const std::size_t n : group) structures.each.push_back(functions_[n]);
+        const Vec3 spacing = grid_.spacing_mm();
+        Index3 margin;  // farther from all of its voxels a structure is not within reach, and its f costs the most
+        for (int axis = 0; axis < 3; ++axis)
+            margin[axis] = static_cast<std::int64_t>(std::ceil(2 * structures.reach_mm / spacing[axis]));
+        std::vector<IndexBox> within;
+        for (const std::size_t n : group) {
+            structures.each.push_back(functions_[n]);
+            within.push_back(masks_[n].box.padded(margin, grid_.size));
+        }
         const auto may_own = [&](std::size_t gap, std::size_t member) {
+            if (!within[member].contains(gaps[gap])) return false;
             for (std::size_t other = 0; other < masks_.size(); ++other)
                 if (masks_[other].contains(gaps[gap]) && exclude(group[member], other)) return false;
             return true;

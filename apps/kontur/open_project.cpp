@@ -217,6 +217,15 @@ void tell_doubts(const viewer::Imported& first, viewer::OpenedImage& image, Open
     }
 }
 
+/// A folder that was renamed is no reason to lose what was drawn.
+void check_is_there(const fs::path& image, const fs::path& project) {
+    std::error_code unreachable;
+    if (image == viewer::kExample || fs::exists(image, unreachable)) return;
+    throw Error(ErrorKind::io, fmt::format("{} was drawn on {}, which is not there; where it has moved, name its new place, "
+                                           "too: kontur open {} IMAGE",
+                                           project.string(), image.string(), project.filename().string()));
+}
+
 /// The image that the words name, or the project does, with the choice that it was drawn on.
 ImageInput image_input(const OpenCommand& command, const Words& words) {
     ImageInput input = command.image;
@@ -224,6 +233,7 @@ ImageInput image_input(const OpenCommand& command, const Words& words) {
     if (input.path.empty() && !words.project.empty()) {
         const viewer::ImageReference drawn_on = viewer::image_of_project(words.project);
         input.path = drawn_on.path;
+        check_is_there(input.path, words.project);
         if (choice_of(input.options) == viewer::ImageChoice{}) choose(input.options, drawn_on.choice);
     }
     if (input.path.empty()) input.path = viewer::kExample;

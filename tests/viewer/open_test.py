@@ -11,6 +11,7 @@ import pathlib
 import random
 import re
 import resource
+import shutil
 import signal
 import socket
 import sqlite3
@@ -368,6 +369,20 @@ def test_all_is_there_after_kill_9(tmp_path, image):
         for _ in range(4):
             again.do("undo")
         assert again.contours == {}
+
+
+def test_of_an_image_that_was_moved_it_is_said_how_to_go_on(tmp_path, image):
+    project, moved = tmp_path / "work.kontur", tmp_path / "moved.nii.gz"
+    image = shutil.copy(image, tmp_path / "here.nii.gz")
+    with running(tmp_path, image, "--project", project) as server:
+        ids = draw_ball(server.page(), the_structure(server.page()))
+    image.rename(moved)
+    ended = subprocess.run([KONTUR, "open", project, "--no-browser"], capture_output=True, text=True)
+    assert ended.returncode == 74 and f"was drawn on {image}, which is not there; where it has moved" in ended.stderr, ended
+    with running(tmp_path, project, moved) as server:
+        assert set(server.page().contours) == set(ids)
+    with running(tmp_path, project) as server:
+        assert set(server.page().contours) == set(ids), "the new place is kept"
 
 
 def test_exports_are_what_the_command_line_makes(server, tmp_path, image):

@@ -280,17 +280,17 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     const Target& target = request.target;
     const bool anyway = target.parameter("anyway").has_value();
     const std::string file = target.parameter("name").value_or("");
-    Upload upload{.anyway = anyway, .file = file};
+    Upload upload{.trace = trace_request(target), .anyway = anyway, .file = file};
     ImportReply reply;
     if (target.path == "/api/import/near") {
-        reply = workspace_.session(request.opening)->import_near(target.parameter("file").value_or(""), anyway, stop);
+        reply = workspace_.session(request.opening)
+                    ->import_near(target.parameter("file").value_or(""), upload.trace, anyway, stop);
     } else if (target.path == "/api/import/contours") {
         upload.extension = known_extension(file, kContourEndings);
         reply = workspace_.session(request.opening)->import(request.body, upload, stop);
     } else if (target.path == "/api/import/mask") {
         upload.content = Upload::Content::mask;
         upload.extension = known_extension(file, kMaskEndings);
-        upload.trace = trace_request(target);
         reply = workspace_.session(request.opening)->import(request.body, upload, stop);
     } else {
         return not_found();

@@ -119,8 +119,6 @@ Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
     }
     if (imported.sets.empty())
         throw Error(ErrorKind::invalid_input, "the segmentation has nothing that is large enough to trace");
-    imported.notes.push_back(
-        fmt::format("segments were traced into contours on up to {} planes along each axis", request.planes));
     return imported;
 }
 

@@ -28,7 +28,7 @@ struct Upload {
     enum class Content { contours, mask };
     Content content = Content::contours;
     std::string extension{};  ///< one that kontur knows
-    TraceRequest trace{};     ///< of a mask
+    TraceRequest trace{};     ///< of a mask or segmentation
     bool anyway = false;      ///< whether it comes in though it may not belong to the image
     std::string file{};       ///< its name, for what has none of its own; nothing is opened by it
 };

@@ -96,7 +96,8 @@ public:
     /// JSON.
     std::string drawings(const std::stop_token& stop = {}) const;
     /// Imports one of these. Throws Error(invalid_input) for another file, and as `import`.
-    ImportReply import_near(const std::filesystem::path& file, bool anyway, const std::stop_token& stop = {});
+    ImportReply import_near(const std::filesystem::path& file, const TraceRequest& trace, bool anyway,
+                            const std::stop_token& stop = {});
 
     /// One structure for each set, as one step of the history.
     std::vector<Id> add_structures(const std::string& label, const std::vector<ContourSet>& sets);

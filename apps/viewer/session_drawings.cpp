@@ -46,12 +46,12 @@ std::string Session::drawings(const std::stop_token& stop) const {
     return to_text({{"drawings", std::move(list)}});
 }
 
-ImportReply Session::import_near(const fs::path& file, bool anyway, const std::stop_token& stop) {
+ImportReply Session::import_near(const fs::path& file, const TraceRequest& trace, bool anyway, const std::stop_token& stop) {
     std::vector<DicomDrawing> near;
     if (series_) near = drawings_of(*series_, frame_of_reference_uid_, {.stop = stop});
     if (std::ranges::find(near, file, &DicomDrawing::file) == near.end())
         throw Error(ErrorKind::invalid_input, "no such structure set or segmentation lies near the image");
-    const Upload upload{.extension = ".dcm", .anyway = anyway, .file = file.filename().string()};
+    const Upload upload{.extension = ".dcm", .trace = trace, .anyway = anyway, .file = file.filename().string()};
     return import(read_bytes(file), upload, stop);
 }
 

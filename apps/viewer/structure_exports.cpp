@@ -14,6 +14,7 @@
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/image.h"
 #include "kontur/io/mesh.h"
+#include "kontur/io/nrrd.h"
 #include "kontur/io/rtstruct.h"
 #include "kontur/io/segment_tags.h"
 #include "kontur/labels/section_contours.h"
@@ -71,9 +72,6 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
     }
     WriteImageOptions options;
     options.provenance = together(all);
-    for (std::size_t n = 0; n < all.size(); ++n)
-        options.names.push_back({static_cast<std::int64_t>(n + 1), all[n].structure.name, rgb(all[n].structure.color),
-                                 tags_of_terms(all[n].set.attributes)});
     Image image{all.front().made.mask.grid, labels};
     if (all.size() <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
     write_image(path, image, options);
@@ -84,6 +82,18 @@ std::vector<std::string> write_labels(const fs::path& path, const All& all) {
                                     all[pair.first].structure.name, all[pair.second].structure.name,
                                     voxels == 1 ? "it belongs" : "they belong", all[pair.second].structure.name));
     return notes;
+}
+
+/// On layers, where voxels lie in several.
+void write_layers(const fs::path& path, const All& all) {
+    std::vector<Mask> masks;
+    std::vector<NrrdSegment> segments;
+    for (const FittedStructure& one : all) {
+        masks.push_back(one.made.mask);
+        segments.push_back({.name = one.structure.name, .color = rgb(one.structure.color)});
+        segments.back().tags = tags_of_terms(one.set.attributes);
+    }
+    write_seg_nrrd_masks(path, masks, segments, together(all));
 }
 
 std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
@@ -258,6 +268,7 @@ std::vector<std::string> write_structures(const fs::path& path, std::string_view
     if (name == "seg.dcm") return write_seg(path, all, series_of(images, name), work);
     if (name == "rtstruct.dcm") return write_regions(path, all, series_of(images, name), work);
     if (name.ends_with(".zip")) return write_meshes(path, name, all), std::vector<std::string>{};
+    if (name.ends_with(".seg.nrrd")) return write_layers(path, all), std::vector<std::string>{};
     return write_labels(path, all);
 }
 

@@ -98,6 +98,35 @@ def test_segments_bring_their_colours_and_codes(tmp_path, study):
         assert node["attributes"]["code"]["meaning"] == "Tissue"
 
 
+def test_segments_are_cut_on_as_many_planes_as_asked_for(tmp_path, study):
+    with running(tmp_path, study / "ct", "--project", tmp_path / "a.kontur") as server:
+        page = server.page()
+        assert import_near(server, study / "ct" / "seg.dcm", "&planes=2&axes=axial")[0] == 200
+        body = (study / "ct" / "seg.dcm").read_bytes()
+        assert server.request("POST", "/api/import/contours?name=seg.dcm&planes=1&axes=axial", body)[0] == 200
+        page.do("ping")
+        drawn = [sum(contour["structure"] == one for contour in page.contours.values()) for one in page.structures]
+        assert drawn == [2, 2, 1, 1] and all(abs(contour["plane"]["normal"][2]) == 1 for contour in page.contours.values())
+
+
+def test_segments_that_overlap_leave_and_come_back_on_layers(tmp_path, study):
+    with running(tmp_path, study / "ct", "--project", tmp_path / "a.kontur") as server:
+        page = server.page()
+        page.do("borders.set", shared=False)
+        first = next(iter(page.structures))
+        page.do("structure.set", id=first, name="Node")
+        for structure, radius in ((first, 2.6), (page.do("structure.add", name="Rest")["structure"]["id"], 1.8)):
+            for step in (-2.5, 0, 2.5):
+                plane = at_offset(page.session["views"]["axial"]["plane"], step)
+                page.do("contour.add", structure=structure, plane=plane, control=spline_controls(ring(plane, radius)))
+        status, _, segmentation = server.request("GET", "/api/export/labels.seg.nrrd")
+        assert status == 200, segmentation
+        assert b"dimension: 4" in segmentation and b"Segment0_Name:=Node" in segmentation and b"Segment1_Layer:=1" in segmentation
+        assert server.request("POST", "/api/import/mask?name=both.seg.nrrd&planes=1&axes=axial", segmentation)[0] == 200
+        page.do("ping")
+        assert [one["name"] for one in page.structures.values()] == ["Node", "Rest", "Node", "Rest"]
+
+
 def test_no_other_file_is_read(tmp_path, study):
     with running(tmp_path, study / "ct", "--project", tmp_path / "a.kontur") as server:
         for file in (study / "plan" / "others.dcm", "/etc/hostname", ""):

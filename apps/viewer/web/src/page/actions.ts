@@ -121,7 +121,7 @@ export class PageActions {
 
   readonly importNear = (drawing: NearDrawing): void => importNear(drawing, this.importServices());
 
-  readonly importFile = (file: File): void => importFile(file, this.importServices());
+  readonly importFile = (file: File): void => void importFile(file, this.importServices());
 
   private importServices(): ImportServices {
     const { http, notices, project, session } = this.services;

@@ -19,7 +19,7 @@ export function openImport(services: ImportServices, near: readonly NearDrawing[
   const choose = () => {
     const file = input.files?.[0];
     dialog.close();
-    if (file) importFile(file, services);
+    if (file) void importFile(file, services);
   };
   const input = el("input", { type: "file", accept: accepted(services.endings), title: "File to import", "data-test": "import-file", on: { change: choose } });
   const dialog = openDialog(
@@ -41,18 +41,28 @@ export function openImport(services: ImportServices, near: readonly NearDrawing[
 }
 
 /** What others have drawn on the image, by a file near it. */
-export function importNear({ file, name }: NearDrawing, services: ImportServices): void {
-  void send(name, (options, signal) => services.http.importNear(file, options, signal), {}, services);
+export function importNear({ file, name, modality }: NearDrawing, services: ImportServices): void {
+  const go = (options: Options) => void send(name, (more, signal) => services.http.importNear(file, more, signal), options, services);
+  if (modality === "SEG") openTracing(name, go);
+  else go({});
 }
 
-export function importFile(file: File, services: ImportServices): void {
+export async function importFile(file: File, services: ImportServices): Promise<void> {
   const kind = importKind(file.name, services.endings);
-  if (kind === "contours") sendFile("contours", file, {}, services);
-  else if (kind === "mask") openMaskImport(file, services);
+  const go = (what: "contours" | "mask") => (options: Options) => sendFile(what, file, options, services);
+  if (kind === "mask" || (kind === "contours" && (await isSegmentation(file)))) openTracing(file.name, go(kind));
+  else if (kind === "contours") go("contours")({});
   else services.failed(new Error(`${file.name}: ${sentence(services.endings)}`));
 }
 
-function openMaskImport(file: File, services: ImportServices): void {
+/** Whether a DICOM file says at its start that it holds voxels in place of contours. */
+async function isSegmentation(file: File): Promise<boolean> {
+  const SEGMENTATION_STORAGE = /1\.2\.840\.10008\.5\.1\.4\.1\.1\.66\.[47]/;
+  return SEGMENTATION_STORAGE.test(await file.slice(0, 4096).text());
+}
+
+/** Asks where voxels are to be cut into contours. */
+function openTracing(name: string, trace: (options: Options) => void): void {
   const axes = el(
     "select",
     { title: "Directions of the planes" },
@@ -62,18 +72,18 @@ function openMaskImport(file: File, services: ImportServices): void {
   const planes = el("input", { type: "number", min: "1", max: "200", value: "9", class: "number" });
   const go = button({
     label: "Trace into contours",
-    title: "Import the mask",
+    title: "Import it",
     class: "primary",
     test: "import-mask",
     click: () => {
       dialog.close();
-      sendFile("mask", file, { axes: axes.value, planes: planes.value }, services);
+      trace({ axes: axes.value, planes: planes.value });
     },
   });
   const dialog = openDialog(
-    `Import ${file.name}`,
+    `Import ${name}`,
     "mask-dialog",
-    el("p", {}, "Each label of the mask becomes a structure, drawn by contours on planes through it."),
+    el("p", {}, "Each label or segment becomes a structure, drawn by contours on planes through it."),
     el("label", { class: "field" }, "Planes", axes),
     el("label", { class: "field" }, "Planes along each axis", planes),
     el("div", { class: "dialog-buttons" }, go),

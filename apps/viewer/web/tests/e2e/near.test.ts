@@ -2,7 +2,7 @@
 // What others drew on a DICOM image, in files near it.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Browser } from "playwright-core";
@@ -75,6 +75,34 @@ describe("a structure set near the image", { skip }, () => {
       await page.click("[data-test=import-dialog] [data-test=near-import]");
       await viewer.waitForContours(1);
     });
+  });
+
+  test("is asked for its planes where it is a segmentation, near the image or chosen", async () => {
+    const segmentation = join(folder.path, "study", "seg.dcm");
+    await visit([plan], async (viewer) => {
+      await viewer.waitForContours(1);
+      writeFileSync(segmentation, (await viewer.export("seg.dcm")).bytes);
+    });
+    mkdirSync(join(folder.path, "study", "seg"));
+    renameSync(segmentation, join(folder.path, "study", "seg", "Segments.dcm"));
+    await visit([series], async (viewer) => {
+      const { page } = viewer;
+      await viewer.closeHint();
+      const trace = async (planes: string) => {
+        await page.locator("[data-test=mask-dialog]").getByLabel("Planes along each axis").fill(planes);
+        await page.click("[data-test=import-mask]");
+      };
+      await page.locator("[data-test=near-drawing]", { hasText: "Segments.dcm" }).locator("[data-test=near-import]").click();
+      await page.locator("[data-test=mask-dialog] select").selectOption("axial");
+      await trace("1");
+      await viewer.waitForContours(1);
+      await page.click("[data-test=import]");
+      const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("[data-test=import-file]")]);
+      await chooser.setFiles(join(folder.path, "study", "seg", "Segments.dcm"));
+      await trace("1");
+      await viewer.waitForContours(4);
+    });
+    rmSync(join(folder.path, "study", "seg"), { recursive: true });
   });
 
   test("that is opened itself brings its images", async () => {

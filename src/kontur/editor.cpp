@@ -201,9 +201,7 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     PreparedContours prepared = prepare(drawing, stages, work);
     const double spacing_mm = preview_spacing(drawing);
     std::size_t shown = 0;
-    if (asked_)
-        shown = follow_image(prepared, *asked_, read_drawing(drawn, options_.segment.fill_rule).contours,
-                             kShownNoise * spacing_mm);
+    if (asked_) shown = follow_image(prepared, *asked_, drawn, kShownNoise * spacing_mm);
     watch.lap("prepare");
     stages.fit.most_points = options_.preview_points;
     stages.fit.tilt_points = options_.preview_points;
@@ -261,7 +259,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
     if (!asks) forget_image();
     if (alone && asked_) {
         PreparedContours followed = prepared;
-        const std::size_t shown = follow_image(followed, *asked_, drawing.contours, kShownNoise * spacing_mm);
+        const std::size_t shown = follow_image(followed, *asked_, drawn, kShownNoise * spacing_mm);
         FitOptions once = stages.fit;
         once.most_solves = 1;
         once.most_points = kFollowedPoints;
@@ -285,7 +283,7 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
 
 void Editor::follow_image_of(const ContourSet& drawn, const RefineReport& said) {
     forget_image();
-    if (!said.asked.empty()) asked_.emplace(read_drawing(drawn, options_.segment.fill_rule).contours, said.asked);
+    if (!said.asked.empty()) asked_.emplace(drawn, said.asked);
 }
 
 }  // namespace kontur

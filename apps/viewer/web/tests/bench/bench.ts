@@ -129,13 +129,14 @@ async function measureEdits(viewer: Viewer, server: Server): Promise<void> {
   const grip = await findLine(viewer, view);
   const before = processorSeconds(server);
   for (let i = 0; i < EDITS; ++i) {
+    const further = 0.25 * i; // pixels: what was drawn before is known
     await page.mouse.move(...grip);
     await page.mouse.down();
     await watchEdit(page, "pointermove");
-    await page.mouse.move(grip[0] + 4, grip[1]);
+    await page.mouse.move(grip[0] + 4 + further, grip[1]);
     moves.push(await editWaits(page, false));
     await watchEdit(page, "pointerup");
-    await page.mouse.move(grip[0] + 6, grip[1]); // a hand moves until it lets go
+    await page.mouse.move(grip[0] + 6 + further, grip[1]); // a hand moves until it lets go
     await page.mouse.up();
     releases.push(await editWaits(page, true));
     await page.keyboard.press("Control+z");

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <type_traits>
@@ -485,6 +487,13 @@ void add_open(CLI::App& app, Invocation& invocation) {
     add_second_image(*bind.sub, c.second_image);
 }
 
+/// All commands.
+std::vector<std::string> names_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+    return names;
+}
+
 }  // namespace
 
 std::vector<OptionName> options_of_segment() {
@@ -519,8 +528,20 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     add_phantom(app, invocation);
     add_open(app, invocation);
 
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (!words.empty() && (words[0] == "help" || words[0] == "-h" || words[0] == "--help")) {
+        words.erase(words.begin());  // of the command that follows, if one does
+        words.insert(words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), "--help");
+    }
+    const std::vector<std::string> names = names_of(app);
+    if (!words.empty() && !words[0].starts_with('-') && std::find(names.begin(), names.end(), words[0]) == names.end()) {
+        invocation.text = fmt::format("there is no command '{}'; there are {}", words[0], fmt::join(names, ", "));
+        invocation.exit_code = kUsageExitCode;
+        return invocation;
+    }
+    std::reverse(words.begin(), words.end());  // as the parser wants them
     try {
-        app.parse(argc, argv);
+        app.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {
         invocation.text = app.help();  // of the subcommand when there is one
         invocation.command = nullptr;

@@ -20,6 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void check_mask_name(const fs::path& path) {
+    try {
+        check_image_name(path);
+    } catch (const Error& error) {
+        throw Error(error.kind(), std::string(error.what()) + ", and for masks .dcm (SEG)");
+    }
+}
+
 bool is_mesh_name(const fs::path& path) {
     constexpr std::array kExtensions{".stl", ".ply", ".obj", ".vtk", ".vtp"};
     return std::any_of(kExtensions.begin(), kExtensions.end(), [&](const char* e) { return has_extension(path, e); });
@@ -66,11 +74,25 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 
 bool is_dicom_name(const fs::path& path) { return has_extension(path, ".dcm"); }
 
+void refuse_images(const std::vector<fs::path>& contours) {
+    constexpr std::array kExtensions{".nii", ".nii.gz", ".nrrd", ".mha", ".mhd", ".mgz", ".mgh"};
+    for (const fs::path& path : contours) {
+        std::error_code ignored;
+        const bool is_folder = fs::is_directory(path, ignored);
+        const bool is_named_so =
+            std::any_of(kExtensions.begin(), kExtensions.end(), [&](const char* e) { return has_extension(path, e); });
+        if (is_folder || is_named_so || is_dicom_slice(path))
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} is {}, not a file of contours; an image goes behind --image", path.string(),
+                                    is_folder ? "a folder" : "an image"));
+    }
+}
+
 std::optional<FileKind> output_kind(const fs::path& path) {
     if (is_dicom_name(path)) return std::nullopt;
     if (has_extension(path, ".json")) return FileKind::contours;
     if (is_mesh_name(path)) return FileKind::mesh;
-    check_image_name(path);
+    check_mask_name(path);
     return FileKind::image;
 }
 
@@ -78,7 +100,7 @@ void check_output_kind(const fs::path& path, FileKind kind) {
     const auto refuse = [&](const char* what) {
         throw Error(ErrorKind::unsupported, fmt::format("{} is no name for {}", path.string(), what));
     };
-    if (kind == FileKind::image && !is_dicom_name(path)) check_image_name(path);
+    if (kind == FileKind::image && !is_dicom_name(path)) check_mask_name(path);
     else if (kind == FileKind::mesh && !is_mesh_name(path)) refuse("a mesh; it ends with .stl, .ply, .obj, .vtk or .vtp");
     else if (kind == FileKind::contours && !has_extension(path, ".json") && !is_dicom_name(path))
         refuse("contours; it ends with .json, .mrk.json or .dcm");

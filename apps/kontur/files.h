@@ -42,6 +42,9 @@ bool is_within(const std::filesystem::path& path, const std::filesystem::path& f
 /// A name for DICOM output: it ends with .dcm.
 bool is_dicom_name(const std::filesystem::path& path);
 
+/// Throws Error(invalid_input) where an image or a folder stands in the place of contours.
+void refuse_images(const std::vector<std::filesystem::path>& contours);
+
 /// Throws Error(unsupported) unless a file of this name could hold `kind`.
 void check_output_kind(const std::filesystem::path& path, FileKind kind);
 

@@ -209,11 +209,11 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
 }
 
 /// Whoever names image and contours together may have named the wrong ones: said here and on the page.
-void tell_doubts(const viewer::Imported& first, viewer::OpenedImage& image, Opened& result) {
+void tell_doubts(const viewer::Imported& first, const std::string& file, viewer::OpenedImage& image, Opened& result) {
     for (const std::string& doubt :
          viewer::import_doubts(first.sets, first.frame_of_reference_uid, image.image->grid, image.frame_of_reference_uid)) {
-        result.warnings.push_back("do these contours belong to this image? " + doubt);
-        image.notes.push_back("Do these contours belong to this image? " + doubt);
+        result.warnings.push_back(fmt::format("does {} belong to this image? {}", file, doubt));
+        image.notes.push_back(fmt::format("Does {} belong to this image? {}", file, doubt));
     }
 }
 
@@ -283,7 +283,7 @@ Opened open_project(const OpenCommand& told, const Words& named, const Work& wor
     // Read before there is a project for them: a file that cannot be read leaves none.
     std::optional<viewer::Imported> first;
     if (!fs::exists(project)) first = first_contours(command, words, work, result);
-    if (first) tell_doubts(*first, image, result);
+    if (first) tell_doubts(*first, words.contours.filename().string(), image, result);
     auto second = named_second_image(command.second_image, image, work, result);
     work.check();
     result.session = std::make_shared<viewer::Session>(std::move(image), project);

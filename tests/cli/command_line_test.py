@@ -15,6 +15,26 @@ def test_without_words_prints_the_help_that_lists_every_command():
         assert re.search(rf"^  {command} ", text, re.MULTILINE), command
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_comes_before_a_command_too(command):
+    assert succeed("help", command) == succeed("--help", command) == succeed(command, "--help")
+    assert succeed("help") == succeed("--help")
+
+
+@pytest.mark.parametrize("word", ["segmnt", "Segment", "ct.nii.gz"])
+def test_what_is_no_command_is_told_which_there_are(word):
+    result = kontur(word, "a.json", "--output", "b.nii")
+    assert result.returncode == 64 and f"there is no command '{word}'; there are segment, " in result.stderr, result
+
+
+def test_an_image_in_the_place_of_contours_is_told_its_own(tmp_path):
+    image = write_nifti(tmp_path / "ct.nii.gz", ball_array())
+    planes = write_planes(tmp_path / "a.json", ball_planes())
+    for words, what in (((image, planes), "ct.nii.gz is an image"), ((tmp_path, "--image", planes), f"{tmp_path} is a folder")):
+        result = kontur("segment", *words, "--output", tmp_path / "b.nii")
+        assert result.returncode == 65 and f"{what}, not a file of contours; an image goes behind --image" in result.stderr, result
+
+
 def test_help_lists_the_exit_codes():
     assert re.findall(r"\d+ [a-z]+", succeed("--help").split("Exit codes: ")[1].split("(")[0]) == [
         "0 done",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kontur/base/error.h"
@@ -19,6 +20,15 @@ Grid own_grid(const SegmentCommand& command, const Box3& contours) {
         throw Error(ErrorKind::too_large, fmt::format("a spacing of {:g} mm gives the mask {} voxels; the limit is {}", s[0],
                                                       grid.voxel_count(), limit));
     return grid;
+}
+
+void name_margin(const SegmentCommand& command, std::vector<std::string>& warnings) {
+    if (!command.image.path.empty()) return;
+    for (std::string& warning : warnings)
+        if (warning.starts_with("the object reaches the border of the image"))
+            warning =
+                fmt::format("the object reaches beyond the {:g} mm of --margin-mm around the contours and is cut off there",
+                            command.margin_mm);
 }
 
 }  // namespace kontur::app

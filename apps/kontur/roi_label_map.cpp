@@ -9,7 +9,13 @@
 
 namespace kontur::app {
 
+bool RoiLabelMap::keeps(std::uint16_t other, std::uint16_t label) const {
+    if (inner_.contains({label, other})) return false;
+    return !smaller_first_ || inner_.contains({other, label}) || sizes_.at(other) <= sizes_.at(label);
+}
+
 void RoiLabelMap::add(const Mask& mask, const IndexBox& box, std::uint16_t label) {
+    sizes_[label] = std::count_if(mask.values.begin(), mask.values.end(), [](std::uint8_t v) { return v != 0; });
     std::size_t n = 0;
     for (std::int64_t k = box.low.k; k <= box.high.k; ++k)
         for (std::int64_t j = box.low.j; j <= box.high.j; ++j) {
@@ -17,7 +23,7 @@ void RoiLabelMap::add(const Mask& mask, const IndexBox& box, std::uint16_t label
             for (std::int64_t i = box.low.i; i <= box.high.i; ++i) {
                 if (mask.values[n++] == 0) continue;
                 const std::uint16_t other = row[i];
-                const bool is_kept = other != 0 && !inner_.contains({label, other});
+                const bool is_kept = other != 0 && keeps(other, label);
                 if (other != 0) ++shared_[is_kept ? Pair{other, label} : Pair{label, other}];
                 if (!is_kept) row[i] = label;
             }

@@ -8,6 +8,7 @@
 #include "kontur/base/machine_memory.h"
 #include "kontur/io/region_mesh.h"
 #include "kontur/report.h"
+#include "own_grid.h"
 
 namespace kontur::app {
 namespace {
@@ -28,6 +29,7 @@ Facts pairs_of(const std::vector<StructurePair>& pairs, const std::vector<Fitted
 }  // namespace
 
 void RoiResults::add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box) {
+    name_margin(command, one.report.warnings);
     outlines.name = one.roi.name;
     outlines.attributes = std::move(one.roi.contours.attributes);
     one.roi.contours = std::move(outlines);

@@ -35,8 +35,8 @@ struct RoiResults {
     std::optional<Together> together{};      ///< without the structures: what they are to each other
     std::vector<std::string> notes;
 
-    explicit RoiResults(const RoiDrawings& drawings)
-        : left_out(drawings.left_out), labels(drawings.grid), notes(drawings.notes) {}
+    RoiResults(const SegmentCommand& command, const RoiDrawings& drawings)
+        : left_out(drawings.left_out), labels(drawings.grid, command.all_rois), notes(drawings.notes) {}
 
     /// A structure without voxels is none of a SEG's segments, and gets the label 0 there.
     void add(const SegmentCommand& command, FittedRoi one, ContourSet outlines, Mask mask, const IndexBox& box);

@@ -195,6 +195,7 @@ void check_words(const SegmentCommand& command) {
 void run(const SegmentCommand& words, Console& console) {
     SegmentCommand command = words;
     if (command.rois.size() == 1) command.read.roi = command.rois.front();
+    refuse_images(command.contours);
     check_words(command);
     check_files(command);
     if (has_several(command)) return segment_rois(command, console);
@@ -212,6 +213,7 @@ void run(const SegmentCommand& words, Console& console) {
     options.mesh = !command.mesh.empty() || !command.picture.empty() || draws_band;
     Segmentation result = segment(inputs.contours, inputs.grid, inputs.image ? &*inputs.image : nullptr, options, work);
     SegmentReport& report = result.report;
+    name_margin(command, report.warnings);
     report.warnings.insert(report.warnings.begin(), inputs.notes.begin(), inputs.notes.end());
     report.seconds.insert(report.seconds.begin(), {"read", read_seconds});
     laps.lap();

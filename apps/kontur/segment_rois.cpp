@@ -81,7 +81,7 @@ FittedRoi fitted_from(const RoiDrawings& drawings, std::size_t n, Segmentation& 
 IndexBox whole_box(const Grid& grid) { return {{0, 0, 0}, {grid.size.i - 1, grid.size.j - 1, grid.size.k - 1}}; }
 
 RoiResults fit_each(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
-    RoiResults result(drawings);
+    RoiResults result(command, drawings);
     const Image* const image = drawings.image ? &*drawings.image : nullptr;
     for (std::size_t n = 0; n < drawings.rois.size(); ++n) {
         try {
@@ -104,7 +104,7 @@ std::string sentence(const StructurePair& pair, const std::vector<Roi>& rois) {
 }
 
 RoiResults fit_together(const SegmentCommand& command, const RoiDrawings& drawings, const Work& work) {
-    RoiResults result(drawings);
+    RoiResults result(command, drawings);
     std::vector<ContourSet> contours;
     for (const Roi& roi : drawings.rois) contours.push_back(roi.contours);
     const TogetherOptions options{.segment = command.options, .rules = roi_rules(command, drawings)};

@@ -80,6 +80,29 @@ def test_several_rois_become_one_label_map(tmp_path, structures, images):
     assert len(set(digests)) == 3 and {"version", "options_1", "image_sha256"} <= set(report["provenance"])
 
 
+def test_of_all_rois_the_smaller_keeps_what_it_shares(tmp_path, structures, images):
+    small = [circle("z", offset, center=BALLS["Bladder"][0], radius=2.0) for offset in (-1.5, 0, 1.5)]
+    write_planes(tmp_path / "small.json", small)
+    assert kontur("convert", tmp_path / "small.json", tmp_path / "small.dcm", "--image", images).returncode == 0
+    within = pydicom.dcmread(structures)
+    within.ROIContourSequence[1].ContourSequence = pydicom.dcmread(tmp_path / "small.dcm").ROIContourSequence[0].ContourSequence
+    within.save_as(tmp_path / "RS.dcm")  # the rectum is now in the bladder
+    voxels = {}
+    for words in (["--roi", "1", "--roi", "2"], ["--all-rois"]):
+        result = kontur("segment", tmp_path / "RS.dcm", *words, "--image", images, "--output", tmp_path / "all.nii")
+        assert result.returncode == 0, result
+        voxels[words[0]] = numpy.count_nonzero(read_nifti(tmp_path / "all.nii") == 2)
+    assert voxels["--roi"] == 0 < voxels["--all-rois"]
+    assert "voxels of 'Bladder' lie in 'rectum', too, and keep its label 2" in result.stderr
+
+
+def test_a_mask_that_needs_more_room_says_which_option_makes_it(tmp_path):
+    write_planes(tmp_path / "a.json", [circle("z", 0)])
+    words = ("segment", tmp_path / "a.json", "--spacing-mm", 1, "--output", tmp_path / "a.nii")
+    assert "beyond the 1 mm of --margin-mm around the contours and is cut off there" in kontur(*words, "--margin-mm", 1).stderr
+    assert "cut off" not in kontur(*words, "--margin-mm", 12).stderr
+
+
 @pytest.mark.parametrize("together", [(), ("--together", "--may-overlap", "Bladder:rectum")])
 def test_several_rois_become_layers_that_keep_what_overlaps(tmp_path, structures, images, together):
     words = ["--all-rois", "--image", images, *together]
@@ -220,6 +243,25 @@ def test_the_image_is_asked_for_each_structure(tmp_path, structures, images):
     masks_together(tmp_path, structures, images)
     report = json.loads((tmp_path / "all.json").read_text())
     assert [one["image"]["verdict"] in ("used", "no_help", "unknown", "labels") for one in report["structures"]] == [True] * 3
+
+
+def test_of_all_rois_the_smaller_keeps_what_it_shares(tmp_path, structures, images):
+    masks = one_by_one(tmp_path, structures, images)
+    result = kontur("segment", structures, "--all-rois", "--image", images, "--output", tmp_path / "all.nii")
+    assert result.returncode == 0, result
+    labels = read_nifti(tmp_path / "all.nii")
+    by_size = sorted(enumerate(BALLS, 1), key=lambda item: -numpy.count_nonzero(masks[item[1]]))
+    sizes = [numpy.count_nonzero(masks[name]) for _, name in by_size]
+    assert sizes[0] > sizes[1] and (masks["Bladder"] & masks["rectum"]).any()
+    smaller = next(number for number, name in reversed(by_size) if name != "PTV")
+    assert (labels[masks["Bladder"] & masks["rectum"]] == smaller).all()
+
+
+def test_a_mask_that_needs_more_room_says_which_option_makes_it(tmp_path):
+    write_planes(tmp_path / "a.json", [circle("z", 0)])
+    words = ("segment", tmp_path / "a.json", "--spacing-mm", 1, "--output", tmp_path / "a.nii")
+    assert "beyond the 1 mm of --margin-mm around the contours and is cut off there" in kontur(*words, "--margin-mm", 1).stderr
+    assert "cut off" not in kontur(*words, "--margin-mm", 12).stderr
 
 
 @pytest.mark.parametrize("together", [(), ("--together", "--inside", "far:Bladder")])

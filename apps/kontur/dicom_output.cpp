@@ -8,6 +8,7 @@
 #include "kontur/io/dicom_seg.h"
 #include "kontur/io/nrrd.h"
 #include "kontur/io/segment_tags.h"
+#include "kontur/labels/scattered.h"
 
 namespace kontur::app {
 namespace {
@@ -109,7 +110,9 @@ std::vector<std::string> write_image(const fs::path& path, const Image& image, c
         kontur::write_image(path, image, {names, provenance});
         return {};
     }
-    return write_dicom_seg(path, image, segments_of(image, source), series_of(images), {.provenance = provenance}, work);
+    const std::vector<DicomSegment> segments = segments_of(image, source);
+    check_no_image(image, segments.size());
+    return write_dicom_seg(path, image, segments, series_of(images), {.provenance = provenance}, work);
 }
 
 std::vector<std::string> write_structures(const fs::path& path, const Structures& structures, const ImageInput& images,

@@ -217,5 +217,5 @@ def test_options_that_do_not_fit_are_refused(tmp_path, images, contours, overlap
 def test_what_is_no_label_map_of_the_images_is_refused(tmp_path, images):
     before = names(tmp_path)
     result = kontur("convert", images, tmp_path / "seg.dcm", "--image", images)
-    assert result.returncode == 65 and "segment number -1024" in result.stderr
+    assert result.returncode == 65 and "this looks like an image, not like a label map" in result.stderr
     assert names(tmp_path) == before

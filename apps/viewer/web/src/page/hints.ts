@@ -50,5 +50,6 @@ export class Hints {
 
   edited(): void {
     this.closeCrossing();
+    this.services.stage.querySelector(".first-hint")?.remove(); // whoever edits, or imports, has begun
   }
 }

@@ -56,7 +56,6 @@ describe("a structure set near the image", { skip }, () => {
   test("is offered with the names of its structures, and one click brings them in, in place of the empty one", async () => {
     await visit([series], async (viewer) => {
       const { page } = viewer;
-      await viewer.closeHint();
       const offer = page.locator("[data-test=near-drawings]");
       await offer.waitFor();
       const text = await offer.innerText();
@@ -65,6 +64,7 @@ describe("a structure set near the image", { skip }, () => {
       await viewer.waitForContours(1);
       assert.deepEqual(await names(viewer), ["Lymph node"]);
       await offer.waitFor({ state: "hidden" });
+      assert.equal(await page.locator("[data-test=first-hint]").count(), 0, "whoever imports has begun");
       await viewer.surfaceShown();
       await page.keyboard.press("Control+z");
       await viewer.waitForContours(0);

@@ -219,7 +219,8 @@ TEST_F(RtstructTest, SelectsByNameThenNumberAndListsTheRoisOtherwise) {
     EXPECT_EQ(select_roi(set, "2").number, 3) << "a name goes before a number";
     const std::string list =
         "; the ROIs are: 1 'liver' (3 contours), 2 'marker' (0 contours), 3 '2' (1 contour), 4 'liver' (1 contour)";
-    EXPECT_EQ(refusal(ErrorKind::invalid_input, [&] { select_roi(set); }), "several ROIs have contours; name one" + list);
+    EXPECT_EQ(refusal(ErrorKind::invalid_input, [&] { select_roi(set); }),
+              "several ROIs have contours; choose one with the option roi" + list);
     EXPECT_EQ(refusal(ErrorKind::invalid_input, [&] { select_roi(set, "spleen"); }), "there is no ROI 'spleen'" + list);
     EXPECT_EQ(refusal(ErrorKind::invalid_input, [&] { select_roi(set, "liver"); }),
               "2 ROIs have the name 'liver'; give a number" + list);

@@ -198,7 +198,8 @@ Roi select_roi(const StructureSet& set, const std::optional<std::string>& name_o
     std::vector<const Roi*> found;
     if (!name_or_number) {
         found = rois_where(set.rois, [](const Roi& roi) { return !roi.contours.contours.empty() || !roi.damage.empty(); });
-        if (found.size() != 1) refuse(found.empty() ? "no ROI has contours" : "several ROIs have contours; name one");
+        if (found.size() != 1)
+            refuse(found.empty() ? "no ROI has contours" : "several ROIs have contours; choose one with the option roi");
         return readable(*found.front());
     }
     found = rois_where(set.rois, [&](const Roi& roi) { return roi.name == *name_or_number; });

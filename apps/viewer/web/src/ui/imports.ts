@@ -69,16 +69,23 @@ function openTracing(name: string, trace: (options: Options) => void): void {
     el("option", { value: "axial,sagittal,coronal" }, "axial, sagittal and coronal"),
     el("option", { value: "axial" }, "axial only"),
   );
-  const planes = el("input", { type: "number", min: "1", max: "200", value: "9", class: "number" });
+  const confirm = () => {
+    if (!planes.reportValidity()) return;
+    dialog.close();
+    trace({ axes: axes.value, planes: planes.value });
+  };
+  const onEnter = (event: KeyboardEvent) => {
+    if (event.key !== "Enter") return;
+    event.preventDefault(); // or it presses the button that has the focus once the dialog is closed
+    confirm();
+  };
+  const planes = el("input", { type: "number", min: "1", max: "200", value: "9", required: "", class: "number", on: { keydown: onEnter } });
   const go = button({
     label: "Trace into contours",
     title: "Import it",
     class: "primary",
     test: "import-mask",
-    click: () => {
-      dialog.close();
-      trace({ axes: axes.value, planes: planes.value });
-    },
+    click: confirm,
   });
   const dialog = openDialog(
     `Import ${name}`,

@@ -94,7 +94,10 @@ describe("a structure set near the image", { skip }, () => {
       };
       await page.locator("[data-test=near-drawing]", { hasText: "Segments.dcm" }).locator("[data-test=near-import]").click();
       await page.locator("[data-test=mask-dialog] select").selectOption("axial");
-      await trace("1");
+      await trace("0"); // which the dialog refuses by itself
+      await page.locator("[data-test=mask-dialog] input:invalid").waitFor();
+      await page.locator("[data-test=mask-dialog] input").fill("1");
+      await page.keyboard.press("Enter");
       await viewer.waitForContours(1);
       await page.click("[data-test=import]");
       const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("[data-test=import-file]")]);

@@ -55,9 +55,9 @@ TEST(ActiveBounds, HoldAtFirstWhereFIsFarthestOffInASurroundingAsWideAsThatIsFar
         bounds.push_back({.position = {10, 1.0 * i, 0}, .most_mm = i == 0 ? -1.1 : -1.0, .noise_mm = 0.1});
     bounds.push_back({.position = {-1, 0, 0}, .most_mm = -2, .noise_mm = 0.1});
     ActiveBounds active(bounds, drawn);
-    EXPECT_TRUE(active.update(ImplicitFunction(), 1e-3, {}));
+    EXPECT_TRUE(active.update(ImplicitFunction(), 1e-3, 0.5, {}));
     EXPECT_EQ(held(active), 2u) << "the worst on either side";
-    EXPECT_TRUE(active.update(ImplicitFunction(), 1e-3, {}));
+    EXPECT_TRUE(active.update(ImplicitFunction(), 1e-3, 0.5, {}));
     EXPECT_EQ(held(active), bounds.size()) << "what they do not keep is held next";
 }
 
@@ -81,7 +81,7 @@ TEST(ActiveBounds, WhatIsLittleBesideANoiseDoesNotCount) {
     const std::vector<BoundaryPoint> drawn{{.position = {0, 0, 0}}};
     const auto counts = [&](double most_mm, double noise_mm) {
         const std::vector<Bound> bounds{{.position = {10, 0, 0}, .most_mm = most_mm, .noise_mm = noise_mm}};
-        return ActiveBounds(bounds, drawn).update(ImplicitFunction(), 1e-3, {});
+        return ActiveBounds(bounds, drawn).update(ImplicitFunction(), 1e-3, 0.5, {});
     };
     EXPECT_TRUE(counts(-0.01, 0.1));
     EXPECT_FALSE(counts(-0.01, 1));

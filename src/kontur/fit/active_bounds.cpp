@@ -16,9 +16,6 @@ namespace {
 // Of a bound's noise, what f may leave it by. Three times as much lets the volume jump by 4 % where one of two planes turns,
 // a third of it changes nothing but that some drawings take one more solve of all points.
 constexpr double kCounts = 0.03;
-// Of the same, where f would keep a bound that is held and pulls it the wrong way: such bounds lie far from the surface,
-// which moves by about a hundredth of a millimetre at most when they are let go of.
-constexpr double kCountsHeld = 0.5;
 
 }  // namespace
 
@@ -39,7 +36,7 @@ void ActiveBounds::hold(std::span<const std::size_t> bounds) {
     }
 }
 
-bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm, const Work& work) {
+bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm, double held_counts, const Work& work) {
     std::vector<double> values(bounds_.size());
     function.values(positions_, values, work);
     const bool are_first = !holds_any();
@@ -55,7 +52,7 @@ bool ActiveBounds::update(const ImplicitFunction& function, double tolerance_mm,
                 left.push_back({excess, i, above > below ? Held::at_most : Held::at_least});
         } else if (const double excess = held_[i] == Held::at_most ? above : below; excess <= 0) {
             held_[i] = Held::no;
-            counts = counts || excess < -std::max(tolerance_mm, kCountsHeld * noise);
+            counts = counts || excess < -std::max(tolerance_mm, held_counts * noise);
         }
     }
     counts = counts || !left.empty();

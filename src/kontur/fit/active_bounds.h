@@ -24,9 +24,9 @@ public:
 
     /// Holds f where it leaves its interval by more than counts, and lets it go where it keeps it by itself; true if another
     /// solve would move f by more than counts: than the tolerance, and than 3 % of the noise of a bound that f leaves, which
-    /// says how well it is known, or half of it where f would keep a bound that is held. The first are held only where f is
-    /// farthest off in a surrounding as wide as it is far to what was drawn.
-    bool update(const ImplicitFunction& function, double tolerance_mm, const Work& work);
+    /// says how well it is known, or `held_counts` of it where f would keep a bound that is held. The first are held only
+    /// where f is farthest off in a surrounding as wide as it is far to what was drawn.
+    bool update(const ImplicitFunction& function, double tolerance_mm, double held_counts, const Work& work);
 
     /// Whether f is held anywhere where it need not be.
     bool holds_any() const;

@@ -69,6 +69,10 @@ double mean_change_degrees(const std::vector<double>& before, const std::vector<
 constexpr int kMostSettling = 10;
 // They need not be as exact as the last one, which shows whether they were right.
 constexpr double kSettlingTolerance = 3;
+// Of the noise of a bound that is held though f would keep it, and pulls it the wrong way. While bounds are settled it is
+// let go of: which ones are held else depends on the way there, and the volume jumps where that is another. All points are
+// not worth another solve for it: what is left lies far from the surface, which moves by a hundredth of a millimetre.
+constexpr double kCountsSettling = 0.03, kCountsHeld = 0.5;
 
 /// The solves of one fit, with what they share and what they leave behind.
 class Solves {
@@ -92,7 +96,7 @@ public:
         }
         progress_ = {progress_.end, 1.0};
         for (bool other_bounds = true; other_bounds && result_.full_solves < options_.most_solves;)
-            other_bounds = solve_part(kept, 1, ++result_.full_solves == options_.most_solves);
+            other_bounds = solve_part(kept, 1, kCountsHeld, ++result_.full_solves == options_.most_solves);
         return std::move(result_);
     }
 
@@ -114,7 +118,7 @@ private:
             progress_ = {progress_.end, progress_.end + 0.5 / options_.rounds};
             solving.smoothing = share(points) * std::max(smoothing, options_.solve.smoothing);
             solve_for(points, slopes, options_.place, solving);
-            bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
+            bounds_.update(result_.function, 2 * solving.tolerance_mm, kCountsHeld, work_);
             std::vector<double> next = read_slopes(result_.function, points, options_, work_);
             result_.tilt_change_degrees = mean_change_degrees(slopes, next);
             slopes = std::move(next);
@@ -127,12 +131,13 @@ private:
     void settle_bounds(std::size_t kept) {
         if (!bounds_.holds_any() || options_.most_solves == 1) return;
         const std::vector<std::size_t> part = thin(all_, std::clamp(kept / 2, std::size_t{1}, options_.tilt_points));
-        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance);) ++solve;
+        for (int solve = 0; solve < kMostSettling && solve_part(part, kSettlingTolerance, kCountsSettling);) ++solve;
     }
 
     /// The fit with the slopes that were found, from a part of the points; true if other bounds should have been held, which
     /// is not asked of the last one: bounds are many.
-    bool solve_part(const std::vector<std::size_t>& part, double tolerance_factor, bool is_last = false) {
+    bool solve_part(const std::vector<std::size_t>& part, double tolerance_factor, double held_counts,
+                    bool is_last = false) {
         const std::vector<BoundaryPoint> points = pick(all_, part);
         SolveOptions solving = options_.solve;
         solving.smoothing *= share(points);
@@ -140,7 +145,7 @@ private:
         PlaceOptions placing = options_.place;
         placing.slope_noise *= std::sqrt(share(points));
         solve_for(points, pick(result_.slopes, part), placing, solving);
-        return !is_last && bounds_.update(result_.function, 2 * solving.tolerance_mm, work_);
+        return !is_last && bounds_.update(result_.function, 2 * solving.tolerance_mm, held_counts, work_);
     }
 
     /// Solves for points with these slopes, with the bounds that are held.

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "kontur/base/error.h"
+#include "kontur/drawing/ring_starts.h"
 #include "kontur/fit/sides.h"
+#include "kontur/fit/spread.h"
 #include "kontur/refine/spread_points.h"
 
 namespace kontur {
@@ -109,13 +111,22 @@ PreparedContours prepare(const Drawing& drawing, const StageOptions& options, co
 }
 
 ContourSet thinned(ContourSet set, std::size_t most) {
+    constexpr double kApart = 1.3;  // points that are spread are so much farther apart on average than at least
     const std::size_t count = point_count(set);
+    const Ball3 ball = smallest_ball(set);
     for (Contour& contour : set.contours) {
         const std::size_t step = std::min(count / most, contour.points.size() / kCoarseSegments);
         if (step < 2) continue;
+        begin_alike(contour, ball);  // a circle is so regular that nothing else tells its points apart
+        const auto apart_mm = static_cast<double>(step) * line_length(contour.points, contour.closed) /
+                              static_cast<double>(contour.points.size()) / kApart;
+        const std::vector<bool> taken =
+            spread_along({contour.points, contour.closed}, std::vector(contour.points.size(), apart_mm), 0);
         std::vector<Vec3> kept;
-        for (std::size_t i = 0; i < contour.points.size(); i += step) kept.push_back(contour.points[i]);
-        if (!contour.closed && kept.back() != contour.points.back()) kept.push_back(contour.points.back());
+        for (std::size_t i = 0; i < contour.points.size(); ++i) {
+            const bool is_end = !contour.closed && (i == 0 || i + 1 == contour.points.size());
+            if (taken[i] || is_end) kept.push_back(contour.points[i]);
+        }
         contour.points = std::move(kept);
     }
     return set;

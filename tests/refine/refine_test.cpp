@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kontur/segment.h"
@@ -48,6 +49,37 @@ TEST(Refine, GivesTheSameBytesForAnyNumberOfThreads) {
     const auto same = [](std::span<const double> a, std::span<const double> b) { return std::ranges::equal(a, b); };
     EXPECT_TRUE(same(one.refined.fitted.function.weights(), five.refined.fitted.function.weights()));
     EXPECT_EQ(one.refined.report.error_with_mm, five.refined.report.error_with_mm);
+}
+
+/// Begun at another point, turned round, and in another order, each contour in its own way.
+ContourSet stored_otherwise(ContourSet set, std::size_t way) {
+    for (std::size_t c = 0; c < set.contours.size(); ++c) {
+        std::vector<Vec3>& points = set.contours[c].points;
+        std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>((1 + 17 * way + 31 * c) % points.size()));
+        if ((way + c) % 2 == 0) std::ranges::reverse(points);
+    }
+    std::ranges::rotate(set.contours, set.contours.begin() + static_cast<std::ptrdiff_t>(way % set.contours.size()));
+    if (way % 2 == 1) std::ranges::reverse(set.contours);
+    return set;
+}
+
+TEST(Refine, GivesTheSameSurfaceHoweverADrawingIsStored) {
+    const Image image = image_of(cube_grid(2), body_look, 8);
+    for (const std::vector<Plane>& planes : {orthogonal_planes(), stacked_planes()}) {
+        const ContourSet contours = drawn_on(planes);
+        const Refinement first = refine_drawing(contours, image);
+        ASSERT_EQ(first.refined.report.verdict, ImageVerdict::used);
+        const std::vector<Vec3> places = surface_points(first.refined.fitted.function, contours);
+        for (const std::size_t way : {0, 1, 2}) {
+            const Refinement other = refine_drawing(stored_otherwise(contours, way), image);
+            double most = 0;
+            for (const Vec3& p : places)
+                most = std::max(most,
+                                std::abs(other.refined.fitted.function.value(p) - first.refined.fitted.function.value(p)));
+            EXPECT_LT(most, 0.002) << "mm; way " << way << " of " << planes.size() << " planes";
+            EXPECT_NEAR(other.refined.report.weight, first.refined.report.weight, 1e-4);
+        }
+    }
 }
 
 TEST(Refine, ReadsAsManyIntensitiesFromAnImageOfAnySize) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "kontur/drawing/stored_alike.h"
 #include "kontur/refine/displace.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/move_surface.h"
@@ -127,8 +128,10 @@ RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared,
                        const Image& image, const FitContours& fit_contours, const RefineOptions& options, const Work& work) {
     check_image(image);
     if (is_label_map(image)) return {fitted, {.verdict = ImageVerdict::labels}};
-    const DrawnOnImage drawn(drawing, image);
-    const Question asked{drawing, prepared, fitted, image, drawn, options, work};
+    Drawing alike = drawing;
+    alike.contours = stored_alike(drawing.contours);
+    const DrawnOnImage drawn(alike, image);
+    const Question asked{alike, prepared, fitted, image, drawn, options, work};
     if (!options.gate) {
         const double voxel = drawn.image.voxel_mm();
         const Beliefs cautious{[](double d) { return kCautiousSlope * d; },

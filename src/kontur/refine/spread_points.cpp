@@ -68,22 +68,6 @@ std::size_t sides(const Contour& contour) {
 
 }  // namespace
 
-Affine3 frame_of(const ContourSet& contours) {
-    Affine3 frame;
-    if (contours.contours.empty()) return frame;
-    const Contour& first = contours.contours.front();
-    Vec3 middle;
-    for (const Vec3& p : first.points) middle += p / static_cast<double>(first.points.size());
-    const Vec3 z = first.plane.normal, across = first.points.front() - middle;
-    const Vec3 x = normalized(across - dot(across, z) * z);
-    if (x == Vec3{}) return frame;
-    frame.set_column(0, x);
-    frame.set_column(1, cross(z, x));
-    frame.set_column(2, z);
-    frame.translation = middle;
-    return frame;
-}
-
 std::vector<Vec3> points_of_surface(const ImplicitFunction& function, const ContourSet& contours, double spacing_mm,
                                     const Work& work) {
     const Affine3 frame = frame_of(contours), to_frame = frame.inverse();

@@ -6,14 +6,11 @@
 
 #include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
+#include "kontur/drawing/stored_alike.h"
 #include "kontur/function/implicit_function.h"
 #include "kontur/refine/moving_point.h"
 
 namespace kontur {
-
-/// Axes of unit length that turn and move with a drawing, by its first contour: what is chosen in it is chosen alike however
-/// the drawing lies. The patient's axes where there is none.
-Affine3 frame_of(const ContourSet& contours);
 
 /// The surface of f through the contours as the points at which it crosses a lattice of `spacing_mm` in their frame,
 /// interpolated linearly: a few percent of the spacing beside it. None where it is farther from the contours than half of

@@ -130,6 +130,9 @@ json Session::surface_event(const Surface& surface) const {
     for (const LineSide& side : surface.sides)
         event["sides"].push_back(
             {{"contour", side.contour}, {"inside", std::string(kontur::name(side.inside))}, {"sure", side.is_sure}});
+    for (const LinePair& pair : surface.near_lines)
+        event["near_lines"].push_back(
+            {{"contours", {pair.contour, pair.other}}, {"apart_mm", pair.apart_mm}, {"one", pair.is_one}});
     if (is_finished(surface.stage) || surface.stage == SurfaceStage::none) {
         event["conflicts"] = json::array();
         for (const Conflict& conflict : surface.conflicts)

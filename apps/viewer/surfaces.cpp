@@ -65,6 +65,8 @@ Surface shown(const SurfaceTask& task, const EditorUpdate& update) {
     surface.mesh = std::make_shared<const TriangleMesh>(update.surface.mesh);
     for (const FoundSide& found : update.surface.sides)
         surface.sides.push_back({task.ids[found.contour], found.inside, found.is_sure});
+    for (const NearLines& pair : update.surface.near_lines)
+        surface.near_lines.push_back({task.ids[pair.contour], task.ids[pair.other], pair.apart_mm, pair.is_one});
     if (!update.surface.refined) return surface;
     surface.volume_ml = signed_volume_mm3(*surface.mesh) / 1000;
     surface.residual = update.surface.residual;

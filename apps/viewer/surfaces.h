@@ -46,6 +46,13 @@ struct LineSide {
     bool is_sure = true;
 };
 
+/// Two lines of one plane that were taken for one, or leave a thin wall, the first of them a hole in the other.
+struct LinePair {
+    Id contour = 0, other = 0;
+    double apart_mm = 0;
+    bool is_one = false;
+};
+
 /// What is shown of a structure's surface.
 struct Surface {
     Id structure = 0;
@@ -54,6 +61,7 @@ struct Surface {
     std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
     std::vector<std::string> warnings;
     std::vector<LineSide> sides;
+    std::vector<LinePair> near_lines;
     std::vector<Conflict> conflicts;  ///< the largest first; known when refined, and when there is no surface
     // Known when finished:
     double volume_ml = 0;

@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "bindings.h"
+#include "fields.h"
 #include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/fill_rule.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/self_contacts.h"
 #include "kontur/shape/spline.h"
@@ -42,12 +44,23 @@ void bind_types(py::module_& m) {
     nesting.def_readonly("enclosing", &Nesting::enclosing, "list of list of int: per contour, which ones.");
     nesting.def_readonly("crossings", &Nesting::crossings, "list of (int, int): pairs that overlap in part.");
 
+    py::class_<NearLines> near(m, "NearLines",
+                               "Two closed contours of one plane so near to each other that they may be one, drawn twice.");
+    Fields(near)
+        .field("contour", &NearLines::contour, "int: index of the contour inside the other, or of the first that cross.")
+        .field("other", &NearLines::other, "int: index of the other one.")
+        .field("apart_mm", &NearLines::apart_mm, "float: on average.")
+        .field("share", &NearLines::share, "float: what lies between them, of what the larger one encloses.")
+        .field("are_nested", &NearLines::are_nested, "bool: whether one lies inside the other.")
+        .field("is_one", &NearLines::is_one, "bool: taken for one line; otherwise the inner one is a hole.")
+        .picklable();
+
     py::class_<FillChanges> changes(m, "FillChanges", "What `apply_fill_rule` did.");
     changes.def_readonly("holes", &FillChanges::holes, "int: contours that became holes.");
     changes.def_readonly("removed", &FillChanges::removed, "int: contours taken out.");
     changes.def_readonly("crossings", &FillChanges::crossings, "list of (int, int): pairs that overlap in part.");
-    changes.def_readonly("thin_rings", &FillChanges::thin_rings,
-                         "list of (int, int): what became a hole and the contour with little more area around it.");
+    changes.def_readonly("near_lines", &FillChanges::near_lines,
+                         "list of NearLines: taken for one line, or a hole that leaves a thin wall; indices of the result.");
 
     py::class_<SelfContact> contact(m, "SelfContact", "A place where two parts of a closed polygon meet.");
     contact.def_property_readonly(

@@ -51,6 +51,8 @@ void bind_editor_itself(py::module_& m) {
     surface.def_readonly("mesh", &EditedSurface::mesh, "TriangleMesh: empty without contours.");
     surface.def_readonly("spacing_mm", &EditedSurface::spacing_mm, "float: of the lattice that the mesh was made on.");
     surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; refined surfaces only.");
+    surface.def_readonly("near_lines", &EditedSurface::near_lines,
+                         "list of NearLines: lines of one plane that count as one or leave a thin wall.");
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
     surface.def_readonly("image", &EditedSurface::image, "RefineReport: what became of the image; refined surfaces only.");
     surface.def_property_readonly(

@@ -122,6 +122,9 @@ void bind_report(py::module_& m) {
         .field("residual", &Report::residual, "Residual: at all drawn points.")
         .field("crossings", &Report::crossings,
                "list of Crossing: contours of different planes, those that disagree most first.")
+        .field(
+            "near_lines", &Report::near_lines,
+            "list of NearLines: lines of one plane that count as one or leave a thin wall, with indices of what was drawn.")
         .field("evaluations", &Report::evaluations, "int: function values computed to voxelize.")
         .field("surface_voxels", &Report::surface_voxels, "int: lattice cells that the surface passes through.")
         .field("mask_voxels", &Report::mask_voxels, "int")

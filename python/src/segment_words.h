@@ -5,7 +5,7 @@
 #include "kontur/drawing/corners.h"
 #include "kontur/drawing/reconcile.h"
 #include "kontur/refine/refine.h"
-#include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/fill_rule.h"
 
 namespace kontur::python {
 

@@ -262,6 +262,23 @@ def test_nesting_and_fill_rule():
     assert len(fewer) == 1 and changes.removed == 2
 
 
+def test_a_line_drawn_again_is_no_hole():
+    angle = numpy.linspace(0, 2 * numpy.pi, 40, endpoint=False)
+
+    def circle(radius, z):
+        return kontur.Contour(numpy.stack([radius * numpy.cos(angle), radius * numpy.sin(angle), 0 * angle + z], axis=1))
+
+    rings = kontur.ContourSet([circle(20, z) for z in (-8, 0, 8)] + [circle(20.5, 0)])
+    filled, changes = kontur.apply_fill_rule(rings)
+    assert not any(c.hole for c in filled.contours)
+    (pair,) = changes.near_lines
+    assert (pair.contour, pair.other, pair.are_nested, pair.is_one) == (1, 3, True, True)
+    assert abs(pair.apart_mm - 0.5) < 0.02 and 0 < pair.share < 0.1
+    report = kontur.segment(rings, kontur.grid_around([[-25, -25, -12], [25, 25, 12]], [4, 4, 4], 8)).report
+    assert [(p.contour, p.other) for p in report.near_lines] == [(1, 3)]
+    assert "one line that was drawn twice" in report.warnings[0]
+
+
 def test_digests_do_not_depend_on_the_file(tmp_path, case):
     kontur.write_contours(tmp_path / "a.json", case.contours, provenance={"made_by": "hand"})
     assert '"provenance": {"made_by": "hand"}' in (tmp_path / "a.json").read_text()

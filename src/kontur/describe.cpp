@@ -175,6 +175,7 @@ SegmentReport describe(const StageResults& results, const SegmentOptions& option
     report.voxelizer = options.voxelizer;
     report.use_image = options.use_image;
     report.image = image;
+    report.near_lines = drawing.near_lines;
     report.fill_rule = options.fill_rule;
     report.conflicts = stages.reconcile.conflicts;
     report.corners = stages.prepare.corners;

@@ -69,22 +69,9 @@ std::size_t follow_image(PreparedContours& prepared, const AskedBefore& asked, c
     return shown.size();
 }
 
-/// The number that each of the drawing's contours had before some were left out; they keep their order and first points.
-std::vector<std::size_t> numbers_before(const ContourSet& drawn, const ContourSet& kept) {
-    std::vector<std::size_t> numbers;
-    std::size_t n = 0;
-    for (const Contour& contour : kept.contours) {
-        while (n + 1 < drawn.contours.size() && drawn.contours[n].points.front() != contour.points.front()) ++n;
-        numbers.push_back(n++);
-    }
-    return numbers;
-}
-
-std::vector<FoundSide> sides_of(const Drawing& drawing, const ContourSet& drawn) {
-    if (drawing.sides.empty()) return {};
-    const std::vector<std::size_t> numbers = numbers_before(drawn, drawing.contours);
+std::vector<FoundSide> sides_of(const Drawing& drawing) {
     std::vector<FoundSide> sides = drawing.sides;
-    for (FoundSide& found : sides) found.contour = numbers[found.contour];
+    for (FoundSide& found : sides) found.contour = drawing.numbers[found.contour];
     return sides;
 }
 
@@ -222,7 +209,8 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     if (ahead) ahead(SurfaceBand(fitted.function, starts, {kCutFraction * lattice.spacing_mm}, work));
     EditedSurface surface = surface_of(fitted, starts, lattice, work);
     watch.lap("mesh");
-    surface.sides = sides_of(drawing, drawn);
+    surface.sides = sides_of(drawing);
+    surface.near_lines = drawing.near_lines;
     surface.seconds = std::move(seconds);
     surface.shown_before = shown;
     reused_ = stages.fit.rounds == 0 ? reused_ + 1 : 0;
@@ -251,8 +239,9 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
                        {spacing_mm}, work);
         surface.refined = true;
         surface.residual = residual(surface.function, drawing.contours, work);
-        surface.residual.worst_contour = numbers_before(drawn, drawing.contours).at(surface.residual.worst_contour);
-        surface.sides = sides_of(drawing, drawn);
+        surface.residual.worst_contour = drawing.numbers.at(surface.residual.worst_contour);
+        surface.sides = sides_of(drawing);
+        surface.near_lines = drawing.near_lines;
         return surface;
     };
     const bool asks = image && options_.segment.use_image != UseImage::off;

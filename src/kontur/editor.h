@@ -32,12 +32,13 @@ struct EditorOptions {
 struct EditedSurface {
     bool refined = false;  ///< false: a preview
     ImplicitFunction function;
-    TriangleMesh mesh;             ///< in mm, with normals; empty without contours
-    double spacing_mm = 0;         ///< of the lattice that the mesh was made on
-    Residual residual;             ///< at all drawn points, contours as they came; refined surfaces only
-    std::vector<FoundSide> sides;  ///< of the open contours that do not tell, numbered as they came
-    int solves = 0;                ///< how often a linear system was solved for it
-    RefineReport image{};          ///< what became of the image; refined surfaces only
+    TriangleMesh mesh;                    ///< in mm, with normals; empty without contours
+    double spacing_mm = 0;                ///< of the lattice that the mesh was made on
+    Residual residual;                    ///< at all drawn points, contours as they came; refined surfaces only
+    std::vector<FoundSide> sides;         ///< of the open contours that do not tell, numbered as they came
+    std::vector<NearLines> near_lines{};  ///< of one plane, numbered as they came
+    int solves = 0;                       ///< how often a linear system was solved for it
+    RefineReport image{};                 ///< what became of the image; refined surfaces only
     std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit: of previews, and of
                                    ///< what is told while the image is asked again
 

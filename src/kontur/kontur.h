@@ -18,6 +18,7 @@
 #include "kontur/shape/contour.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"
+#include "kontur/shape/fill_rule.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/predicates.h"

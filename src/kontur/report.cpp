@@ -40,6 +40,18 @@ Facts crossings_json(const std::vector<Crossing>& crossings) {
             {"worst", worst}};
 }
 
+/// Contours are counted from 1, as they came.
+Facts near_lines_json(const std::vector<NearLines>& pairs) {
+    Facts facts = Facts::array();
+    for (const NearLines& pair : pairs)
+        facts.push_back({{"contour", pair.contour + 1},
+                         {"other", pair.other + 1},
+                         {"apart_mm", pair.apart_mm},
+                         {"share", pair.share},
+                         {"read_as", pair.is_one ? "one line" : "wall"}});
+    return facts;
+}
+
 Facts provenance_json(const Provenance& made) {
     Facts facts = Facts::object();
     for (const auto& [key, value] : made) facts[key] = value;
@@ -105,6 +117,7 @@ Facts report_json(const SegmentReport& report, const Provenance& made) {
         {"iterations", report.iterations},
         {"residual_mm", {{"max", report.residual.max_mm}, {"rms", report.residual.rms_mm}}},
         {"crossings", crossings_json(report.crossings)},
+        {"near_lines", near_lines_json(report.near_lines)},
         {"voxelizer", name(report.voxelizer)},
         {"evaluations", report.evaluations},
         {"surface_voxels", report.surface_voxels},

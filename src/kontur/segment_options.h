@@ -8,7 +8,7 @@
 #include "kontur/extract/voxelize.h"
 #include "kontur/fit/fit.h"
 #include "kontur/refine/refine.h"
-#include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/fill_rule.h"
 
 namespace kontur {
 

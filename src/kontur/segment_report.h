@@ -14,6 +14,7 @@
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/grid.h"
+#include "kontur/shape/near_lines.h"
 #include "kontur/shape/provenance.h"
 
 namespace kontur {
@@ -40,11 +41,12 @@ struct SegmentReport {
     UseImage use_image = UseImage::automatic;
     RefineReport image;  ///< what became of the image between the contours
     int solves = 0;
-    int iterations = 0;               ///< over all solves; 0 for direct solvers
-    Residual residual;                ///< at all drawn points
-    std::vector<Crossing> crossings;  ///< of contours of different planes, those that disagree most first
-    std::int64_t evaluations = 0;     ///< function values computed to voxelize
-    std::int64_t surface_voxels = 0;  ///< lattice cells that the surface passes through
+    int iterations = 0;                 ///< over all solves; 0 for direct solvers
+    Residual residual;                  ///< at all drawn points
+    std::vector<Crossing> crossings;    ///< of contours of different planes, those that disagree most first
+    std::vector<NearLines> near_lines;  ///< lines of one plane that are one or leave a thin wall, counted as they came
+    std::int64_t evaluations = 0;       ///< function values computed to voxelize
+    std::int64_t surface_voxels = 0;    ///< lattice cells that the surface passes through
     std::int64_t mask_voxels = 0;
     double mask_volume_ml = 0;
     std::int64_t mask_components = 0;                     ///< face-connected

@@ -178,7 +178,21 @@ TEST(ContourCheck, DuplicatesEvenReversedOrResampled) {
     EXPECT_EQ(found.other, 1u);
     EXPECT_EQ(only(ball_and(test::circle(kAxial, 20, 300)), Kind::duplicate).other, 1u);
     for (const Kind kind : {Kind::overlap, Kind::unmarked_hole}) EXPECT_EQ(count(ball_and(again), kind), 0u);
-    EXPECT_EQ(count(ball_and(test::circle(kAxial, 19, 60)), Kind::duplicate), 0u);
+    EXPECT_EQ(count(ball_and(test::circle(kAxial, 10, 60)), Kind::duplicate), 0u);
+}
+
+TEST(ContourCheck, LinesSoNearThatTheyAreOneOrLeaveAThinWall) {
+    const Finding one = only(ball_and(test::circle(kAxial, 19, 60)), Kind::duplicate);
+    EXPECT_EQ(one.contour, 3u);
+    EXPECT_EQ(one.other, 1u);
+    EXPECT_NEAR(one.value_mm.value_or(0), 1, 0.01) << one.text;
+    ContourSet wall;
+    wall.contours = {test::circle(kAxial, 20, 60), test::circle(kAxial, 19.5, 60)};
+    const Finding thin = only(wall, Kind::thin_wall);
+    EXPECT_EQ(thin.contour, 1u);
+    EXPECT_EQ(thin.other, 0u);
+    EXPECT_NE(thin.text.find("leaves a wall of 0.5 mm"), std::string::npos) << thin.text;
+    EXPECT_EQ(count(wall, Kind::unmarked_hole), 0u);
 }
 
 TEST(ContourCheck, HolesAndOverlaps) {

@@ -180,8 +180,7 @@ TEST(Continuity, VolumeChangesLittleAsAContourGainsWeight) {
     EXPECT_LT(heavier.worst_step, 0.02) << "at 10^" << heavier.worst_at;
 }
 
-/// A second reader's contour, half a mm wider, from beside a plane to the next one that was drawn. In the plane itself it
-/// would make a hole of the narrower one.
+/// A second reader's contour, half a mm wider, from a plane to the next one that was drawn.
 TEST(Continuity, VolumeChangesLittleAsAPlaneIsDrawnTwice) {
     const double once_ml = volume_ml(sections({-16, -8, 0, 8, 16}));
     const auto drawing = [](double mm) {
@@ -189,10 +188,27 @@ TEST(Continuity, VolumeChangesLittleAsAPlaneIsDrawnTwice) {
         set.contours.push_back(scaled(section({0, 0, mm}, {0, 0, 1}), 1.0125));
         return set;
     };
-    const Sweep apart = sweep(0.1, 8, 0.4, drawing);
-    EXPECT_LT(apart.worst_step, 0.01) << "at " << apart.worst_at << " mm";
+    const Sweep apart = sweep(0, 8, 0.4, drawing);
+    EXPECT_LT(apart.worst_step, 0.02) << "at " << apart.worst_at << " mm";
     EXPECT_GT(apart.least_ml, 0.99 * once_ml);
     EXPECT_LT(apart.most_ml, 1.02 * once_ml);
+}
+
+/// The same in the plane itself, ever wider, and moved aside until the lines cross.
+TEST(Continuity, VolumeChangesLittleAsALineIsDrawnAgain) {
+    const double once_ml = volume_ml(sections({-16, -8, 0, 8, 16}));
+    const auto drawn_again = [](double wider_mm, double aside_mm) {
+        ContourSet set = sections({-16, -8, 0, 8, 16});
+        set.contours.push_back(scaled(set.contours[2], 1 + wider_mm / kSemiAxes.x));
+        for (Vec3& p : set.contours.back().points) p.x += aside_mm;
+        return set;
+    };
+    const Sweep wider = sweep(0, 8, 0.5, [&](double mm) { return drawn_again(mm, 0); });
+    EXPECT_LT(wider.worst_step, 0.01) << "at " << wider.worst_at << " mm";
+    EXPECT_NEAR(wider.least_ml, once_ml, 0.001 * once_ml);
+    EXPECT_LT(wider.most_ml, 1.1 * once_ml);
+    const Sweep aside = sweep(0, 4, 0.5, [&](double mm) { return drawn_again(0.5, mm); });
+    EXPECT_LT(aside.worst_step, 0.002) << "at " << aside.worst_at << " mm";
 }
 
 /// As with a brush or a control point: a bulge of a fifth of the outline.

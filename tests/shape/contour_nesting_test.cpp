@@ -64,53 +64,9 @@ TEST(FindNesting, OpenContoursEncloseNothing) {
     EXPECT_EQ(depths({circle(9, 0, 0), open, circle(4, 0, 0)}), (std::vector<std::size_t>{0, 0, 1}));
 }
 
-TEST(ApplyFillRule, EveryOtherLayerIsAHoleUnlessDeclaredOtherwise) {
-    ContourSet set{"", {circle(4, 1, 0), circle(20, 0, 0), circle(9, 2, 1), circle(3, 60, 0), circle(2, 1, 0)}, {}, {}, {}};
-    set.contours[3].hole = true;  // a cavity whose outer wall was not drawn here
-    const auto holes = [](const ContourSet& s) {
-        std::vector<bool> flags;
-        for (const Contour& contour : s.contours) flags.push_back(contour.hole);
-        return flags;
-    };
-    ContourSet even_odd = set;
-    const FillChanges changes = apply_fill_rule(even_odd, FillRule::even_odd);
-    EXPECT_EQ(holes(even_odd), (std::vector<bool>{false, false, true, true, true}));
-    EXPECT_EQ(changes.holes, 2u);
-    EXPECT_EQ(changes.removed, 0u);
-
-    set.contours[2].hole = true;
-    ContourSet declared = set;  // the circle of radius 4 is an island in the hole, that of radius 2 lies inside it
-    EXPECT_EQ(apply_fill_rule(declared, FillRule::declared).removed, 1u);
-    EXPECT_EQ(holes(declared), (std::vector<bool>{false, false, true, true}));
-    EXPECT_EQ(declared.contours[0].points, set.contours[0].points);
-}
-
-TEST(ApplyFillRule, NamesRingsSoThinThatALineMayHaveBeenDrawnTwice) {
-    ContourSet set;
-    set.contours = {circle(19.5, 0.2, 0), circle(20, 0, 0), circle(40, 0, 0)};  // the second is a hole of the third
-    EXPECT_TRUE(apply_fill_rule(set, FillRule::even_odd).thin_rings.empty());
-    set.contours.pop_back();
-    set.contours[1].hole = false;
-    EXPECT_EQ(apply_fill_rule(set, FillRule::even_odd).thin_rings,
-              (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}}));
-    set.contours = {circle(18, 0, 0), circle(20, 0, 0)};
-    EXPECT_TRUE(apply_fill_rule(set, FillRule::even_odd).thin_rings.empty());
-}
-
 TEST(FindNesting, NamesContoursThatOverlapInPart) {
     const Nesting nesting = find_nesting({circle(9, 0, 0), circle(3, 30, 0), circle(9, 10, 0)}, 0.01);
     EXPECT_EQ(nesting.crossings, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}}));
-}
-
-TEST(ApplyFillRule, NamesHolesAroundWhichNothingIsDrawn) {
-    ContourSet set;
-    set.contours = {circle(20, 0, 0), circle(4, 1, 0), circle(5, 40, 0), circle(2, 1, 0)};
-    for (const std::size_t c : {1, 2, 3}) set.contours[c].hole = true;
-    for (const FillRule rule : {FillRule::even_odd, FillRule::declared}) {
-        ContourSet filled = set;
-        EXPECT_EQ(apply_fill_rule(filled, rule).stray_holes, (std::vector<std::size_t>{2, 3})) << name(rule);
-        EXPECT_EQ(apply_fill_rule(filled, rule).stray_holes, (std::vector<std::size_t>{2, 3})) << "done again";
-    }
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kontur/base/counted.h"
+#include "kontur/drawing/one_line.h"
 #include "kontur/drawing/tidy.h"
 #include "kontur/shape/repeated_contours.h"
 
@@ -17,12 +19,6 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
     if (changes.holes > 0)
         notes.push_back(counted(changes.holes, "contour") +
                         (changes.holes == 1 ? " inside another became a hole" : " inside others became holes"));
-    if (!changes.thin_rings.empty())
-        notes.push_back(fmt::format(
-            "{} less than a tenth of the contour around them, the first of them contour {} "
-            "inside contour {}; where it is the same line drawn again, remove one of the two",
-            changes.thin_rings.size() == 1 ? "1 hole leaves" : counted(changes.thin_rings.size(), "hole") + " leave",
-            changes.thin_rings.front().first + 1, changes.thin_rings.front().second + 1));
     if (changes.removed > 0)
         notes.push_back(counted(changes.removed, "contour") +
                         (changes.removed == 1 ? " inside the object was left out: it is no hole"
@@ -35,6 +31,54 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
                               changes.stray_holes.size(), changes.stray_holes.front() + 1));
     for (const auto& [a, b] : changes.crossings)
         notes.push_back(fmt::format("contours {} and {} overlap in part", a + 1, b + 1));
+}
+
+/// The number that each contour had before some were left out; they keep their order and first points.
+std::vector<std::size_t> numbers_before(const std::vector<Vec3>& first_points, const ContourSet& kept) {
+    std::vector<std::size_t> numbers;
+    std::size_t n = 0;
+    for (const Contour& contour : kept.contours) {
+        while (n + 1 < first_points.size() && first_points[n] != contour.points.front()) ++n;
+        numbers.push_back(n++);
+    }
+    return numbers;
+}
+
+std::vector<std::size_t> pick(const std::vector<std::size_t>& from, const std::vector<std::size_t>& indices) {
+    std::vector<std::size_t> picked;
+    for (const std::size_t i : indices) picked.push_back(from[i]);
+    return picked;
+}
+
+std::vector<NearLines> numbered(std::vector<NearLines> pairs, const std::vector<std::size_t>& numbers) {
+    for (NearLines& pair : pairs) {
+        pair.contour = numbers[pair.contour];
+        pair.other = numbers[pair.other];
+    }
+    return pairs;
+}
+
+std::vector<Vec3> first_points(const ContourSet& set) {
+    std::vector<Vec3> points;
+    for (const Contour& contour : set.contours) points.push_back(contour.points.empty() ? Vec3{} : contour.points.front());
+    return points;
+}
+
+/// One sentence on the pairs that were read so, with the first of them; none without any.
+void note_near_lines(const std::vector<NearLines>& all, bool is_one, std::vector<std::string>& notes) {
+    std::vector<NearLines> pairs;
+    std::ranges::copy_if(all, std::back_inserter(pairs), [&](const NearLines& pair) { return pair.is_one == is_one; });
+    if (pairs.empty()) return;
+    const std::string others = pairs.size() == 1 ? "" : " (and " + counted(pairs.size() - 1, "more such pair") + ")";
+    const NearLines& first = pairs.front();
+    notes.push_back(
+        is_one
+            ? fmt::format("contours {} and {}, {:.2g} mm apart, were taken for one line that was drawn twice{}, and the "
+                          "surface passes between them; where a wall is meant, mark the inner one as a hole",
+                          first.other + 1, first.contour + 1, first.apart_mm, others)
+            : fmt::format("contour {} became a hole, which leaves a wall of {:.2g} mm within contour {}{}; where it is "
+                          "the same line drawn again, remove one of the two, and where a wall is meant, mark it as a hole",
+                          first.contour + 1, first.apart_mm, first.other + 1, others));
 }
 
 /// Contours that run back along themselves enclose nothing. Where there are no others, `tidy` refuses them.
@@ -68,11 +112,17 @@ void note_tidied(const Tidied& tidied, std::vector<std::string>& notes) {
 Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     if (const std::size_t dropped = drop_duplicate_points(contours); dropped > 0)
         notes.push_back(counted(dropped, "repeated point") + (dropped == 1 ? " was left out" : " were left out"));
+    const std::vector<Vec3> first = first_points(contours);
     for (std::string& note : check_and_tidy(contours)) notes.push_back(std::move(note));
     const double drawn_mm = smallest_ball(contours).diameter();
     const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
     leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);
-    note_filling(apply_fill_rule(contours, rule), notes);
+    const FillChanges changes = apply_fill_rule(contours, rule);
+    note_filling(changes, notes);
+    numbers = numbers_before(first, contours);
+    near_lines = numbered(changes.near_lines, numbers);
+    for (const bool is_one : {true, false}) note_near_lines(near_lines, is_one, notes);
+    numbers = pick(numbers, make_one_line(contours, changes.near_lines));
     crossings = find_crossings(contours);
     tidied = contours;
     note_tidied(tidy(tidied, tidy_options), notes);

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "kontur/base/counted.h"
 #include "kontur/io/keyhole.h"
 #include "kontur/io/shared_planes.h"
 #include "kontur/shape/contour_nesting.h"
+#include "kontur/shape/fill_rule.h"
 #include "kontur/shape/repeated_contours.h"
 
 namespace kontur {
@@ -28,6 +30,7 @@ struct Interpretation {
     std::size_t keyholes = 0;
     std::size_t open = 0;
     bool declared_xor = false;
+    std::set<std::size_t> in_keyholes;  ///< rings that a file says to be holes, or around such
 
     void note(const std::string& text) { result.notes.push_back(text); }
 };
@@ -78,7 +81,10 @@ void add_stored(Interpretation& interpretation, const StoredContour& stored) {
     std::vector<std::vector<Vec3>> rings = split_keyhole(stored.points, kChannelToleranceMm);
     interpretation.keyholes += rings.size() > 1;
     if (rings.empty()) ++interpretation.without_area;
-    for (std::vector<Vec3>& ring : rings) add_ring(interpretation, std::move(ring));
+    for (std::vector<Vec3>& ring : rings) {
+        if (rings.size() > 1) interpretation.in_keyholes.insert(interpretation.result.contours.size());
+        add_ring(interpretation, std::move(ring));
+    }
 }
 
 /// A copy of a contour would cancel it when filled even-odd; nobody means that by storing one twice.
@@ -106,16 +112,34 @@ void note_omissions(Interpretation& interpretation) {
         interpretation.note(fmt::format("read as points on the object's surface: {}", counted(points, "single point")));
 }
 
+void note_near_lines(const std::vector<NearLines>& pairs, Interpretation& interpretation) {
+    for (const NearLines& pair : pairs)
+        interpretation.note(
+            pair.is_one
+                ? fmt::format("read as one line that was drawn twice, {:.2g} mm apart: contours {} and {}", pair.apart_mm,
+                              pair.other + 1, pair.contour + 1)
+                : fmt::format("contour {} is read as a hole that leaves a wall of {:.2g} mm within contour {}; where it "
+                              "is the same line drawn again, remove one of the two",
+                              pair.contour + 1, pair.apart_mm, pair.other + 1));
+}
+
+/// Rings of keyholes and of files that declare XOR are what they are declared to be.
 void mark_holes(Interpretation& interpretation) {
-    std::vector<Contour>& contours = interpretation.result.contours;
-    const Nesting nesting = find_nesting(contours, kChannelToleranceMm);
-    std::size_t holes = 0;
-    for (std::size_t n = 0; n < contours.size(); ++n) holes += contours[n].hole = nesting.depth[n] % 2 == 1;
+    ContourSet set;
+    set.contours = std::move(interpretation.result.contours);
+    const Nesting nesting = find_nesting(set.contours, kChannelToleranceMm);
+    for (std::size_t n = 0; n < set.contours.size(); ++n)
+        set.contours[n].hole =
+            nesting.depth[n] % 2 == 1 && (interpretation.declared_xor || interpretation.in_keyholes.contains(n));
+    const FillChanges changes = apply_fill_rule(set, FillRule::even_odd);
+    interpretation.result.contours = std::move(set.contours);
     if (interpretation.declared_xor) return;
+    const auto holes = std::ranges::count(interpretation.result.contours, true, &Contour::hole);
     if (holes > 0)
         interpretation.note(
             fmt::format("read as holes, filling even-odd: {} inside others on the slice", counted(holes, "contour")));
-    for (const auto& [a, b] : nesting.crossings)
+    note_near_lines(changes.near_lines, interpretation);
+    for (const auto& [a, b] : changes.crossings)
         interpretation.note(
             fmt::format("contours {} and {} overlap in part; even-odd filling leaves the overlap out", a + 1, b + 1));
 }

@@ -33,9 +33,10 @@ enum class FindingKind {
     maybe_open,       ///< closed, but between its last and its first point lies a gap
     maybe_closed,     ///< open, but its ends nearly meet
     tiny,             ///< small beside the whole set
-    duplicate,        ///< the same outline twice in one plane
+    duplicate,        ///< the same outline twice in one plane, or two that count as one (apply_fill_rule)
     overlap,          ///< two outlines of one plane cross each other
     unmarked_hole,    ///< inside of another contour of its plane, not marked: with FillRule::even_odd it is a hole
+    thin_wall,        ///< the same, between which and the contour around it little is left: perhaps one line, drawn twice
     stray_hole,       ///< a hole that no contour surrounds
     contradiction,    ///< contours of different planes disagree where they meet
     misplaced_point,  ///< an interior or exterior point on the wrong side of the contours drawn in its plane

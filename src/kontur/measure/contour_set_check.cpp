@@ -11,8 +11,8 @@
 #include "kontur/base/checks.h"
 #include "kontur/measure/contour_check.h"
 #include "kontur/measure/findings.h"
-#include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/crossings.h"
+#include "kontur/shape/fill_rule.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -25,10 +25,12 @@ struct Sound {
 };
 
 /// With nested contours as holes.
-ContourSet filled(ContourSet set) {
-    apply_fill_rule(set, FillRule::even_odd);
-    return set;
-}
+struct Filled {
+    explicit Filled(ContourSet drawn) : set(std::move(drawn)), changes(apply_fill_rule(set, FillRule::even_odd)) {}
+
+    ContourSet set;
+    FillChanges changes;
+};
 
 class SetCheck {
 public:
@@ -38,13 +40,15 @@ public:
           findings_(findings),
           box_(bounding_box(set_)),
           diameter_(diameter_mm(set_)),
-          sections_(sections_of(filled(set_), kSamePlane * diameter_)),
+          filled_(set_),
+          sections_(sections_of(filled_.set, kSamePlane * diameter_)),
           limit_(options.disagreement_mm.value_or(0.015 * diameter_)) {}
 
     void run() {
         find_size();
         find_tiny();
         find_duplicates();
+        find_near_lines();
         find_holes_and_overlaps();
         find_contradictions();
         find_misplaced(set_.interior, true);
@@ -124,13 +128,39 @@ private:
         return std::find(duplicates_.begin(), duplicates_.end(), std::minmax({a, b})) != duplicates_.end();
     }
 
+    /// Two lines of one plane that count as one, or leave a thin wall.
+    void find_near_lines() {
+        for (const NearLines& pair : filled_.changes.near_lines) {
+            if (is_duplicate(pair.contour, pair.other)) continue;
+            const auto [first, second] = std::minmax({pair.contour, pair.other});
+            Finding& finding =
+                pair.is_one
+                    ? add(FindingKind::duplicate, Severity::warning, second,
+                          fmt::format("and {} of the same plane, {:.2g} mm apart, count as one line that was drawn "
+                                      "twice; where a wall is meant, mark the inner one as a hole",
+                                      title(first), pair.apart_mm))
+                    : add(FindingKind::thin_wall, Severity::warning, pair.contour,
+                          fmt::format("lies inside of {} and counts as a hole, which leaves a wall of {:.2g} mm; where "
+                                      "it is the same line drawn again, remove one of the two",
+                                      title(pair.other), pair.apart_mm));
+            finding.other = index_[pair.is_one ? first : pair.other];
+            finding.value_mm = pair.apart_mm;
+        }
+    }
+
+    bool are_near(std::size_t a, std::size_t b) const {
+        return std::ranges::any_of(filled_.changes.near_lines, [&](const NearLines& pair) {
+            return std::minmax({pair.contour, pair.other}) == std::minmax({a, b});
+        });
+    }
+
     void find_holes_and_overlaps() {
         const Nesting nesting = find_nesting(set_.contours, kSamePlane * diameter_);
         for (std::size_t c = 0; c < set_.contours.size(); ++c) {
             std::vector<std::size_t> around = nesting.enclosing[c];
             std::erase_if(around, [&](std::size_t other) { return is_duplicate(c, other); });
             const bool nested = around.size() % 2 != 0;
-            if (nested && !contour(c).hole)
+            if (nested && !contour(c).hole && !are_near(c, around.front()))
                 add(FindingKind::unmarked_hole, Severity::note, c,
                     "lies inside of " + title(around.front()) +
                         " and is not marked as a hole; it counts as one unless only declared holes do")
@@ -142,7 +172,7 @@ private:
                         : fmt::format("is a hole inside of {} contours, which leaves it outside already", around.size()));
         }
         for (const auto& [a, b] : nesting.crossings) {
-            if (is_duplicate(a, b)) continue;
+            if (is_duplicate(a, b) || are_near(a, b)) continue;
             Finding& finding =
                 add(FindingKind::overlap, Severity::warning, a, "and " + title(b) + " of the same plane cross");
             finding.other = index_[b];
@@ -295,6 +325,7 @@ private:
     std::vector<Finding>& findings_;
     Box3 box_;
     double diameter_;
+    Filled filled_;
     std::vector<Section> sections_;
     double limit_;
     std::vector<Pair> duplicates_;

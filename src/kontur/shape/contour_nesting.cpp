@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include "kontur/shape/box_tree.h"
 #include "kontur/shape/section.h"
@@ -47,7 +46,8 @@ Position position_of(const Outline& outline, const SectionSearch& of_other, doub
     inside = outside = 0;
     for (std::size_t i = 0; i < points.size(); i += stride)
         if (of_other.clearance(points[i]) > tolerance) ++(of_other.contains(points[i]) ? inside : outside);
-    return inside == 0 ? Position::outside : outside == 0 ? Position::inside : Position::crossing;
+    if ((inside == 0) == (outside == 0)) return Position::crossing;
+    return inside == 0 ? Position::outside : Position::inside;
 }
 
 /// Whether the contours of a plane lie inside others of it, of those whose boxes meet.
@@ -76,56 +76,7 @@ void nest(const std::vector<std::size_t>& in_plane, const std::vector<Contour>& 
     }
 }
 
-double area(const Contour& contour) {
-    Vec3 sum;
-    for (std::size_t i = 1; i + 1 < contour.points.size(); ++i)
-        sum += cross(contour.points[i] - contour.points[0], contour.points[i + 1] - contour.points[0]);
-    return norm(sum) / 2;
-}
-
-/// The smallest contour around a nested one, if what lies between them is a small part of it.
-std::optional<std::size_t> thin_ring_around(const std::vector<Contour>& contours, std::size_t nested,
-                                            const std::vector<std::size_t>& enclosing) {
-    constexpr double kThin = 0.1;
-    const auto around = *std::min_element(enclosing.begin(), enclosing.end(), [&](std::size_t a, std::size_t b) {
-        return area(contours[a]) < area(contours[b]);
-    });
-    if (area(contours[nested]) < (1 - kThin) * area(contours[around])) return std::nullopt;
-    return around;
-}
-
 }  // namespace
-
-std::string_view name(FillRule rule) noexcept { return rule == FillRule::even_odd ? "even-odd" : "declared"; }
-
-FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
-    std::vector<Contour>& contours = set.contours;
-    const Nesting nesting = find_nesting(contours, kSamePlane * diameter_mm(set));
-    FillChanges changes;
-    changes.crossings = nesting.crossings;
-    if (rule == FillRule::even_odd) {
-        for (std::size_t i = 0; i < contours.size(); ++i) {
-            const bool nested = nesting.depth[i] % 2 == 1;
-            if (!nested && contours[i].hole) changes.stray_holes.push_back(i);
-            if (!nested || contours[i].hole) continue;
-            contours[i].hole = true;
-            ++changes.holes;
-            if (const auto around = thin_ring_around(contours, i, nesting.enclosing[i]))
-                changes.thin_rings.emplace_back(i, *around);
-        }
-        return changes;
-    }
-    std::vector<Contour> kept;
-    for (std::size_t i = 0; i < contours.size(); ++i) {
-        int layers = 0;
-        for (const std::size_t around : nesting.enclosing[i]) layers += contours[around].hole ? -1 : 1;
-        if (layers <= 0 && contours[i].hole) changes.stray_holes.push_back(i);
-        if (layers <= 0 || contours[i].hole) kept.push_back(contours[i]);
-    }
-    changes.removed = contours.size() - kept.size();
-    contours = std::move(kept);
-    return changes;
-}
 
 bool lies_in(const Contour& contour, const Plane& plane, double tolerance_mm) {
     constexpr double kAcross = 0.95;  // a tiny contour may lie near any plane

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,9 +11,10 @@ namespace kontur {
 
 /// Which closed contours of a plane lie inside others. Open contours enclose nothing and are enclosed by nothing.
 struct Nesting {
-    std::vector<std::size_t> depth;                              ///< per contour: how many others on its plane enclose it
-    std::vector<std::vector<std::size_t>> enclosing;             ///< per contour: which ones they are, in ascending order
-    std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< pairs of which one lies partly inside the other
+    std::vector<std::size_t> depth;                   ///< per contour: how many others on its plane enclose it
+    std::vector<std::vector<std::size_t>> enclosing;  ///< per contour: which ones they are, in ascending order
+    std::vector<std::pair<std::size_t, std::size_t>>
+        crossings;  ///< pairs of which one lies partly inside the other, or on it
 };
 
 /// Of a set's diameter: points this near to a plane lie in it. More than files round their coordinates by, less than slices
@@ -30,27 +30,6 @@ std::vector<std::size_t> shared_planes(const std::vector<Contour>& contours, dou
 /// Contours in one plane (shared_planes) are compared. Points within `tolerance_mm` of the other contour count as neither
 /// inside nor outside. O(n log n) in contours few of which lie in each other; of each at most 2000 points are tested.
 Nesting find_nesting(const std::vector<Contour>& contours, double tolerance_mm);
-
-/// What contours inside others mean.
-enum class FillRule {
-    even_odd,  ///< a contour inside an odd number of others is a hole, as is every contour declared to be one
-    declared,  ///< only declared contours are holes; others inside the object add nothing to it
-};
-std::string_view name(FillRule rule) noexcept;
-
-/// What `apply_fill_rule` did.
-struct FillChanges {
-    std::size_t holes = 0;    ///< contours that became holes because of where they lie
-    std::size_t removed = 0;  ///< contours taken out because they lie inside the object (FillRule::declared)
-    std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< as Nesting's, indices before any was taken out
-    /// What became a hole and the contour around it that has little more area: perhaps one line, drawn twice.
-    std::vector<std::pair<std::size_t, std::size_t>> thin_rings;
-    std::vector<std::size_t> stray_holes;  ///< declared as holes where their plane shows no object, indices likewise
-};
-
-/// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The tolerance of
-/// `find_nesting` is `kSamePlane` of the set's diameter.
-FillChanges apply_fill_rule(ContourSet& set, FillRule rule);
 
 /// Whether a contour lies in a plane with all its points within `tolerance_mm`, and was not drawn across it.
 bool lies_in(const Contour& contour, const Plane& plane, double tolerance_mm);

@@ -81,6 +81,12 @@ Section::Nearest Section::nearest(const Point2& p) const {
     return nearest.found();
 }
 
+Section section_of(const Contour& contour, const Plane& plane) {
+    Section section{plane, {Polygon2{}}, {}, {}};
+    for (const Vec3& p : contour.points) section.outlines.front().push_back(plane.to_uv(p));
+    return section;
+}
+
 SectionSearch::SectionSearch(const Section& section) : section_(section) {
     std::vector<Box2> outlines(section.outlines.size()), stretches;
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {

@@ -38,6 +38,9 @@ struct Section {
     double clearance(const Point2& p) const { return nearest(p).distance; }
 };
 
+/// What one closed contour encloses, in the coordinates of a plane that it lies in.
+Section section_of(const Contour& contour, const Plane& plane);
+
 /// Answers as a section does, to the last bit, but looks only at the stretches of its outlines that matter: for many
 /// points. A point costs about the logarithm of the number of outlines, where few of them lie in each other. The section
 /// must outlive it.

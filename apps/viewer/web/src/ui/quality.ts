@@ -3,7 +3,7 @@ import { coincide } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { Maker } from "../net/calls";
-import type { Conflict, Contour, Surface } from "../net/protocol";
+import type { Conflict, Contour, NearLines, Surface } from "../net/protocol";
 import { distinct, settled } from "../tools/settling";
 import { contourName } from "./contour_names";
 import { buttonPiece } from "./dom";
@@ -87,12 +87,27 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   return [...entries, ...troubles(surface, contours, services)];
 }
 
-function troubles({ conflicts = [], warnings = [], sides = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
+function troubles({ conflicts = [], warnings = [], sides = [], near_lines = [] }: Surface, contours: Contour[], services: QualityServices): Piece[] {
   return [
     ...warnings.map((text) => piece("p", { class: "warning-text" }, text)),
     ...sides.flatMap(({ contour, sure }) => (sure ? [] : doubtfulSides(contour, contours, services))),
+    ...near_lines.flatMap((pair) => nearLines(pair, contours, services)),
     ...distinct(conflicts).map((conflict) => conflictEntry(conflict, contours, services)),
   ];
+}
+
+/** Two lines of one plane that may be one, drawn twice, or the two sides of a thin wall: how they were read. */
+function nearLines({ contours: ids, apart_mm, one }: NearLines, contours: Contour[], { navigation, show }: QualityServices): Piece[] {
+  const [inner, outer] = ids.map((id) => contours.find((contour) => contour.id === id));
+  if (!inner || !outer) return [];
+  const where = `Two lines of ${contourName(inner, navigation)}, ${apart_mm.toFixed(1)} mm apart,`;
+  return one
+    ? [place(`${where} count as one drawn twice`, "Show one of them: delete it, or mark it as a hole if the two bound a wall", "near-lines", () => show(inner))]
+    : [
+        place(`${where} bound a thin wall`, "Show the hole: delete it if it is the other line drawn again, or mark it as a hole", "near-lines", () =>
+          show(inner),
+        ),
+      ];
 }
 
 /** An open line of which nothing else that is drawn says on which side the structure lies. */
@@ -132,7 +147,7 @@ function selfCrossings(contours: Contour[], services: QualityServices): Piece[] 
   return places.map((at) => place("a contour crosses itself", "Go to where it crosses itself", "self-crossing", () => services.goTo(at)));
 }
 
-function place(label: string, title: string, kind: "residual" | "conflict" | "self-crossing" | "side", click: () => void): Piece {
+function place(label: string, title: string, kind: "residual" | "conflict" | "near-lines" | "self-crossing" | "side", click: () => void): Piece {
   return buttonPiece({
     label,
     icon: kind === "residual" ? ICONS.lines : ICONS.warning,

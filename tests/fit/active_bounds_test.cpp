@@ -72,7 +72,7 @@ TEST(ActiveBounds, WhereASingleValueIsToldFIsHeldFromTheFirstSolveOn) {
         ASSERT_EQ(points.size(), 2u);
         EXPECT_EQ(points[0].value, 2);
         EXPECT_EQ(points[1].value, -2);
-        EXPECT_FALSE(active.update(ImplicitFunction(), 1e-3, {})) << "another solve would do the same";
+        EXPECT_FALSE(active.update(ImplicitFunction(), 1e-3, 0.5, {})) << "another solve would do the same";
     }
     EXPECT_FALSE(active.holds_any()) << "none that has to be settled";
 }

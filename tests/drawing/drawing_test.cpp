@@ -40,6 +40,21 @@ TEST(Drawing, LeavesOutContoursThatEncloseNothingAndSaysSo) {
     EXPECT_TRUE(drawing_of({kLine, kSquare}).notes[0].starts_with("contour 1 has no area: its 4 points lie within"));
 }
 
+// Its plane would say that the object is nowhere else in it.
+TEST(Drawing, LeavesOutContoursAsSmallAsASlipOfTheHandAndSaysSo) {
+    const Contour speck = polygon(kNext, {{4, 4}, {4.002, 4}, {4.002, 4.002}, {4, 4.002}});
+    const Contour small = polygon(kNext, {{4, 4}, {4.03, 4}, {4.03, 4.03}, {4, 4.03}});
+    const Drawing one = drawing_of({kSquare, speck});
+    ASSERT_EQ(one.contours.contours.size(), 1u);
+    ASSERT_EQ(one.notes.size(), 1u);
+    EXPECT_EQ(one.notes[0], "contour 2 is 0.0028 mm across and was left out");
+    const Drawing two = drawing_of({speck, kSquare, speck});
+    ASSERT_EQ(two.contours.contours.size(), 1u);
+    EXPECT_EQ(two.contours.contours[0].points, kSquare.points);
+    EXPECT_EQ(drawing_of({kSquare, small}).contours.contours.size(), 2u);
+    EXPECT_EQ(drawing_of({speck}).contours.contours.size(), 1u) << "nothing else was drawn";
+}
+
 TEST(Drawing, AContourDrawnTwiceCountsOnce) {
     const Contour across =
         polygon(make_plane(kPlane.origin + 5.0 * kPlane.u + 4.0 * kPlane.v, kPlane.u), {{-3, -4}, {3, -4}, {3, 4}, {-3, 4}});

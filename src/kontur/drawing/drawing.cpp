@@ -81,6 +81,25 @@ void note_near_lines(const std::vector<NearLines>& all, bool is_one, std::vector
                           first.contour + 1, first.apart_mm, first.other + 1, others));
 }
 
+/// Closed contours as small as a slip of the hand, where there are others: their plane would say that it is empty but for
+/// them.
+void leave_out_specks(ContourSet& set, double least_mm, const std::vector<Vec3>& first_points,
+                      std::vector<std::string>& notes) {
+    const auto across = [](const Contour& contour) { return smallest_ball(contour.points).diameter(); };
+    const auto is_speck = [&](const Contour& contour) { return contour.closed && across(contour) < least_mm; };
+    const auto first = std::ranges::find_if(set.contours, is_speck);
+    if (first == set.contours.end()) return;
+    if (std::ranges::all_of(set.contours, [&](const Contour& c) { return c.hole || is_speck(c); })) return;
+    const auto at = static_cast<std::size_t>(first - set.contours.begin());
+    const std::size_t number = numbers_before(first_points, set)[at] + 1;
+    const double first_mm = across(*first);
+    const std::size_t left_out = std::erase_if(set.contours, is_speck);
+    notes.push_back(left_out == 1 ? fmt::format("contour {} is {:.2g} mm across and was left out", number, first_mm)
+                                  : fmt::format("{} contours less than {:.2g} mm across were left out, the first of them "
+                                                "contour {}",
+                                                left_out, least_mm, number));
+}
+
 /// Contours that run back along themselves enclose nothing. Where there are no others, `tidy` refuses them.
 void leave_out_spikes(ContourSet& set, double spike_tolerance_mm, std::vector<std::string>& notes) {
     const auto is_nothing = [&](const Contour& contour) { return is_only_spikes(contour, spike_tolerance_mm); };
@@ -116,6 +135,7 @@ Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     for (std::string& note : check_and_tidy(contours)) notes.push_back(std::move(note));
     const double drawn_mm = smallest_ball(contours).diameter();
     const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
+    leave_out_specks(contours, 3e-4 * drawn_mm, first, notes);
     leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);
     const FillChanges changes = apply_fill_rule(contours, rule);
     note_filling(changes, notes);

@@ -56,6 +56,12 @@ Lines cut_of_mesh(const TriangleMesh& mesh, const Plane& plane) {
     return lines;
 }
 
+/// Without those smaller than some cells: where a plane grazes the surface, one of the two may miss it.
+Lines without_grazed(Lines lines, double spacing_mm) {
+    std::erase_if(lines, [&](const auto& line) { return bounding_box(line).diagonal() < 2 * spacing_mm; });
+    return lines;
+}
+
 TEST(SurfaceBand, CutsABallInACircle) {
     const Vec3 center{20, -30, 1000};
     const SurfaceBand band(test::ball_function(center, 15), circle(center, 15), {.spacing_mm = 0.5});
@@ -107,7 +113,8 @@ TEST(SurfaceBand, AgreesWithTheMeshOfTheSameSurface) {
         const TriangleMesh mesh = preview_surface(surface.function, surface.starts, {surface.spacing_mm});
         std::vector<double> distances;
         for (const Plane& plane : drawn_and_random_planes(c.contours, random)) {
-            const Lines fast = band.cut(plane), slow = cut_of_mesh(mesh, plane);
+            const Lines fast = without_grazed(band.cut(plane), surface.spacing_mm);
+            const Lines slow = without_grazed(cut_of_mesh(mesh, plane), surface.spacing_mm);
             EXPECT_EQ(fast.size(), slow.size()) << name;
             append_distances(fast, slow, distances);
             append_distances(slow, fast, distances);

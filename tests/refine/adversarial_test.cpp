@@ -189,7 +189,7 @@ TEST(RefineAdversarial, TurnsWithImageAndDrawing) {
     const auto [turned, moved_by_image] = changed_by(rigid_motion());
     EXPECT_GT(moved_by_image.mean_mm, 0.5);
     EXPECT_LT(turned.mean_mm, 0.005);
-    EXPECT_LT(turned.largest_mm, 0.2) << "where the surface is steepest";
+    EXPECT_LT(turned.largest_mm, 0.4) << "where f is flattest";
 }
 
 TEST(RefineAdversarial, ObliqueVoxelsSayAsMuch) {

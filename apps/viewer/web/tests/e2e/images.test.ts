@@ -88,6 +88,7 @@ describe("kontur open", () => {
       const seg = join(folder.path, "again.dcm");
       writeFileSync(seg, (await viewer.export("seg.dcm")).bytes);
       await viewer.import(seg);
+      await page.click("[data-test=import-mask]"); // on the planes that are proposed
       await page.locator("[data-test=import-notes]", { hasText: "traced into contours" }).waitFor();
       await page.keyboard.press("Escape");
       assert.deepEqual(await page.locator(".structure-row button.name").allTextContents(), ["Drawn", "Drawn"]);

@@ -235,8 +235,8 @@ def test_no_surface_of_contours_from_before_is_told_as_refined(server):
     page.wait_for_surface(structure)
     choose = random.Random(5)
     is_refined = True
-    for _ in range(40):
-        page.do("contour.translate", id=ids[1], by=[choose.choice((-1, 1)), 0, 0])
+    for n in range(40):  # never back to where it was, for which the surface is kept
+        page.do("contour.translate", id=ids[1], by=[choose.choice((-1, 1)) * (1 + n / 64), 0, 0])
         time.sleep(choose.uniform(0, 0.3))
         page.do("ping")
         for event in page.events:

@@ -83,13 +83,14 @@ void note_near_lines(const std::vector<NearLines>& all, bool is_one, std::vector
 
 /// Closed contours as small as a slip of the hand, where there are others: their plane would say that it is empty but for
 /// them.
-void leave_out_specks(ContourSet& set, double least_mm, const std::vector<Vec3>& first_points,
-                      std::vector<std::string>& notes) {
+void leave_out_specks(ContourSet& set, const std::vector<Vec3>& first_points, std::vector<std::string>& notes) {
+    constexpr double kSpeck = 3e-4;  // of what the largest is across
     const auto across = [](const Contour& contour) { return smallest_ball(contour.points).diameter(); };
+    double least_mm = 0;
+    for (const Contour& contour : set.contours) least_mm = std::max(least_mm, kSpeck * across(contour));
     const auto is_speck = [&](const Contour& contour) { return contour.closed && across(contour) < least_mm; };
     const auto first = std::ranges::find_if(set.contours, is_speck);
     if (first == set.contours.end()) return;
-    if (std::ranges::all_of(set.contours, [&](const Contour& c) { return c.hole || is_speck(c); })) return;
     const auto at = static_cast<std::size_t>(first - set.contours.begin());
     const std::size_t number = numbers_before(first_points, set)[at] + 1;
     const double first_mm = across(*first);
@@ -135,7 +136,7 @@ Drawing::Drawing(ContourSet drawn, FillRule rule) : contours(std::move(drawn)) {
     for (std::string& note : check_and_tidy(contours)) notes.push_back(std::move(note));
     const double drawn_mm = smallest_ball(contours).diameter();
     const TidyOptions tidy_options{1.5e-5 * drawn_mm, 1.5e-4 * drawn_mm};
-    leave_out_specks(contours, 3e-4 * drawn_mm, first, notes);
+    leave_out_specks(contours, first, notes);
     leave_out_spikes(contours, tidy_options.spike_tolerance_mm, notes);
     const FillChanges changes = apply_fill_rule(contours, rule);
     note_filling(changes, notes);

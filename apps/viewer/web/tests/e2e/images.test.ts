@@ -89,8 +89,7 @@ describe("kontur open", () => {
       writeFileSync(seg, (await viewer.export("seg.dcm")).bytes);
       await viewer.import(seg);
       await page.click("[data-test=import-mask]"); // on the planes that are proposed
-      await page.locator("[data-test=import-notes]", { hasText: "traced into contours" }).waitFor();
-      await page.keyboard.press("Escape");
+      await page.locator(".structure-row").nth(1).waitFor();
       assert.deepEqual(await page.locator(".structure-row button.name").allTextContents(), ["Drawn", "Drawn"]);
       await viewer.surfaceShown();
       const again = await viewer.volume(); // of an object a few voxels large

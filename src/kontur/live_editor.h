@@ -40,7 +40,7 @@ struct EditorUpdate {
 /// as when it is undone, is answered by that surface at once, without a preview.
 class LiveEditor {
 public:
-    static constexpr std::size_t kKeptAnswers = 4;
+    static constexpr std::size_t kKeptAnswers = 3;  ///< each some 7 MB of an organ
 
     /// Called from the editor's thread, one update at a time; it must neither throw, nor call `wait`, nor destroy the
     /// editor.

@@ -85,16 +85,21 @@ void note_near_lines(const std::vector<NearLines>& all, bool is_one, std::vector
 /// them.
 void leave_out_specks(ContourSet& set, const std::vector<Vec3>& first_points, std::vector<std::string>& notes) {
     constexpr double kSpeck = 3e-4;  // of what the largest is across
-    const auto across = [](const Contour& contour) { return smallest_ball(contour.points).diameter(); };
-    double least_mm = 0;
-    for (const Contour& contour : set.contours) least_mm = std::max(least_mm, kSpeck * across(contour));
-    const auto is_speck = [&](const Contour& contour) { return contour.closed && across(contour) < least_mm; };
-    const auto first = std::ranges::find_if(set.contours, is_speck);
-    if (first == set.contours.end()) return;
-    const auto at = static_cast<std::size_t>(first - set.contours.begin());
-    const std::size_t number = numbers_before(first_points, set)[at] + 1;
-    const double first_mm = across(*first);
-    const std::size_t left_out = std::erase_if(set.contours, is_speck);
+    const std::size_t count = set.contours.size();
+    std::vector<double> across_mm;
+    for (const Contour& contour : set.contours) across_mm.push_back(smallest_ball(contour.points).diameter());
+    const double least_mm = count > 0 ? kSpeck * std::ranges::max(across_mm) : 0;
+    const auto is_speck = [&](std::size_t c) { return set.contours[c].closed && across_mm[c] < least_mm; };
+    std::size_t first = 0;
+    while (first < count && !is_speck(first)) ++first;
+    if (first == count) return;
+    const std::size_t number = numbers_before(first_points, set)[first] + 1;
+    std::vector<Contour> kept;
+    for (std::size_t c = 0; c < count; ++c)
+        if (!is_speck(c)) kept.push_back(set.contours[c]);
+    const std::size_t left_out = count - kept.size();
+    const double first_mm = across_mm[first];
+    set.contours = std::move(kept);
     notes.push_back(left_out == 1 ? fmt::format("contour {} is {:.2g} mm across and was left out", number, first_mm)
                                   : fmt::format("{} contours less than {:.2g} mm across were left out, the first of them "
                                                 "contour {}",

@@ -102,7 +102,6 @@ std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image
     const Work alone{.threads = 1, .stop = work.stop};  // planes are asked beside each other
     parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            work.check();
             planes[i] = displace(displaced, drawing.contours, groups[i], alone);
             for (HeldOut& point : planes[i].points) point.plane = i;
         }

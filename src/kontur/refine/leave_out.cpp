@@ -121,10 +121,8 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     std::vector<std::optional<Fold>> folds(groups.size());
     const Work alone{.threads = 1, .stop = work.stop};  // folds are computed beside each other
     parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            work.check();
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
             folds[i] = leave_out(drawn, groups[i], image, fit, step, alone);
-        }
     });
     const std::optional<PlainErrors> plain = plain_errors(folds, voxel);
     if (!plain) return std::nullopt;
@@ -135,7 +133,6 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     std::vector<Movement> movements(folds.size());
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            work.check();
             if (!folds[i]) continue;
             movements[i] = find_movement(folds[i]->others, folds[i]->function, folds[i]->samples, beliefs, alone);
             errors[i] = errors_with_image(*folds[i], i, beliefs, movements[i], voxel);
@@ -148,10 +145,8 @@ std::optional<LeftOutPlanes> leave_planes_out(const Drawing& drawing, const Imag
     if (left_out.walk_seen() == 0) return left_out;  // no walk would count
     const double moving = left_out.moving();
     parallel_for(static_cast<std::int64_t>(folds.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            work.check();
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
             if (folds[i]) left_out.wrong[i] = walk(*folds[i], movements[i], left_out.cells, beliefs, moving, alone);
-        }
     });
     return left_out;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "kontur/segment.h"
-#include "refine/lobed_body.h"
+#include "refine/drum.h"
 
 namespace kontur {
 namespace {
@@ -39,6 +39,15 @@ TEST(Refine, LeavesTheDrawnContoursWhereTheyAre) {
                 largest = std::max(largest, std::abs(r.refined.fitted.function.value(p) - r.plain.function.value(p)));
         EXPECT_LE(largest, 0.05 * voxel);
         EXPECT_NEAR(largest, r.refined.report.on_contours_mm, 1e-9);
+    }
+}
+
+TEST(Refine, IsNegativeFarFromTheDrawing) {
+    const Image image = image_of(cube_grid(1.5), drum_look, 8);
+    for (const std::vector<double>& heights : {std::vector{-21.0, -10.0, 0.0, 10.0, 21.0}, {-21.5, -7.0, 7.0, 21.5}}) {
+        const Refinement r = refine_drawing(drawn_on(planes_across_z(heights), drum_depth), image);
+        ASSERT_EQ(r.refined.report.verdict, ImageVerdict::used);
+        EXPECT_LT(highest_outside(r.refined.fitted.function, drum_depth), 0) << heights.size() << " planes";
     }
 }
 

@@ -59,7 +59,7 @@ TEST(Refit, IsNearlyWhatOneSolveOfAllIs) {
     const FittedBody body;
     const std::vector<PointConstraint> told = body.told();
     const ImplicitFunction one = solved_at_once(body, told);
-    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(told, {});
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with({told, {}}, {});
     double changed = 0, off = 0;
     for (const Vec3& p : surface_points(one, body.contours)) {
         changed = std::max(changed, std::abs(body.fitted.function.value(p)));
@@ -72,7 +72,7 @@ TEST(Refit, IsNearlyWhatOneSolveOfAllIs) {
 
 TEST(Refit, KeepsTheContours) {
     const FittedBody body;
-    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(body.told(), {});
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with({body.told(), {}}, {});
     double largest = 0;
     for (const Contour& contour : body.contours.contours)
         for (const Vec3& p : contour.points)
@@ -89,13 +89,13 @@ TEST(Refit, FollowsWhatIsToldFarFromTheContours) {
             told.push_back({.position = frame.center + radii * frame.scale * normalized({x, 0.6, 0.9}),
                             .value = (1.5 - radii) * frame.scale,
                             .noise_mm = 0.03 * kSpacing});
-    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(told, {});
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with({told, {}}, {});
     for (const PointConstraint& one : told) EXPECT_NEAR(refit.function.value(one.position), one.value, 0.3 * kSpacing);
 }
 
 TEST(Refit, BetweenTwoFunctionsIsTheirMean) {
     const FittedBody body;
-    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(body.told(), {});
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with({body.told(), {}}, {});
     for (const double share : {0.0, 0.3, 1.0}) {
         const FittedFunction mean = between(body.fitted, refit, share);
         for (const PointConstraint& one : body.told())
@@ -109,7 +109,7 @@ TEST(Refit, ChangesNothingWhereItIsToldWhatIsSo) {
     const FittedBody body;
     std::vector<PointConstraint> told = body.told();
     for (PointConstraint& one : told) one.value = body.fitted.function.value(one.position);
-    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with(told, {});
+    const FittedFunction refit = Refit(body.prepared, body.fitted, body.stages.fit, kSpacing).with({told, {}}, {});
     for (const PointConstraint& one : told)
         EXPECT_NEAR(refit.function.value(one.position), body.fitted.function.value(one.position), 1e-9);
 }

@@ -70,11 +70,14 @@ void HeldOutErrors::add(const HeldOut& point, double weight, ToldByImage& sums) 
     sums.add(limited(point.reachable_mm), point.moved_mm(), weight / (expected * expected));
 }
 
-double HeldOutErrors::weight(const Rise& mended) const {
+double HeldOutErrors::mended() const {
     const double hand = kMeanOfDeviation * hand_mm_;
     const double without = without_hand(without_mm_, hand);
-    if (without == 0 || believed(told_) == 0) return 0;
-    return mended.at(1 - without_hand(with_mm_, hand) / without) * weight_of_planes();
+    return without > 0 ? 1 - without_hand(with_mm_, hand) / without : 0;
+}
+
+double HeldOutErrors::weight(const Rise& enough) const {
+    return believed(told_) > 0 ? enough.at(mended()) * weight_of_planes() : 0;
 }
 
 double HeldOutErrors::seen(double edge_mm) const { return kSeen.at(without_mm_ / edge_mm); }

@@ -57,8 +57,10 @@ public:
     /// How far the image is followed: 0 where the mean error with it is not below that without it by the first of these
     /// shares, or lower in no more planes than chance makes it; 1 where it is by the second, and by a standard error over
     /// the planes. In between it rises steadily, so that nothing flips with small changes of a fit.
-    double weight(const Rise& mended = kHelps) const;
+    double weight(const Rise& enough = kHelps) const;
     static constexpr Rise kHelps{0, 0.05};
+    /// The share of the mean error that the image takes away, without what the hand adds to both.
+    double mended() const;
     /// How far the errors without the image are larger than what an image of voxels (or cells) so long tells: 0 up to a
     /// quarter of one, 1 from half of one on. Contours that hold the surface better than that have nothing to ask.
     double seen(double edge_mm) const;

@@ -16,6 +16,7 @@ constexpr double kSurfaceSpacing = 0.025;  // of the drawing's diameter: where t
 constexpr double kFollow = 0.05;           // noise of a moved point over its posterior standard deviation
 constexpr double kLeastDeviation = 0.2;    // voxels
 constexpr double kBeside = 2.24;           // how much noisier f is before and behind a moved point
+constexpr double kOutsideAlone = 0.8;      // of a place's way to the surface: none of it is nearer
 constexpr double kAnchorNoise = 0.1;       // voxels
 constexpr int kAttempts = 4;               // to keep the surface where the image was asked
 
@@ -38,6 +39,14 @@ std::vector<PointConstraint> observations(const Movement& movement, const Implic
     return observed;
 }
 
+/// How far the nearest point of the surface moves outwards.
+double change_near(const Movement& movement, const Vec3& place) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < movement.points.size(); ++i)
+        if (distance(movement.points[i].position, place) < distance(movement.points[nearest].position, place)) nearest = i;
+    return movement.offsets.mean_mm[nearest];
+}
+
 /// Where moving points would meet a drawn plane: f stays there what the contours make of it.
 std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImage& drawn, const ImplicitFunction& fitted,
                                      const Work& work) {
@@ -57,6 +66,24 @@ std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImag
     for (std::size_t i = 0; i < places.size(); ++i)
         held.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
     return held;
+}
+
+/// Outside of the surface f changes as beneath.
+std::vector<PointConstraint> outside(const Movement& movement, const Affine3& frame, double radius_mm) {
+    std::vector<Vec3> surface;
+    for (const MovingPoint& p : movement.points) surface.push_back(p.position);
+    std::vector<PointConstraint> told;
+    for (const OutsideShell& shell : kOutsideShells) {
+        const double above = shell.radii * radius_mm;
+        std::vector<Vec3> places;
+        for (const MovingPoint& p : movement.points) {
+            const Vec3 place = p.position + above * p.normal;
+            if (nearest_distance(place, surface) > kOutsideAlone * above) places.push_back(place);
+        }
+        for (const Vec3& place : spread(places, shell.places, frame))
+            told.push_back({.position = place, .value = change_near(movement, place), .noise_mm = kOutsideNoise * above});
+    }
+    return told;
 }
 
 std::vector<AskedPoint> asked_points(const Movement& movement) {
@@ -116,8 +143,10 @@ RefinedFunction move_surface(AskedSurface asked, const DrawnOnImage& drawn, cons
     Refit refit(prepared, fitted, options.fit, voxel);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
-        std::vector<PointConstraint> told = observations(movement, fitted.function, voxel, work);
-        told.insert(told.end(), held.begin(), held.end());
+        ImageData told{observations(movement, fitted.function, voxel, work),
+                       outside(movement, frame_of(drawing.contours), drawing.diameter_mm() / 2),
+                       [&](const Vec3& p) { return change_near(movement, p); }};
+        told.values.insert(told.values.end(), held.begin(), held.end());
         FittedFunction moved = refit.with(told, work);
         const std::vector<Vec3> left =
             band.left_from(points_of_surface(moved.function, drawing.contours, spacing, work), work);

@@ -7,6 +7,7 @@
 #include "kontur/refine/displace.h"
 #include "kontur/refine/leave_out.h"
 #include "kontur/refine/move_surface.h"
+#include "kontur/refine/plane_groups.h"
 #include "kontur/refine/refit.h"
 #include "kontur/refine/walk_surface.h"
 
@@ -15,15 +16,17 @@ namespace {
 
 constexpr double kCautiousSlope = 0.12;  // without the gate: prior standard deviation over the distance ...
 constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
+constexpr std::size_t kFewPlanes = 3;    // of which leaving one out tells little
 
 /// What speaks for the image and against it.
 struct Trial {
     std::optional<LeftOutPlanes> left_out;
-    std::optional<HeldOutErrors> displaced;  ///< asked as far as leaving planes out does not show that the image helps
+    std::optional<HeldOutErrors> displaced;  ///< asked where leaving planes out does not show, or hardly, that it helps
     double left_out_weight = 0, displaced_weight = 0;  ///< how far the surface moves by each; together at most 1
+    double not_denied = 1;                             ///< how far displacing lets the other count
 
     double moving() const { return left_out_weight + displaced_weight; }
-    double walking() const { return left_out ? left_out->walking(moving()) : 0; }
+    double walking() const { return left_out ? not_denied * left_out->walking(moving()) : 0; }
     /// By which it was mostly decided whether the surface moves.
     const HeldOutErrors* deciding() const {
         const bool is_displaced = displaced && (!left_out || displaced_weight > left_out_weight);
@@ -66,10 +69,12 @@ struct Question {
     /// From one function to that of a walk, as far as it is followed.
     RefinedFunction towards(RefinedFunction walked, const RefinedFunction& from, double share) const {
         if (share == 1) return walked;
-        RefineReport& report = walked.report;
         walked.fitted = between(from.fitted, walked.fitted, share);
-        report.on_contours_mm = largest_change(fitted.function, walked.fitted.function, drawing.contours, work);
-        report.largest_move_mm = std::lerp(from.report.largest_move_mm, report.largest_move_mm, share);
+        const double largest_mm = std::lerp(from.report.largest_move_mm, walked.report.largest_move_mm, share);
+        const bool is_moved_rather = share < 0.5 && from.report.verdict == ImageVerdict::used;
+        if (is_moved_rather) walked.report = from.report;  // what is told is what counts more
+        walked.report.on_contours_mm = largest_change(fitted.function, walked.fitted.function, drawing.contours, work);
+        walked.report.largest_move_mm = largest_mm;
         return walked;
     }
     RefinedFunction unchanged(ImageVerdict verdict) const { return {fitted, {.verdict = verdict}}; }
@@ -79,9 +84,13 @@ Trial try_image(const Question& asked, const FitContours& fit_contours) {
     Trial trial;
     trial.left_out = leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work);
     if (trial.left_out) trial.left_out_weight = trial.left_out->moving();
-    if (trial.left_out_weight == 1) return trial;
+    const bool are_few = contours_by_plane(asked.drawing.contours).size() <= kFewPlanes;
+    if (trial.left_out_weight == 1 && !are_few) return trial;
     trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
-    if (trial.displaced) trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);
+    if (!trial.displaced) return trial;
+    if (are_few) trial.not_denied = kNotDenied.at(trial.displaced->mended());
+    trial.left_out_weight *= trial.not_denied;
+    trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);
     return trial;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "kontur/fit/constraints.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t kCompared = 500;  // drawn points at which functions are
 constexpr double kBetween = 0.5;        // of the spacing: from one point of the contours to the next
 constexpr double kTolerance = 5e-4;     // of the spacing
+constexpr double kNone = std::numeric_limits<double>::infinity();
 
 double length_mm(const std::vector<BoundaryPoint>& points) {
     double length = 0;
@@ -50,6 +52,12 @@ ImplicitFunction sum(const Scaled& first, const Scaled& second) {
     return {first.function.kernel(), first.function.frame(), PointArrays(centers), std::move(weights), polynomial};
 }
 
+/// How far f changes at a bound that it is held at: never to its other side.
+double change_at(const Bound& bound, double change_mm) {
+    const double least = bound.least_mm > -kNone ? 0 : -kNone, most = bound.most_mm < kNone ? 0 : kNone;
+    return std::clamp(change_mm, least, most);
+}
+
 FittedFunction with_function(FittedFunction fitted, ImplicitFunction function) {
     fitted.function = std::move(function);
     fitted.report.centres = fitted.constraints = fitted.function.weights().size();
@@ -59,7 +67,7 @@ FittedFunction with_function(FittedFunction fitted, ImplicitFunction function) {
 }  // namespace
 
 Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm)
-    : fitted_(fitted), options_(options) {
+    : prepared_(prepared), fitted_(fitted), options_(options) {
     const auto most = static_cast<std::size_t>(std::ceil(length_mm(prepared.points) / (kBetween * spacing_mm)));
     for (const std::size_t i : thin(prepared.points, std::max<std::size_t>(most, 1))) {
         points_.push_back(prepared.points[i]);
@@ -76,19 +84,8 @@ Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, con
     known_ = place_constraints(points_, slopes_, {}, options_.place).constraints.size();
 }
 
-FittedFunction Refit::with(const std::vector<PointConstraint>& more, const Work& work) const {
-    std::vector<PointConstraint> changes = fitted_.held;
-    for (PointConstraint& held : changes) held.value = 0;
-    std::vector<Vec3> places;
-    for (const PointConstraint& one : more) places.push_back(one.position);
-    std::vector<double> before(places.size());
-    // Without f's fall: that of the sum begins beyond these places, which are centres of it.
-    fitted_.function.sums_at(PointArrays(fitted_.function.frame().to_unit(places)), before, work);
-    for (std::size_t i = 0; i < more.size(); ++i) {
-        changes.push_back(more[i]);
-        changes.back().value -= before[i];
-    }
-    PlacedConstraints placed = place_constraints(points_, slopes_, changes, options_.place);
+FittedFunction Refit::with(const ImageData& told, const Work& work) const {
+    PlacedConstraints placed = place_constraints(points_, slopes_, changes(told, work), options_.place);
     std::fill_n(placed.constraints.values.begin(), known_, 0.0);
     const Solution change = solve(placed.constraints, options_.solve, work);
     FittedFunction result = fitted_;
@@ -97,6 +94,27 @@ FittedFunction Refit::with(const std::vector<PointConstraint>& more, const Work&
     result.iterations += change.report.iterations;
     ++result.solves;
     return result;
+}
+
+/// What is known of g besides the contours.
+std::vector<PointConstraint> Refit::changes(const ImageData& told, const Work& work) const {
+    std::vector<PointConstraint> changes = fitted_.held;
+    for (PointConstraint& held : changes) held.value = change_at(bound_at(held.position), told.change_mm(held.position));
+    std::vector<Vec3> places;
+    for (const PointConstraint& one : told.values) places.push_back(one.position);
+    std::vector<double> before(places.size());
+    // Without f's fall: that of the sum begins beyond these places, which are centres of it.
+    fitted_.function.sums_at(PointArrays(fitted_.function.frame().to_unit(places)), before, work);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        changes.push_back(told.values[i]);
+        changes.back().value -= before[i];
+    }
+    changes.insert(changes.end(), told.changes.begin(), told.changes.end());
+    return changes;
+}
+
+const Bound& Refit::bound_at(const Vec3& place) const {
+    return *std::ranges::find(prepared_.bounds, place, &Bound::position);
 }
 
 FittedFunction between(const FittedFunction& first, const FittedFunction& second, double share) {

@@ -1,23 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "kontur/fit/fit.h"
 
 namespace kontur {
 
+/// What an image tells of a function f + g that follows it.
+struct ImageData {
+    std::vector<PointConstraint> values;   ///< of f + g
+    std::vector<PointConstraint> changes;  ///< of g
+    /// How far f changes at any place, as the surface near it is moved, mm.
+    std::function<double(const Vec3&)> change_mm = [](const Vec3&) { return 0.0; };
+};
+
+/// Outside of a surface that is moved, so far from it in radii of the drawing, about so many places tell how far f changes
+/// there: as the surface does beneath, give or take a third of the way to it. By itself f + g would go on as steeply as
+/// it is told beside the surface, and where that moves inwards become positive again.
+struct OutsideShell {
+    double radii;
+    std::size_t places;
+};
+inline constexpr OutsideShell kOutsideShells[] = {{0.25, 120}, {0.5, 60}, {1, 30}};
+inline constexpr double kOutsideNoise = 0.3;  ///< of the distance from the surface
+
 /// Adds what the image says to a fit f: f + g, where g is the smoothest function of the same kernel that is 0 in all that
 /// the fit knew and elsewhere what f is off the image's data. That is the minimum of fit and image together, but that g
-/// knows the contours by points as far apart as the image tells details; f knows all.
+/// knows the contours by points as far apart as the image tells details; f knows all. A bound that f is held at goes with
+/// the surface where that is moved away from it.
 class Refit {
 public:
-    /// Keeps references to `fitted`.
+    /// Keeps references to `prepared`, and to `fitted`, a fit to it.
     Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm);
 
-    FittedFunction with(const std::vector<PointConstraint>& more, const Work& work) const;
+    FittedFunction with(const ImageData& told, const Work& work) const;
 
 private:
+    std::vector<PointConstraint> changes(const ImageData& told, const Work& work) const;
+    const Bound& bound_at(const Vec3& place) const;
+
+    const PreparedContours& prepared_;
     const FittedFunction& fitted_;
     FitOptions options_;
     std::vector<BoundaryPoint> points_;  ///< of the contours, and their slopes

@@ -16,12 +16,24 @@ constexpr double kLeastCrossing = 0.1;                // steps: no surface is to
 constexpr double kGone = 1.5;                         // cells: so far from the walk's surface there is none
 constexpr double kNoiseOfGone = 0.5;                  // of its distance
 constexpr std::size_t kMostGone = 450, kMostHeld = 900;
+constexpr double kStepsToShell = 1.5;                     // of the lattice whose places tell of what lies outside
 constexpr double kHeldNoise = 0.2, kMostHeldValue = 1.5;  // cells
+
+std::vector<std::uint8_t> insides(const VoxelWalk& walk) {
+    std::vector<std::uint8_t> inside(walk.inside.size());
+    for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = walk.is_inside(n);
+    return inside;
+}
 
 class Data {
 public:
     Data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone, const WalkedDataOptions& options)
-        : walk_(walk), cells_(cells), alone_(alone), options_(options), asked_(walk.inside.size()) {
+        : walk_(walk),
+          cells_(cells),
+          alone_(alone),
+          walked_(depths_of(insides(walk), cells)),
+          options_(options),
+          asked_(walk.inside.size()) {
         for (const std::uint32_t cell : walk.asked) asked_[cell] = 1;
     }
 
@@ -38,12 +50,11 @@ public:
     }
 
     std::vector<PointConstraint> gone(const Affine3& frame) const {
-        const std::vector<float> depth = depths_below(walk_, cells_);
         std::vector<PointConstraint> told;
         for (const std::uint32_t cell : walk_.asked) {
-            const double steps = static_cast<double>(depth[cell]) / cells_.edge_mm();
-            if (alone_.is_inside(cell) != walk_.is_inside(cell) && is_longer(std::abs(depth[cell]), kGone, cells_) &&
-                is_off_contours(cell))
+            const double steps = static_cast<double>(walked_.depth_mm[cell]) / cells_.edge_mm();
+            if (alone_.is_inside(cell) != walk_.is_inside(cell) &&
+                is_longer(std::abs(walked_.depth_mm[cell]), kGone, cells_) && is_off_contours(cell))
                 told.push_back(datum(cell, steps, kNoiseOfGone * std::abs(steps)));
         }
         return some(told, kMostGone, frame);
@@ -66,7 +77,54 @@ public:
         return told;
     }
 
+    /// Of each shell the places of a lattice that fall into it, which goes on beyond the cells.
+    std::vector<PointConstraint> outside(const Affine3& frame, double radius_mm) const {
+        std::vector<PointConstraint> told;
+        for (const OutsideShell& shell : kOutsideShells) {
+            const double above = shell.radii * radius_mm, step = above / kStepsToShell;
+            const std::vector<PointConstraint> all = between_depths(above, above + step, step);
+            const std::vector<PointConstraint> kept = some(all, shell.places, frame);
+            told.insert(told.end(), kept.begin(), kept.end());
+        }
+        return told;
+    }
+
+    /// How far the surface moves outwards near a place; 0 where no cell is below one of the two.
+    double change_mm(const Vec3& p) const {
+        const double change = depth_at(p, walked_.depth_mm, walked_.nearest) - depth_at(p, alone_.depth_mm, alone_.nearest);
+        return std::isfinite(change) ? change : 0;
+    }
+
 private:
+    /// Below a surface; beyond the cells by the way from that of its cells which is nearest to the nearest of all cells.
+    double depth_at(const Vec3& p, const std::vector<float>& depth_mm, const std::vector<std::uint32_t>& nearest) const {
+        const Index3 at = nearest_index(to_index_.apply(p));
+        Index3 cell = at;
+        for (int axis = 0; axis < 3; ++axis) cell[axis] = std::clamp<std::int64_t>(at[axis], 0, cells_.grid.size[axis] - 1);
+        const std::size_t n = cells_.offset(cell);
+        return cells_.holds(at) ? static_cast<double>(depth_mm[n]) : -distance(p, cells_.center(nearest[n]));
+    }
+
+    std::vector<PointConstraint> between_depths(double least_mm, double most_mm, double step_mm) const {
+        const double steps = step_mm / cells_.edge_mm(), beyond = most_mm / step_mm;
+        std::array<std::int64_t, 3> last{};
+        for (int axis = 0; axis < 3; ++axis)
+            last[static_cast<std::size_t>(axis)] =
+                static_cast<std::int64_t>(std::ceil(static_cast<double>(cells_.grid.size[axis]) / steps + beyond));
+        const auto first = -static_cast<std::int64_t>(std::ceil(beyond));
+        std::vector<PointConstraint> places;
+        for (std::int64_t k = first; k <= last[2]; ++k)
+            for (std::int64_t j = first; j <= last[1]; ++j)
+                for (std::int64_t i = first; i <= last[0]; ++i) {
+                    const Vec3 index{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+                    const Vec3 p = cells_.grid.index_to_mm.apply(steps * index);
+                    const double above = -depth_at(p, walked_.depth_mm, walked_.nearest);
+                    if (above < least_mm || above > most_mm || depth_at(p, alone_.depth_mm, alone_.nearest) > 0) continue;
+                    places.push_back({.position = p, .value = change_mm(p), .noise_mm = kOutsideNoise * above});
+                }
+        return places;
+    }
+
     PointConstraint datum(std::size_t cell, double steps, double noise) const {
         const double edge = cells_.edge_mm();
         return {.position = cells_.center(cell), .value = steps * edge, .noise_mm = noise * edge};
@@ -126,26 +184,27 @@ private:
     const VoxelWalk& walk_;
     const ImageCells& cells_;
     const CellDepths& alone_;
+    Depths walked_;  ///< below the walk's surface
+    Affine3 to_index_ = cells_.grid.index_to_mm.inverse();
     const WalkedDataOptions& options_;
     std::vector<std::uint8_t> asked_;
 };
 
 }  // namespace
 
-std::vector<PointConstraint> walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone,
-                                         const ImplicitFunction& before, const Affine3& frame,
-                                         const WalkedDataOptions& options, const Work& work) {
+ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone,
+                      const ImplicitFunction& before, const Affine3& frame, double radius_mm,
+                      const WalkedDataOptions& options, const Work& work) {
     const Data data(walk, cells, alone, options);
-    std::vector<PointConstraint> told = data.beside_surface(frame);
+    ImageData told{data.beside_surface(frame), data.outside(frame, radius_mm)};
     for (const std::vector<PointConstraint>& more : {data.gone(frame), data.held(before, frame, work)})
-        told.insert(told.end(), more.begin(), more.end());
+        told.values.insert(told.values.end(), more.begin(), more.end());
+    told.change_mm = [data](const Vec3& p) { return data.change_mm(p); };
     return told;
 }
 
 std::vector<float> depths_below(const VoxelWalk& walk, const ImageCells& cells) {
-    std::vector<std::uint8_t> inside(walk.inside.size());
-    for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = walk.is_inside(n);
-    return depths_of(inside, cells).depth_mm;
+    return depths_of(insides(walk), cells).depth_mm;
 }
 
 }  // namespace kontur

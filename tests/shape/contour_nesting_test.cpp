@@ -13,10 +13,7 @@ namespace {
 
 const Plane kPlane = make_plane({3, -40, 200}, {0.3, -0.5, 0.8});
 
-Contour circle(double radius, double u, double v, Plane plane = kPlane) {
-    plane.origin = plane.from_uv(u, v);
-    return test::circle(plane, radius, 40);
-}
+Contour circle(double radius, double u, double v) { return test::circle(kPlane, radius, u, v); }
 
 std::vector<std::size_t> depths(const std::vector<Contour>& contours) { return find_nesting(contours, 0.01).depth; }
 

@@ -13,10 +13,7 @@ namespace {
 
 const Plane kPlane = make_plane({3, -40, 200}, {0.3, -0.5, 0.8});
 
-Contour circle(double radius, double u, double v, Plane plane = kPlane) {
-    plane.origin = plane.from_uv(u, v);
-    return test::circle(plane, radius, 40);
-}
+Contour circle(double radius, double u, double v) { return test::circle(kPlane, radius, u, v); }
 
 TEST(ApplyFillRule, EveryOtherLayerIsAHoleUnlessDeclaredOtherwise) {
     ContourSet set{"", {circle(4, 1, 0), circle(20, 0, 0), circle(9, 2, 1), circle(3, 60, 0), circle(2, 1, 0)}, {}, {}, {}};

@@ -18,6 +18,12 @@ inline Contour circle(const Plane& plane, double radius_mm, int count) {
     return contour;
 }
 
+/// One of 40 points about the place (u, v) of the plane.
+inline Contour circle(Plane plane, double radius_mm, double u, double v) {
+    plane.origin = plane.from_uv(u, v);
+    return circle(plane, radius_mm, 40);
+}
+
 /// Three circles of 20 points in parallel oblique planes.
 inline ContourSet three_circles() {
     ContourSet set;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kontur/base/counted.h"
+#include "kontur/base/pick.h"
 #include "kontur/drawing/one_line.h"
 #include "kontur/drawing/tidy.h"
 #include "kontur/shape/repeated_contours.h"
@@ -42,12 +43,6 @@ std::vector<std::size_t> numbers_before(const std::vector<Vec3>& first_points, c
         numbers.push_back(n++);
     }
     return numbers;
-}
-
-std::vector<std::size_t> pick(const std::vector<std::size_t>& from, const std::vector<std::size_t>& indices) {
-    std::vector<std::size_t> picked;
-    for (const std::size_t i : indices) picked.push_back(from[i]);
-    return picked;
 }
 
 std::vector<NearLines> numbered(std::vector<NearLines> pairs, const std::vector<std::size_t>& numbers) {

@@ -66,9 +66,8 @@ std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& wo
             std::vector<Probe> inside = probes(section);
             std::vector<Vec3> places = places_of(section, inside);
             const Ball3 ball = smallest_ball(places);
-            GroupedPlaces grouped(places);
-            found[s].emplace(DrawnRegion{
-                section, SectionSearch(section), std::move(inside), std::move(places), std::move(grouped), ball, {}});
+            found[s].emplace(
+                DrawnRegion{section, SectionSearch(section), std::move(inside), GroupedPlaces(std::move(places)), ball, {}});
             for (const Section& other : planes.sections)
                 if (&other != &section) append_crossings(other, *found[s]);
         }

@@ -21,6 +21,9 @@ class GroupedPlaces {
 public:
     explicit GroupedPlaces(std::vector<Vec3> places);
 
+    /// All of them, in no particular order.
+    const std::vector<Vec3>& all() const { return places_; }
+
     /// Calls visit(q) for every place q that is nearer to p than so much, in no particular order.
     template <class Visit>
     void visit_within(const Vec3& p, double reach_mm, const Visit& visit) const {
@@ -51,8 +54,7 @@ struct DrawnRegion {
     const Section& section;
     SectionSearch search;
     std::vector<Probe> inside;  ///< a lattice over the region
-    std::vector<Vec3> places;   ///< the same and some of its lines, mm
-    GroupedPlaces grouped;      ///< the places
+    GroupedPlaces places;       ///< the same and some of its lines, mm
     Ball3 ball;                 ///< around the places
     std::vector<OutsideCrossing> crossings;
 };

@@ -71,7 +71,7 @@ private:
         double nearest = std::numeric_limits<double>::infinity();
         for (const DrawnRegion& region : regions_) {
             const double share = outside_per_mm(normal_, region.section.plane.normal);
-            for (const Vec3& shown : region.places) nearest = std::min(nearest, share * distance(shown, place));
+            for (const Vec3& shown : region.places.all()) nearest = std::min(nearest, share * distance(shown, place));
         }
         for (const Contour& contour : planes_.set.contours)
             if (!contour.closed)

@@ -127,7 +127,7 @@ private:
                 shown_at(ahead, other.search.contains(at) ? 0 : other.search.clearance(at));
                 continue;
             }
-            for (const Vec3& shown : other.places) {
+            for (const Vec3& shown : other.places.all()) {
                 const double ahead = dot(shown - place, up_);
                 if (ahead > 0) shown_at(ahead, norm(shown - place - ahead * up_));
             }

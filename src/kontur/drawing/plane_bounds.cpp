@@ -69,7 +69,7 @@ private:
             const DrawnRegion& other = regions_[index];
             const double share = outside_per_mm(normal_, other.section.plane.normal);
             if (share * apart_mm >= nearest && surely(apart_mm / clear) <= std::min(shown_before, shown_behind)) continue;
-            other.grouped.visit_within(place, clear, [&](const Vec3& shown) {
+            other.places.visit_within(place, clear, [&](const Vec3& shown) {
                 const double apart = distance(shown, place);
                 if (apart == 0) return;
                 nearest = std::min(nearest, share * apart);

@@ -11,8 +11,6 @@
 namespace kontur {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the ball's radius
-
 using Key = std::array<double, 5>;
 
 std::vector<Key> keys_of(const Contour& contour, const Ball3& ball) {
@@ -29,14 +27,18 @@ std::vector<Key> keys_of(const Contour& contour, const Ball3& ball) {
         return sum / static_cast<double>(of.size());
     };
     const Vec3 middle{mean(x), mean(y), mean(z)};
-    const auto rounded = [&](double mm) { return std::round(mm / (kRounding * ball.radius)); };
     std::vector<Key> keys;
     for (const Vec3& p : contour.points)
-        keys.push_back({-rounded(distance(p, ball.center)), -rounded(distance(p, middle)), p.x, p.y, p.z});
+        keys.push_back({-rounded(distance(p, ball.center), ball), -rounded(distance(p, middle), ball), p.x, p.y, p.z});
     return keys;
 }
 
 }  // namespace
+
+double rounded(double mm, const Ball3& ball) {
+    constexpr double kRounding = 1e-9;  // of the ball's radius
+    return std::round(mm / (kRounding * ball.radius));
+}
 
 void begin_alike(Contour& contour, const Ball3& ball) {
     if (!contour.closed || !(ball.radius > 0)) return;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -11,8 +10,6 @@
 
 namespace kontur {
 namespace {
-
-constexpr double kRounding = 1e-9;  // of the ball's radius
 
 Vec3 middle_of(const Contour& contour) {
     Vec3 middle;
@@ -28,11 +25,10 @@ using Key = std::array<double, 5>;
 
 /// Contours that begin alike, by their length.
 Affine3 frame_by_longest(const ContourSet& set, const Ball3& ball) {
-    const auto rounded = [&](double mm) { return std::round(mm / (kRounding * ball.radius)); };
     const auto key = [&](const Contour& contour) {
         const Vec3& first = contour.points.front();
-        return Key{-rounded(line_length(contour.points, contour.closed)), rounded(distance(middle_of(contour), ball.center)),
-                   first.x, first.y, first.z};
+        return Key{-rounded(line_length(contour.points, contour.closed), ball),
+                   rounded(distance(middle_of(contour), ball.center), ball), first.x, first.y, first.z};
     };
     Affine3 frame;
     const auto longest = std::ranges::min_element(set.contours, {}, key);
@@ -68,8 +64,7 @@ ContourSet stored_alike(ContourSet set) {
     std::vector<std::pair<Key, Contour>> contours;
     for (Contour& contour : set.contours) {
         const Vec3 middle = to_frame.apply(middle_of(contour));
-        const auto rounded = [&](double mm) { return std::round(mm / (kRounding * ball.radius)); };
-        const Key key{rounded(middle.z), rounded(middle.y), rounded(middle.x), contour.points.front().x,
+        const Key key{rounded(middle.z, ball), rounded(middle.y, ball), rounded(middle.x, ball), contour.points.front().x,
                       contour.points.front().y};
         contours.emplace_back(key, std::move(contour));
     }

@@ -11,6 +11,7 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/base/pick.h"
 #include "kontur/fit/active_bounds.h"
 #include "kontur/fit/thin.h"
 #include "kontur/fit/tilt_trust.h"
@@ -24,14 +25,6 @@ double slope(const BoundaryPoint& point, const Vec3& gradient, double least_slop
     const double inplane = std::max(dot(outward, point.inplane_normal), least_slope * norm(outward));
     const double tilt = dot(outward, point.plane_normal);
     return inplane > 0 ? inplane / std::hypot(inplane, tilt) : 1.0;
-}
-
-template <class T>
-std::vector<T> pick(const std::vector<T>& from, const std::vector<std::size_t>& indices) {
-    std::vector<T> picked;
-    picked.reserve(indices.size());
-    for (const std::size_t i : indices) picked.push_back(from[i]);
-    return picked;
 }
 
 /// The slopes that the function's gradient shows at the points.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/pick.h"
 #include "kontur/function/evaluation_plan.h"
 #include "kontur/function/far_field.h"
 
@@ -28,13 +29,6 @@ std::unique_ptr<FarField> build(const ImplicitFunction& function, const Evaluati
         field = std::make_unique<FarField>(function, *spacing, std::move(nodes));
     }
     return field;
-}
-
-std::vector<Vec3> pick(std::span<const Vec3> points, const std::vector<std::size_t>& indices) {
-    std::vector<Vec3> picked;
-    picked.reserve(indices.size());
-    for (const std::size_t i : indices) picked.push_back(points[i]);
-    return picked;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "kontur/base/checks.h"
 #include "kontur/base/error.h"
+#include "kontur/base/parallel.h"
 #include "kontur/base/smallest_ball.h"
 
 namespace kontur {
@@ -119,13 +120,16 @@ void ImplicitFunction::finish_values(const PointArrays& points, std::span<double
 }
 
 /// The same for gradients, and goes from the frame's unit to mm.
-void ImplicitFunction::finish_gradients(const PointArrays& points, std::span<Vec3> gradients) const {
+void ImplicitFunction::finish_gradients(const PointArrays& points, std::span<Vec3> gradients, const Work& work) const {
+    constexpr std::int64_t kPointsPerChunk = 64;  // far ones take as long as all centres
     const Data& d = *data_;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec3 at = points[i];
-        const Vec3 gradient = d.is_far(at) ? d.far_gradient(at) : gradients[i] + d.smooth.gradient(at);
-        gradients[i] = (gradient + fall_gradient_at(at)) / d.frame.scale;
-    }
+    parallel_for(std::ssize(gradients), kPointsPerChunk, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            const Vec3 at = points[i];
+            const Vec3 gradient = d.is_far(at) ? d.far_gradient(at) : gradients[i] + d.smooth.gradient(at);
+            gradients[i] = (gradient + fall_gradient_at(at)) / d.frame.scale;
+        }
+    });
 }
 
 void ImplicitFunction::add_fall(const PointArrays& points, std::span<double> sums) const {
@@ -156,7 +160,7 @@ void ImplicitFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3
     const Data& d = *data_;
     const PointArrays points(d.frame.to_unit(points_mm));
     sum_kernel_gradient(d.kernel, d.centers, d.weights, points, out, work);
-    finish_gradients(points, out);
+    finish_gradients(points, out, work);
 }
 
 void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std::span<double> values,
@@ -168,7 +172,7 @@ void ImplicitFunction::values_and_gradients(std::span<const Vec3> points_mm, std
     sum_kernel_and_gradient(d.kernel, d.centers, d.weights, points, values, gradients, work);
     finish_values(points, values, work);
     add_fall(points, values);
-    finish_gradients(points, gradients);
+    finish_gradients(points, gradients, work);
 }
 
 }  // namespace kontur

@@ -69,7 +69,7 @@ public:
 private:
     struct Data;
     void finish_values(const PointArrays& points, std::span<double> values, const Work& work) const;
-    void finish_gradients(const PointArrays& points, std::span<Vec3> gradients) const;
+    void finish_gradients(const PointArrays& points, std::span<Vec3> gradients, const Work& work) const;
 
     std::shared_ptr<const Data> data_;
 };

@@ -2,6 +2,7 @@
 import { coincide, type Plane } from "../geometry/plane";
 import { distance, dot, normalized, sub, type Vec3 } from "../geometry/vec";
 import { Emitter } from "./emitter";
+import { lengthText } from "./lengths";
 
 /** Two points: a distance. Three: the angle at the second one. They lie on the plane. */
 export interface Measurement {
@@ -14,7 +15,7 @@ const MOST_KEPT = 60; // with the project, of whose page state the server keeps 
 export function measured({ points }: Measurement): string {
   const [a, b, c] = points;
   if (!a || !b) return "";
-  if (!c) return `${distance(a, b).toFixed(1)} mm`;
+  if (!c) return lengthText(distance(a, b));
   if (distance(a, b) === 0 || distance(c, b) === 0) return "";
   const cosine = dot(normalized(sub(a, b)), normalized(sub(c, b)));
   return `${((Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180) / Math.PI).toFixed(1)}°`;

@@ -30,6 +30,6 @@ export class ValueAtPointer {
     const { navigation, second, socket, status, session } = this.services;
     const { values } = await socket.call("value", { at, ...(navigation.isAway && { time: navigation.time }) });
     const opened = session();
-    if (opened) status.setCursor(`${placeText(at)}  ·  ${valuesText(values, opened, second.info)}`);
+    if (opened) status.setCursor(`${placeText(at, Math.min(...opened.image.spacing_mm))}  ·  ${valuesText(values, opened, second.info)}`);
   }
 }

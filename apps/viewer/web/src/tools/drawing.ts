@@ -8,6 +8,7 @@ import { Latest } from "../net/latest";
 import type { Contour, PathResult, SketchPoint, StretchKind } from "../net/protocol";
 import { CLICK_PIXELS, type Gesture } from "./gesture";
 import { Outbox, type Desk } from "./outbox";
+import { withoutOvershoot } from "./overshoot";
 import type { EditorServices } from "./services";
 import { isHidden } from "./sight";
 import { Sketch } from "./sketch";
@@ -137,7 +138,7 @@ export class Drawing extends Emitter<"sketch" | "points" | "resumed"> implements
   private endStroke(screen: Screen, hand: readonly Vec3[]): void {
     const structure = this.project.activeStructure?.id ?? 0;
     if (this.endsOpen && !comesAround(screen, hand)) return this.send(Sketch.openFree(planeOf(screen), structure, hand));
-    const drawn = Sketch.closedFree(planeOf(screen), structure, hand);
+    const drawn = Sketch.closedFree(planeOf(screen), structure, withoutOvershoot(screen, hand));
     return this.isSlip(screen, hand) ? this.dropSlip(drawn) : this.send(drawn);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Http } from "../net/http";
 import type { Comparison } from "../net/protocol";
+import { lengthText } from "../model/lengths";
 import { button, el } from "./dom";
 import { piece, render } from "./pieces";
 
@@ -9,7 +10,7 @@ interface Named {
   name: string;
 }
 
-const mm = (value: number | null): string => (value === null ? "not known" : `${value.toFixed(2)} mm`);
+const mm = (value: number | null): string => (value === null ? "not known" : lengthText(value, 2));
 
 /** What is told of two structures, and in which words. */
 export function rowsOf(found: Comparison, [first, second]: readonly [string, string]): [string, string][] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Plane } from "../geometry/plane";
 import { dot } from "../geometry/vec";
+import { coordinateText } from "../model/lengths";
 import type { Navigation } from "../model/navigation";
 import type { ViewName } from "../net/protocol";
 
@@ -19,10 +20,11 @@ export interface ContourPlace {
 export function placeOf({ plane: { normal, origin } }: InPlane, navigation: Navigation): ContourPlace {
   const view = navigation.unturnedViewAlong(normal);
   const slice = view ? String(navigation.unturnedSliceOf(view, origin)) : "";
+  const step_mm = navigation.step(view ?? "axial");
   const axis = [0, 1, 2].find((i) => Math.abs(normal[i]!) > 0.9999);
-  if (axis === undefined) return { view, slice, position: dot(origin, normal).toFixed(1) };
+  if (axis === undefined) return { view, slice, position: coordinateText(dot(origin, normal), step_mm) };
   const letter = (["RL", "AP", "IS"] as const)[axis]![origin[axis]! >= 0 ? 1 : 0]!;
-  return { view, slice, position: `${letter} ${Math.abs(origin[axis]!).toFixed(1)}` };
+  return { view, slice, position: `${letter} ${coordinateText(Math.abs(origin[axis]!), step_mm)}` };
 }
 
 /** "Axial 51", as the list and the view's title have it; "Oblique 12.3" for planes of no view. */

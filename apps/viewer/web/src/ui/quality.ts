@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { coincide } from "../geometry/plane";
 import type { Vec3 } from "../geometry/vec";
+import { lengthText } from "../model/lengths";
 import type { Navigation } from "../model/navigation";
 import type { Maker } from "../net/calls";
 import type { Conflict, Contour, NearLines, Surface } from "../net/protocol";
@@ -77,9 +78,9 @@ function figures(surface: Surface | undefined, contours: Contour[], services: Qu
   else if (surface.image) entries.push(piece("p", { class: "image-sentence", "data-test": "image-sentence" }, asSentence(surface.image.text)));
   const { residual } = surface;
   if (residual) {
-    entries.push(figure("Residual (rms)", `${residual.rms_mm.toFixed(2)} mm`));
+    entries.push(figure("Residual (rms)", lengthText(residual.rms_mm, 2)));
     entries.push(
-      place(`largest residual ${residual.max_mm.toFixed(2)} mm`, "Go to where the surface is farthest from a contour", "residual", () =>
+      place(`largest residual ${lengthText(residual.max_mm, 2)}`, "Go to where the surface is farthest from a contour", "residual", () =>
         services.goTo(residual.at),
       ),
     );
@@ -100,7 +101,7 @@ function troubles({ conflicts = [], warnings = [], sides = [], near_lines = [] }
 function nearLines({ contours: ids, apart_mm, one }: NearLines, contours: Contour[], { navigation, show }: QualityServices): Piece[] {
   const [inner, outer] = ids.map((id) => contours.find((contour) => contour.id === id));
   if (!inner || !outer) return [];
-  const where = `Two lines of ${contourName(inner, navigation)}, ${apart_mm.toFixed(1)} mm apart,`;
+  const where = `Two lines of ${contourName(inner, navigation)}, ${lengthText(apart_mm)} apart,`;
   return one
     ? [place(`${where} count as one drawn twice`, "Show one of them: delete it, or mark it as a hole if the two bound a wall", "near-lines", () => show(inner))]
     : [
@@ -122,7 +123,7 @@ function doubtfulSides(id: number, contours: Contour[], { navigation, show }: Qu
 function conflictEntry(conflict: Conflict, contours: Contour[], { navigation, goTo, call }: QualityServices): Piece {
   const { at, distance_mm } = conflict;
   const [a, b] = conflict.contours.map((id) => contours.find((contour) => contour.id === id));
-  const by = `${distance_mm.toFixed(1)} mm`;
+  const by = lengthText(distance_mm);
   const title = "Go to where two contours contradict each other";
   if (!a || !b) return place(`contours disagree by ${by}`, title, "conflict", () => goTo(at));
   const keep = (kept: Contour, yielding: Contour) => {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Vec3 } from "../geometry/vec";
+import { coordinateText } from "../model/lengths";
 import type { FurtherImage, Session } from "../net/protocol";
 import { shortName } from "./second_image_card";
 
@@ -20,12 +21,12 @@ export function valuesText(
   return `${shortName(identity, "first")} ${own}  ·  ${shortName(second.identity, "second")} ${valueText(other, second.unit)}`;
 }
 
-/** "R 12.0  P 3.4  S 20.1 mm": which way from the frame's origin, and how far. */
-export function placeText(p: Vec3): string {
+/** "R 12.0  P 3.4  S 20.1 mm": which way from the frame's origin, and how far, as finely as voxels of `step_mm` ask for. */
+export function placeText(p: Vec3, step_mm = 1): string {
   const letters = [
     ["R", "L"],
     ["A", "P"],
     ["I", "S"],
   ] as const;
-  return p.map((value, i) => `${letters[i]![value >= 0 ? 1 : 0]} ${Math.abs(value).toFixed(1)}`).join("  ") + " mm";
+  return p.map((value, i) => `${letters[i]![value >= 0 ? 1 : 0]} ${coordinateText(Math.abs(value), step_mm)}`).join("  ") + " mm";
 }

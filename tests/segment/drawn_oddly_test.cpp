@@ -55,16 +55,16 @@ TEST(DrawnOddly, TwiceIsOnce) {
 }
 
 TEST(DrawnOddly, ALineDrawnAgainIsSaidToBeOneOrAWall) {
-    ContourSet middle = ball({-30, 0, 30}), last = middle;
+    ContourSet middle = ball({-30, 0, 30}), last = middle, last_of_two = ball({0, 30});
     middle.contours.push_back(circle_at({0, 0, 0}, kRadius + 0.5));
-    last.contours.push_back(circle_at({0, 0, 30}, 40.5));
-    const Segmentation one = segmented(middle, 3, 40), wall = segmented(last, 3, 40);
-    EXPECT_NEAR(one.report.mask_volume_ml, volume_ml(ball({-30, 0, 30})), 5);
+    for (ContourSet* set : {&last, &last_of_two}) set->contours.push_back(circle_at({0, 0, 30}, 40.5));
+    const Segmentation one = segmented(middle, 3, 40), wall = segmented(last_of_two, 3, 40);
+    for (const ContourSet& set : {middle, last}) EXPECT_NEAR(volume_ml(set), volume_ml(ball({-30, 0, 30})), 5);
     EXPECT_TRUE(warns(one.report, "contours 4 and 2, 0.5 mm apart, were taken for one line that was drawn twice, and the"));
     ASSERT_EQ(one.report.near_lines.size(), 1u);
     EXPECT_TRUE(one.report.near_lines[0].is_one);
     EXPECT_EQ(one.report.contours, 3u);
-    EXPECT_TRUE(warns(wall.report, "contour 3 became a hole, which leaves a wall of 0.5 mm within contour 4; where it is"));
+    EXPECT_TRUE(warns(wall.report, "contour 2 became a hole, which leaves a wall of 0.5 mm within contour 3; where it is"));
     ASSERT_EQ(wall.report.near_lines.size(), 1u);
     EXPECT_FALSE(wall.report.near_lines[0].is_one);
     middle.contours[1].hole = true;

@@ -108,6 +108,35 @@ TEST(NearLines, ThatNothingElseTellsOfLeaveAWallWhichIsNamed) {
     EXPECT_TRUE(read({ring(0, 17), ring(0, 20)}).near.empty()) << "a wall that is not so thin";
 }
 
+/// Rings so high and so wide.
+std::vector<Contour> stack(std::initializer_list<std::pair<double, double>> rings) {
+    std::vector<Contour> contours;
+    for (const auto& [height, radius] : rings) contours.push_back(ring(height, radius));
+    return contours;
+}
+
+TEST(NearLines, AtTheLastPlaneOrInTwoBesideEachOtherAreOneBesideABodyThatIsThickerThanTheWall) {
+    const Read last = read(stack({{-16, 18}, {-8, 19}, {0, 20}, {0, 20.5}}));
+    EXPECT_EQ(last.holes, std::vector<bool>(4, false));
+    EXPECT_TRUE(last.is_one());
+    const Read two = read(stack({{-16, 18}, {-8, 19}, {0, 20}, {0, 20.5}, {8, 20}, {8, 20.4}, {16, 18}}));
+    EXPECT_EQ(two.holes, std::vector<bool>(7, false));
+    EXPECT_TRUE(two.is_one(0) && two.is_one(1));
+    const Read two_last = read(stack({{-16, 18}, {-8, 19}, {0, 20}, {0, 20.5}, {8, 20}, {8, 20.4}}));
+    EXPECT_EQ(two_last.holes, std::vector<bool>(6, false));
+}
+
+TEST(NearLines, BesideABodyNoThickerThanTheWallOrThreeInARowBoundAWall) {
+    const auto holes = [](std::initializer_list<std::pair<double, double>> rings) {
+        return std::ranges::count(read(stack(rings)).holes, true);
+    };
+    EXPECT_EQ(holes({{-9, 18}, {-8, 19}, {0, 20}, {0, 20.5}}), 1);
+    EXPECT_EQ(holes({{-8, 19}, {0, 20}, {0, 20.5}, {8, 20}, {8, 20.5}, {16, 19}}), 2);
+    EXPECT_EQ(holes({{-16, 18}, {-8, 19}, {0, 20}, {0, 20.5}, {8, 20}, {8, 20.5}, {16, 20}, {16, 20.5}, {24, 19}, {32, 18}}),
+              3);
+    EXPECT_EQ(holes({{-16, 18}, {-8, 19}, {0, 20}, {0, 20.5}, {8, 20}, {8, 18}}), 2) << "a cavity beyond";
+}
+
 TEST(NearLines, ADeclaredHoleIsOne) {
     std::vector<Contour> contours = drawn_again(0.5);
     contours[1].hole = true;
@@ -175,6 +204,23 @@ TEST(NearLines, ShellsStayShells) {
                                                    }))
                 << cavity << " in planes " << step << " apart";
         }
+}
+
+/// A cup is cut off where its cavity is wide: nothing shows its wall but the planes from its bottom on.
+TEST(NearLines, CupsStayCups) {
+    for (const double cavity : {16.0, 18.0, 19.0, 19.5})
+        for (const double end : {-12.0, -5.0, 0.0})
+            for (double step = 0.4; step < 20; step *= 1.2) {
+                std::vector<Contour> contours;
+                for (double z = end; z > -20; z -= step)
+                    for (const double r : {20.0, cavity})
+                        if (r > std::abs(z)) contours.push_back(ring(z, std::sqrt(r * r - z * z)));
+                const auto walls = std::ranges::count_if(contours, [&](const Contour& contour) {
+                    return norm(contour.points.front() - kPlane.origin) < (cavity + 20) / 2;
+                });
+                EXPECT_EQ(std::ranges::count(read(contours).holes, true), walls)
+                    << cavity << " to " << end << " in planes " << step << " apart";
+            }
 }
 
 TEST(NearLines, WhereAllLinesAreDeclaredAreOneAndNotLeftOut) {

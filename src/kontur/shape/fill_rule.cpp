@@ -99,14 +99,26 @@ private:
     bool unite_those_that_others_see_through() {
         if (std::ranges::all_of(pairs_, [](const NearLines& pair) { return pair.is_one; })) return false;
         const std::vector<Section> sections = sections_of(set_, tolerance_mm_);
-        return unite([&](const NearLines& pair) {
-            if (!pair.are_nested || declared_[pair.contour]) return false;
+        const auto section_with = [&](std::size_t contour) {
             const auto own = std::ranges::find_if(sections, [&](const Section& section) {
-                return std::ranges::find(section.contours, pair.contour) != section.contours.end();
+                return std::ranges::find(section.contours, contour) != section.contours.end();
             });
+            return static_cast<std::size_t>(own - sections.begin());
+        };
+        const auto is_open = [&](const NearLines& pair) { return pair.are_nested && !declared_[pair.contour]; };
+        const bool any = unite([&](const NearLines& pair) {
             const Contour& inner = set_.contours[pair.contour];
-            return seen_inside(inner, sections, static_cast<std::size_t>(own - sections.begin())) ==
-                   (inner.hole ? Seen::object : Seen::no_object);
+            return is_open(pair) &&
+                   seen_inside(inner, sections, section_with(pair.contour)) == (inner.hole ? Seen::object : Seen::no_object);
+        });
+        if (any) return true;
+        std::vector<bool> doubtful(sections.size(), false);
+        for (const NearLines& pair : pairs_)
+            if (is_open(pair) && !pair.is_one && pair.share < kThin) doubtful[section_with(pair.contour)] = true;
+        return unite([&](const NearLines& pair) {
+            const Contour& inner = set_.contours[pair.contour];
+            return is_open(pair) && inner.hole && pair.share < kThin &&
+                   seen_beyond(inner, sections, section_with(pair.contour), doubtful, pair.apart_mm) == Seen::object;
         });
     }
 

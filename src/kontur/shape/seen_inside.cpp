@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace kontur {
 namespace {
@@ -74,6 +75,34 @@ const Section* next_parallel(const Section& outline, const std::vector<Section>&
     return next;
 }
 
+/// On one side of an outline's plane: what the next plane shows, or the one behind it if that is doubtful, and over which
+/// depth those behind it go on to show it.
+struct Beyond {
+    bool is_over_a_doubt = false;
+    Seen shown = Seen::nothing;
+    double depth_mm = 0;
+};
+
+Beyond look_beyond(const Section& outline, const std::vector<Section>& sections, std::size_t own,
+                   const std::vector<bool>& doubtful, double sign) {
+    std::vector<std::pair<double, std::size_t>> ahead;
+    for (std::size_t s = 0; s < sections.size(); ++s)
+        if (s != own && are_parallel(outline.plane, sections[s].plane))
+            if (const double mm = sign * outline.plane.distance_to(sections[s].plane.origin); mm > 0)
+                ahead.emplace_back(mm, s);
+    std::ranges::sort(ahead);
+    Beyond beyond;
+    beyond.is_over_a_doubt = !ahead.empty() && doubtful[ahead.front().second];
+    if (beyond.is_over_a_doubt) ahead.erase(ahead.begin());
+    for (const auto& [mm, s] : ahead) {
+        const Seen seen = doubtful[s] ? Seen::no_object : look_across(outline, sections[s]).seen();  // it may be one
+        if (s == ahead.front().second) beyond.shown = seen;
+        if (seen != beyond.shown) break;
+        beyond.depth_mm = mm - ahead.front().first;
+    }
+    return beyond;
+}
+
 }  // namespace
 
 Seen seen_inside(const Contour& contour, const std::vector<Section>& sections, std::size_t own) {
@@ -86,6 +115,20 @@ Seen seen_inside(const Contour& contour, const std::vector<Section>& sections, s
     if (!before || !behind) return Seen::nothing;
     const Seen one = look_across(outline, *before).seen();
     return one == look_across(outline, *behind).seen() ? one : Seen::nothing;
+}
+
+Seen seen_beyond(const Contour& contour, const std::vector<Section>& sections, std::size_t own,
+                 const std::vector<bool>& doubtful, double wall_mm) {
+    constexpr double kWalls = 3;
+    const Section outline = section_of(contour, sections[own].plane);
+    const Beyond before = look_beyond(outline, sections, own, doubtful, -1),
+                 behind = look_beyond(outline, sections, own, doubtful, 1);
+    if (before.shown == Seen::no_object || behind.shown == Seen::no_object) return Seen::nothing;
+    if (before.is_over_a_doubt && behind.is_over_a_doubt) return Seen::nothing;
+    const auto is_solid = [&](const Beyond& side) {
+        return side.shown == Seen::object && side.depth_mm >= kWalls * wall_mm;
+    };
+    return is_solid(before) || is_solid(behind) ? Seen::object : Seen::nothing;
 }
 
 }  // namespace kontur

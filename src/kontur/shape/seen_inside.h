@@ -21,4 +21,11 @@ enum class Seen {
 /// `sections` are those of the set, of which number `own` holds the contour.
 Seen seen_inside(const Contour& contour, const std::vector<Section>& sections, std::size_t own);
 
+/// The same of a line that leaves so thin a wall within another one, where `seen_inside` tells nothing: at the last plane,
+/// or where the next one on one of the sides is `doubtful`, too, and is passed over. A wall is about as thick at its end as
+/// at its sides, so there is none beside planes that show object over a depth of three walls, where neither side shows a
+/// cavity. Says object then, else nothing.
+Seen seen_beyond(const Contour& contour, const std::vector<Section>& sections, std::size_t own,
+                 const std::vector<bool>& doubtful, double wall_mm);
+
 }  // namespace kontur

@@ -9,6 +9,7 @@
 #include "kontur/measure/components.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"
+#include "support/expect_error.h"
 #include "support/polygons.h"
 #include "support/solids.h"
 
@@ -182,6 +183,20 @@ TEST(Kinds, ContradictoryClicksAreReported) {
     const Segmentation result = segment(drawn, grid_over(body, 2));
     EXPECT_TRUE(warns(result.report, "interior point 1 contradicts contour 2: it lies 8 mm on its outside"));
     EXPECT_GT(dice(result, body), 0.95) << "the drawn contours keep the surface";
+}
+
+/// Centres so far from each other are beyond what the kernel's polynomials hold for.
+TEST(Kinds, AClickFarFromTheDrawingLeavesItAsItIs) {
+    const Body body = test::ellipsoid({}, {28, 20, 16});
+    ContourSet drawn = draw_sections(body, planes(-10, 10, 10), 400);
+    const Grid grid = grid_over(body, 2);
+    const double alone = dice(segment(drawn, grid), body);
+    for (const double away_mm : {60.0, 90.0, 150.0, 300.0, 700.0, 3000.0}) {
+        drawn.interior = {{0.8 * away_mm, 0, 0.6 * away_mm}};
+        EXPECT_NEAR(dice(segment(drawn, grid), body), alone, 0.01) << away_mm;
+    }
+    drawn.interior = {{9000, 0, 0}, {-9000, 0, 0}};
+    EXPECT_KONTUR_ERROR(segment(drawn, grid), ErrorKind::invalid_input, "interior point 1 lies 9e+03 mm from the contours");
 }
 
 TEST(Kinds, EndsHereIsFlatOrRoundInsteadOfGoingOn) {

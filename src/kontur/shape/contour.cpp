@@ -13,10 +13,17 @@
 namespace kontur {
 namespace {
 
+// In mm from the origin: what lies farther away is no drawing, and its cube may have no double.
+constexpr double kFarthestCoordinate = 1e9;
+
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::invalid_input, message); }
 
 void check_finite(const Vec3& point, std::size_t number, const std::string& owner) {
     if (!is_finite(point)) refuse(fmt::format("point {} of {} has a NaN or infinite coordinate", number, owner));
+    for (const double coordinate : {point.x, point.y, point.z})
+        if (std::abs(coordinate) > kFarthestCoordinate)
+            refuse(fmt::format("point {} of {} has the coordinate {:g} mm; the limit is {:g} mm", number, owner, coordinate,
+                               kFarthestCoordinate));
 }
 
 void check_all_finite(const std::vector<Vec3>& points, const std::string& owner) {
@@ -96,13 +103,18 @@ void check_encloses(const std::vector<Contour>& contours) {
         refuse(fmt::format("all contours are holes ({}); at least 1 must be none", contours.size()));
 }
 
-void check_surface_point(const SurfacePoint& point, std::size_t number, const Box3& contours) {
-    check_finite(point.position, number, "the surface points");
-    const double away = distance(point.position, contours.center()), size = contours.diagonal();
+/// A surface point farther away would make lengths that follow from the extent larger than the contours themselves, an
+/// interior one the unit of length.
+void check_near(const Vec3& point, std::string_view kind, std::size_t number, const Box3& contours) {
+    check_finite(point, number, fmt::format("the {} points", kind));
+    const double away = distance(point, contours.center()), size = contours.diagonal();
     if (away > kFarthestSurfacePoint * size)
-        refuse(fmt::format(
-            "surface point {} lies {:.3g} mm from the contours, {:.3g} times their size; the limit is {:g} times", number,
-            away, away / size, kFarthestSurfacePoint));
+        refuse(fmt::format("{} point {} lies {:.3g} mm from the contours, {:.3g} times their size; the limit is {:g} times",
+                           kind, number, away, away / size, kFarthestSurfacePoint));
+}
+
+void check_surface_point(const SurfacePoint& point, std::size_t number, const Box3& contours) {
+    check_near(point.position, "surface", number, contours);
     if (point.outward && !is_unit(*point.outward))
         refuse(
             fmt::format("the outward direction of surface point {} has length {:g}, not 1", number, norm(*point.outward)));
@@ -259,11 +271,12 @@ std::vector<std::string> set_problems(const ContourSet& set) {
         if (const auto problem = refusal(check)) problems.push_back(*problem);
     };
     collect([&] { check_encloses(set.contours); });
-    collect([&] { check_all_finite(set.interior, "the interior points"); });
-    collect([&] { check_all_finite(set.exterior, "the exterior points"); });
     Box3 box;
     for (const Contour& contour : set.contours)
         for (const Vec3& p : contour.points) box.extend(p);
+    for (std::size_t i = 0; i < set.interior.size(); ++i)
+        collect([&] { check_near(set.interior[i], "interior", i + 1, box); });
+    collect([&] { check_all_finite(set.exterior, "the exterior points"); });
     for (std::size_t i = 0; i < set.surface.size(); ++i) collect([&] { check_surface_point(set.surface[i], i + 1, box); });
     for (std::size_t i = 0; i < set.empty_planes.size(); ++i)
         collect([&] { check_plane(set.empty_planes[i], fmt::format("empty plane {}", i + 1)); });

@@ -86,13 +86,20 @@ Coefficients run(const LinearSystem& system, const SolveOptions& options, const 
     return c;
 }
 
-std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double radius_mm) {
-    std::vector<double> smoothing(constraints.size(), options.smoothing);
+/// Of the ball, or of all constraints.
+double drawn_radius_mm(const SolveOptions& options, double unit_mm) {
+    return options.ball && options.ball->radius > 0 ? options.ball->radius : unit_mm;
+}
+
+std::vector<double> smoothing_of(const ConstraintSet& constraints, const SolveOptions& options, double unit_mm) {
     // On the unit coordinates of a part of the extent e, the kernel is 1 / e^3 times as large, and noise / e as large.
-    for (std::size_t i = 0; i < constraints.extents.size(); ++i) smoothing[i] *= std::pow(constraints.extents[i], 3);
+    std::vector<double> extents = constraints.extents;
+    extents.resize(constraints.size(), 1.0);
+    for (double& extent : extents) extent *= drawn_radius_mm(options, unit_mm) / unit_mm;
+    std::vector<double> smoothing;
+    for (const double extent : extents) smoothing.push_back(options.smoothing * std::pow(extent, 3));
     for (std::size_t i = 0; i < constraints.noise_mm.size(); ++i)
-        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / radius_mm) *
-                        (constraints.extents.empty() ? 1.0 : constraints.extents[i]);
+        smoothing[i] += smoothing_of_noise(constraints.noise_mm[i] / unit_mm) * extents[i];
     for (std::size_t i = 0; i < constraints.trust.size(); ++i) {
         smoothing[i] /= constraints.trust[i];
         if (!std::isfinite(smoothing[i]))
@@ -108,9 +115,15 @@ double kernel_scale(Kernel kernel, const UnitFrame& frame) {
     return kernel == Kernel::biharmonic ? frame.scale : frame.scale * frame.scale * frame.scale;
 }
 
+/// The ball's; with the screened kernel so wide that all centres are within reach of each other, clicks far from what was
+/// drawn among them.
 UnitFrame frame_of(const ConstraintSet& constraints, const SolveOptions& options) {
     if (!options.ball) return unit_frame(constraints.centers);
-    return {options.ball->center, options.ball->radius > 0 ? options.ball->radius : 1.0};
+    UnitFrame frame{options.ball->center, options.ball->radius > 0 ? options.ball->radius : 1.0};
+    if (options.kernel == Kernel::screened)
+        for (const Vec3& p : constraints.centers)
+            frame.scale = std::max(frame.scale, distance(p, frame.center) / (kScreenedReach / 2));
+    return frame;
 }
 
 /// The weights of those centres that the previous solve had too; the others' are 0.
@@ -192,7 +205,7 @@ Solution solve(const ConstraintSet& constraints, const SolveOptions& requested, 
 
     const bool screened = options.kernel == Kernel::screened;
     const UnitFrame frame = frame_of(constraints, options);
-    const double mean = screened ? options.mean_radii * frame.scale : 0;
+    const double mean = screened ? options.mean_radii * drawn_radius_mm(options, frame.scale) : 0;
     LinearSystem system{options.kernel, smoothing_of(constraints, options, frame.scale),
                         PointArrays(frame.to_unit(constraints.centers)), constraints.values};
     for (double& value : system.values) value -= mean;

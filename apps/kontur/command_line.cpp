@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "slicer.h"
+#include "usage_sentence.h"
 
 namespace kontur::app {
 namespace {
@@ -269,9 +270,9 @@ void add_batch(CLI::App& app, Invocation& invocation) {
                               "kontur batch cases.csv --jobs 4 --summary summary.json");
     BatchCommand& c = *bind.command;
     bind.word("TABLE", c.table, "CSV with the columns contours, image, output and any option of segment");
-    bind.defaulted("--jobs", c.jobs, "N", "Cases at a time")->check(CLI::Range(1, 4096));
+    bind.defaulted("--jobs", c.jobs, "N", "Cases at a time")->check(between(1, 4096));
     CLI::Option* row = bind.option("--row", c.row, "N", "Only this row, from 1: for job arrays of a cluster");
-    row->check(CLI::PositiveNumber);
+    row->check(between(1, std::numeric_limits<int>::max()));
     CLI::Option* collect = bind.flag("--collect", c.collect, "Make nothing, only sum up what was done before");
     CLI::Option* count = bind.flag("--count", c.count, "Make nothing, only print the number of rows");
     add_threads(*bind.sub, c.threads, "Threads of a case that names none; 0: the machine's, shared by the jobs");
@@ -372,9 +373,9 @@ void add_suggest(CLI::App& app, Invocation& invocation) {
     bind.word("CONTOURS", c.contours,
               "Contours of one object: .json, .mrk.json, .vtk, .vtp or RTSTRUCT; several files are merged");
     CLI::Option* image = bind.option("--image", c.image.path, "FILE", "Image or DICOM folder that was drawn on");
-    bind.defaulted("--planes", c.planes, "N", "How many")->check(CLI::Range(1, kMostPlanes));
+    bind.defaulted("--planes", c.planes, "N", "How many")->check(between(1, kMostPlanes));
     bind.defaulted("--skip", c.skip, "N", "Pass over the N best ones, and what runs along them")
-        ->check(CLI::Range(0, kMostPlanes));
+        ->check(between(0, kMostPlanes));
     bind.option("--empty-planes", c.empty_planes, "FILE",
                 "Planes that show nothing of the object, as --output writes them; besides those of CONTOURS: .json");
     add_choice<PlaneChoice>(*bind.sub, "--among", c.among,
@@ -550,7 +551,7 @@ Invocation parse_command_line(int argc, const char* const* argv) {
         invocation.text = std::string(version.what()) + "\n";
         return invocation;
     } catch (const CLI::ParseError& error) {
-        invocation.text = error.what();
+        invocation.text = usage_sentence(error.what());
         invocation.exit_code = kUsageExitCode;
         invocation.command = nullptr;
         return invocation;

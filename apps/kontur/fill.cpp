@@ -86,7 +86,8 @@ std::string slices_of(const FilledLabel& one) {
     std::string text;
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (one.slices[axis] > 0)
-            text += fmt::format("{}{} across {}", text.empty() ? "" : ", ", one.slices[axis], "ijk"[axis]);
+            text +=
+                fmt::format("{}{} across {}", text.empty() ? "" : " and ", counted(one.slices[axis], "slice"), "ijk"[axis]);
     return text;
 }
 
@@ -179,7 +180,7 @@ void run(const FillCommand& command, Console& console) {
     for (std::size_t n = 0; n < labels.size(); ++n) {
         const FilledLabel& one = labels[n];
         for (const std::string& warning : one.warnings) console.warn(fmt::format("{}: {}", title(filled, n), warning));
-        text += fmt::format("{}: {} slices painted; {} painted, {} added\n", title(filled, n), slices_of(one),
+        text += fmt::format("{}: painted on {}; {} painted, {} added\n", title(filled, n), slices_of(one),
                             counted(one.painted_voxels, "voxel"), one.added_voxels);
         if (one.image.verdict != ImageVerdict::none) text += fmt::format("{}: {}\n", title(filled, n), sentence(one.image));
     }

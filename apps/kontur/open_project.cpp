@@ -10,16 +10,11 @@
 #include <optional>
 #include <utility>
 
-#include "dicom_output.h"
 #include "drawn_images.h"
 #include "kontur/base/error.h"
 #include "kontur/io/dicom_drawings.h"
-#include "kontur/io/dicom_seg.h"
-#include "kontur/io/dicom_suv.h"
-#include "kontur/io/frame_needed.h"
 #include "kontur/io/image.h"
 #include "kontur/shape/repeated_contours.h"
-#include "viewer/image_identity.h"
 #include "viewer/import_doubts.h"
 #include "viewer/imports.h"
 #include "viewer/same_space.h"
@@ -30,125 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPhantomScan = "abdomen";
-
-Image phantom_image(const Work& work) {
-    const std::vector<PhantomVolume> scans = phantom_volumes();
-    const auto scan =
-        std::find_if(scans.begin(), scans.end(), [](const PhantomVolume& v) { return v.name == kPhantomScan; });
-    return make_phantom_image(scan->grid, {}, work);
-}
-
-/// Whose image it is, and what files that are made of it refer to.
-void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
-    opened.frame_of_reference_uid = frame_of_reference_of(input);
-    if (!looks_like_dicom(input.path) || is_dicom_seg(input.path)) return;
-    opened.series = read_dicom_grid(input.path, input.options.dicom).series;
-    opened.identity = dicom_identity(opened.series->files.front());
-    const auto& [patient, description] = std::pair(opened.identity.patient_name, opened.identity.series_description);
-    if (!description.empty()) opened.title = description;
-    if (!patient.empty()) opened.title = patient + ", " + opened.title;
-}
-
-bool is_example(const fs::path& path) {
-    std::error_code ignored;
-    return path == viewer::kExample && !fs::exists(path, ignored);
-}
-
 ImageInput input_of(const fs::path& path, const viewer::ImageChoice& choice) {
     ImageInput input{path, {}};
     choose(input.options, choice);
     return input;
-}
-
-void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& opened, Opened& result) {
-    ReadImageOptions options = input.options;
-    std::vector<std::string> warnings;
-    options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
-    options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
-    opened.image = std::make_shared<const Image>(read_image(input.path, options, work));
-    result.notes.insert(result.notes.end(), opened.notes.begin(), opened.notes.end());
-    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
-    opened.notes.insert(opened.notes.end(), warnings.begin(), warnings.end());
-    opened.title = fs::absolute(input.path).lexically_normal().filename().string();
-    opened.reference.path = fs::absolute(input.path).lexically_normal().string();
-    opened.reference.choice = choice_of(input.options);
-    tell_series(input, opened);
-}
-
-Image times(const Image& image, double factor) {
-    std::vector<float> values;
-    std::visit(
-        [&](const auto& samples) {
-            values.reserve(samples.size());
-            for (const auto sample : samples) values.push_back(static_cast<float>(factor * static_cast<double>(sample)));
-        },
-        image.samples);
-    return {image.grid, std::move(values)};
-}
-
-/// PET in Bq/ml is shown as SUV, where its files tell how.
-void turn_into_suv(viewer::OpenedImage& opened, Opened& result) {
-    const auto scale = opened.series ? suv_scale(opened.series->files.front()) : std::nullopt;
-    if (!scale) return;
-    opened.notes.push_back(scale->told);
-    result.notes.push_back(scale->told);
-    if (scale->suv_per_bqml == 0) return;
-    opened.image = std::make_shared<const Image>(times(*opened.image, scale->suv_per_bqml));
-    opened.identity.unit = kSuvUnit;
-}
-
-/// How many volumes there are, of which one was chosen: frames of a file, or volumes of a DICOM series.
-int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
-    if (opened.series && input.options.dicom.volume) {
-        const auto all = list_dicom_series(input.path);
-        return static_cast<int>(std::count_if(
-            all.begin(), all.end(), [&](const DicomSeries& one) { return one.series_uid == opened.series->series_uid; }));
-    }
-    if (!input.options.frame) return 1;
-    ReadImageOptions options = input.options;
-    options.frame.reset();
-    options.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
-    try {
-        read_image(input.path, options);
-    } catch (const FrameNeeded& error) {
-        return static_cast<int>(error.frames());
-    } catch (const Error&) {
-    }
-    return 1;
-}
-
-/// The other volumes are read when somebody looks at them.
-viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opened) {
-    const bool is_series = opened.series && input.options.dicom.volume;
-    const auto own = is_series ? *input.options.dicom.volume - 1 : input.options.frame.value_or(0);
-    const auto read = [input, is_series](int time) {
-        ImageInput other = input;
-        if (is_series) other.options.dicom.volume = time + 1;
-        else other.options.frame = time;
-        Opened told;  // what there is to say was said of the one that was opened
-        viewer::OpenedImage image;
-        open_file(other, {}, image, told);
-        turn_into_suv(image, told);
-        return image.image;
-    };
-    return {count_times(input, opened), static_cast<int>(own), read};
-}
-
-viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Opened& result) {
-    viewer::OpenedImage opened;
-    if (is_example(input.path)) {
-        opened.image = std::make_shared<const Image>(phantom_image(work));
-        opened.title = "Phantom: upper abdomen";
-        opened.reference.path = viewer::kExample;
-    } else {
-        open_file(input, work, opened, result);
-        opened.times = times_of(input, opened);
-    }
-    work.report("look at values", 1);
-    opened.reference.fingerprint = viewer::fingerprint(*opened.image);
-    turn_into_suv(opened, result);  // by its file's values it is known again
-    return opened;
 }
 
 /// Where the user's programs keep what he did not place himself (the XDG base directory specification).
@@ -199,10 +79,14 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
         first = drawn_by_others(words.contours, work);
     } else {
         ReadContours read = read_contours(words.contours, command.read);
-        for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
+        try {
+            for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
+        } catch (const Error& error) {
+            throw error.with_context(words.contours.string());
+        }
         first = {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
     }
-    result.notes.insert(result.notes.end(), first.notes.begin(), first.notes.end());
+    result.told.notes.insert(result.told.notes.end(), first.notes.begin(), first.notes.end());
     for (ContourSet& set : first.sets)
         if (set.name.empty()) set.name = bare_name(words.contours);
     return first;
@@ -212,7 +96,7 @@ viewer::Imported first_contours(const OpenCommand& command, const Words& words, 
 void tell_doubts(const viewer::Imported& first, const std::string& file, viewer::OpenedImage& image, Opened& result) {
     for (const std::string& doubt :
          viewer::import_doubts(first.sets, first.frame_of_reference_uid, image.image->grid, image.frame_of_reference_uid)) {
-        result.warnings.push_back(fmt::format("does {} belong to this image? {}", file, doubt));
+        result.told.warnings.push_back(fmt::format("does {} belong to this image? {}", file, doubt));
         image.notes.push_back(fmt::format("Does {} belong to this image? {}", file, doubt));
     }
 }
@@ -245,9 +129,9 @@ std::optional<viewer::OpenedImage> named_second_image(const ImageInput& input, c
                                                       const Work& work, Opened& result) {
     if (input.path.empty()) return std::nullopt;
     try {
-        viewer::OpenedImage second = open_image(input, work, result);
+        viewer::OpenedImage second = open_image(input, work, result.told);
         for (const std::string& sentence : viewer::assumptions_of_one_space(first, second))
-            result.warnings.push_back(sentence);
+            result.told.warnings.push_back(sentence);
         return second;
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::cancelled) throw;
@@ -260,14 +144,14 @@ void show_kept_second_image(viewer::Session& session, const Work& work, Opened& 
     const std::optional<viewer::ImageReference> kept = session.kept_second_image();
     if (!kept) return;
     try {
-        viewer::OpenedImage second = open_image(input_of(kept->path, kept->choice), work, result);
+        viewer::OpenedImage second = open_image(input_of(kept->path, kept->choice), work, result.told);
         if (second.reference.fingerprint != kept->fingerprint)
             session.add_note(
                 fmt::format("The second image, {}, has changed since it was added to this project.", second.title));
         session.put_second_image(std::move(second));
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::cancelled) throw;
-        result.warnings.push_back(fmt::format("the second image is not shown: {}", error.what()));
+        result.told.warnings.push_back(fmt::format("the second image is not shown: {}", error.what()));
         session.add_note(fmt::format("The second image is not shown: {}", error.what()));
     }
 }
@@ -278,7 +162,7 @@ Opened open_project(const OpenCommand& told, const Words& named, const Work& wor
     Opened result;
     OpenCommand command = told;
     const Words words = with_images(named, work, command);
-    viewer::OpenedImage image = open_image(image_input(command, words), work, result);
+    viewer::OpenedImage image = open_image(image_input(command, words), work, result.told);
     const fs::path project = project_path(command, words, image);
     // Read before there is a project for them: a file that cannot be read leaves none.
     std::optional<viewer::Imported> first;
@@ -290,8 +174,9 @@ Opened open_project(const OpenCommand& told, const Words& named, const Work& wor
     if (result.session->is_new()) {
         result.session->begin_with(first ? first->sets : first_contours(command, words, work, result).sets);
     } else if (!words.contours.empty()) {
-        result.warnings.push_back(fmt::format("{} holds the work on these contours from before; they were not read again",
-                                              result.session->project_path().string()));
+        result.told.warnings.push_back(
+            fmt::format("{} holds the work on these contours from before; they were not read again",
+                        result.session->project_path().string()));
     }
     if (second) result.session->put_second_image(std::move(*second));
     else show_kept_second_image(*result.session, work, result);
@@ -306,7 +191,7 @@ std::shared_ptr<viewer::Session> open_project(const viewer::OpenRequest& request
 }
 
 viewer::OpenedImage read_second_image(const viewer::OpenRequest& request, const Work& work) {
-    Opened told;  // what there is to say is in the image's own notes
+    Told told;  // what there is to say is in the image's own notes
     return open_image(input_of(request.path, request.choice), work, told);
 }
 

@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "kontur/base/error.h"
 #include "kontur/base/work.h"
+#include "open_image.h"
 #include "open_words.h"
 #include "viewer/session.h"
 #include "viewer/workspace.h"
@@ -21,7 +22,7 @@ namespace kontur::app {
 /// A session, and what the user should know of how it came to be.
 struct Opened {
     std::shared_ptr<viewer::Session> session;
-    std::vector<std::string> notes, warnings;
+    Told told;
 };
 
 /// About the second image that the command names: with the first one all may be well.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "contour_files.h"
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "input_digests.h"
@@ -56,23 +57,13 @@ struct Inputs {
     std::vector<std::string> notes;
 };
 
-/// The fit would refuse it, too, but knows neither file nor structure.
-[[noreturn]] void refuse_empty(const SegmentCommand& command) {
-    std::string files;
-    for (const fs::path& path : command.contours) files += (files.empty() ? "" : ", ") + path.string();
-    const std::string roi = command.read.roi ? fmt::format(": the structure '{}'", *command.read.roi) : "";
-    throw Error(ErrorKind::invalid_input, fmt::format("{}{} has no contour; at least 1 is needed", files, roi));
-}
-
 Inputs read_inputs(const SegmentCommand& command, const Work& work) {
-    ReadContours contours = read_contours(command.contours, command.read);
-    if (contours.contours.contours.empty()) refuse_empty(command);
+    ReadContours contours = read_contours_to_fit(command.contours, command.read);
     Inputs inputs{std::move(contours.contours), {}, {}, std::move(contours.notes)};
     for (std::string& note : frame_of_reference_notes(contours.frame_of_reference_uid, command.image))
         inputs.notes.push_back(std::move(note));
     if (!command.name.empty()) inputs.contours.name = command.name;
     if (command.image.path.empty()) {
-        check_contours(inputs.contours);  // their box makes sense only then
         inputs.grid = own_grid(command, bounding_box(inputs.contours));
     } else if (command.picture.empty()) {
         DrawnOn drawn_on = read_drawn_on(command.image, command.options.use_image, work, inputs.notes);
@@ -106,6 +97,8 @@ void write_structure_set(const fs::path& path, const SegmentCommand& command, co
     for (std::string& note : write_contours(path, set, command.image, rtstruct_options(command.holes, made)))
         result.report.warnings.push_back(std::move(note));
 }
+
+bool lacks_grid(const SegmentCommand& command) { return command.image.path.empty() && command.spacing_mm.empty(); }
 
 bool is_mesh_name(const fs::path& path) { return output_kind(path) == FileKind::mesh; }
 
@@ -180,8 +173,7 @@ void check_words(const SegmentCommand& command) {
     }
     if (!command.report.empty()) check_extension(command.report, ".json");
 
-    if (command.image.path.empty() && command.spacing_mm.empty())
-        throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
+    if (lacks_grid(command)) throw Error(ErrorKind::invalid_input, "the mask has no grid; give --image or --spacing-mm");
     if (const std::size_t count = command.spacing_mm.size(); count != 0 && count != 1 && count != 3)
         throw Error(ErrorKind::invalid_input, fmt::format("--spacing-mm has {} numbers; 1 or 3 are needed", count));
     check_label_value(command.mask.label_value);
@@ -196,6 +188,8 @@ void run(const SegmentCommand& words, Console& console) {
     SegmentCommand command = words;
     if (command.rois.size() == 1) command.read.roi = command.rois.front();
     refuse_images(command.contours);
+    // Files that hold no contours are the greater surprise.
+    if (lacks_grid(command) && !has_several(command)) read_contours_to_fit(command.contours, command.read);
     check_words(command);
     check_files(command);
     if (has_several(command)) return segment_rois(command, console);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "commands.h"
+#include "contour_files.h"
 #include "dicom_output.h"
 #include "drawn_on.h"
 #include "facts.h"
@@ -35,7 +36,6 @@ void check(const SuggestCommand& command) {
 }
 
 Grid grid_around_contours(const ContourSet& contours) {
-    check_contours(contours);  // their box makes sense only then
     const Box3 box = bounding_box(contours);
     const double spacing = box.diagonal() / kVoxelsAcross;
     return grid_around(box, {spacing, spacing, spacing}, 0.35 * box.diagonal());
@@ -105,13 +105,11 @@ ContourSet sketch_of(const std::vector<Plane>& planes, const TriangleMesh& mesh,
 void run(const SuggestCommand& command, Console& console) {
     check(command);
     const Work work = console.work(command.threads);
-    ReadContours read = read_contours(command.contours, command.read);
+    ReadContours read = read_contours_to_fit(command.contours, command.read);
     for (const std::string& note : read.notes) console.warn(note);
     ContourSet& contours = read.contours;
     if (!command.empty_planes.empty())
         for (const Plane& plane : read_planes_json(command.empty_planes)) contours.empty_planes.push_back(plane);
-    if (contours.contours.empty())
-        throw Error(ErrorKind::invalid_input, "the contour files have no contour; at least 1 is needed");
     const auto [grid, image] = drawn_on(command, contours, work, console);
 
     SegmentOptions options = command.options;

@@ -99,6 +99,45 @@ def test_a_contour_without_area_is_left_out_where_others_show_the_object(folder)
     assert "contour 3 has no area" in said and "left out" in said
 
 
+@pytest.mark.parametrize("command", [["segment", "-o", OUT], ["segment", "--image", IMAGE, "-o", OUT], ["suggest"], ["open", IMAGE, "--no-browser"]])
+def test_a_contour_that_cannot_be_segmented_is_named_with_its_file(folder, command):
+    planes = ball_planes()
+    off_plane(planes)
+    write_planes(folder / "bad.json", planes)
+    name, *options = command
+    result = kontur(name, "bad.json", *options, cwd=folder, env=os.environ | {"XDG_DATA_HOME": str(folder)})
+    assert result.returncode == 65
+    assert "kontur: error: bad.json: point 4 of contour 9 lies 2.5 mm off its plane; the limit is 0.01 mm" in result.stderr
+
+
+def test_of_several_files_the_one_with_the_bad_contour_is_named(folder):
+    planes = ball_planes()
+    two_points(planes)
+    write_planes(folder / "bad.json", planes)
+    result = kontur("segment", "ball.json", "bad.json", "--image", IMAGE, "-o", OUT, cwd=folder)
+    assert result.stderr == "kontur: error: bad.json: contour 2 has 2 points; at least 3 are needed\n"
+    for plane in planes:
+        plane["contours"][0]["hole"] = True
+    planes[1:2] = []
+    for name in ("holes.json", "more.json"):
+        write_planes(folder / name, planes)
+    result = kontur("segment", "holes.json", "more.json", "--image", IMAGE, "-o", OUT, cwd=folder)
+    assert re.fullmatch(r"kontur: error: holes.json, more.json: all contours are holes \(\d+\); at least 1 must be none\n", result.stderr), result
+
+
+def test_that_a_file_holds_no_contours_is_said_before_a_grid_is_asked_for(folder):
+    (folder / "words.txt").write_text("hello")
+    assert "words.txt holds no contours" in kontur("segment", "words.txt", "-o", OUT, cwd=folder).stderr
+    assert "the mask has no grid; give --image or --spacing-mm" in kontur("segment", "ball.json", "-o", OUT, cwd=folder).stderr
+
+
+def test_a_coordinate_beyond_what_can_be_drawn(folder):
+    planes = ball_planes()
+    points_of(planes, 0)[0][0] = 1e200
+    write_planes(folder / "bad.json", planes)
+    assert "point 1 of contour 1 has the coordinate 1e+200 mm; the limit is 1e+09 mm" in segment(folder, "bad.json")[1]
+
+
 @pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity", "1e999", '"12"', "null"])
 def test_a_coordinate_that_is_no_number(folder, value):
     planes = ball_planes()

@@ -84,13 +84,30 @@ SEGMENT = ["segment", "a.json", "--output", "b.nii"]
         (["open", "--timeout", "-1"], "0 to 2147483647"),
         (["open", "--port", "70000"], "0 to 65535"),
         (["open", "--port", "-1"], "0 to 65535"),
+        (["suggest", "a.json", "--planes", "0"], "1 to 1000"),
+        (["batch", "a.csv", "--row", "0"], "1 to 2147483647"),
     ],
 )
 def test_a_number_out_of_its_range_is_refused_with_the_limits(tmp_path, words, limits):
     result = kontur(*words, cwd=tmp_path)
     assert result.returncode == 64
-    assert re.search(f"{words[-2]}: is {words[-1]}, but must be (a whole number )?from {limits}\n", result.stderr)
+    assert re.search(f"{words[-2]} is {words[-1]}, but must be (a whole number )?from {limits}\n", result.stderr)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "words, sentence",
+    [
+        (["--threads", "1.5"], "--threads is 1.5, but must be a whole number"),
+        (["--spacing-mm", "one"], "--spacing-mm is one, but must be a number"),
+        (["--use-image", "never"], "--use-image is auto|off, not never"),
+        (["--mesh"], "--mesh needs 1 FILE"),
+        (["--name", "a", "--name", "b"], "--name is given 2 times; 1 is possible"),
+    ],
+)
+def test_a_word_that_an_option_does_not_take_is_refused_in_a_sentence(tmp_path, words, sentence):
+    result = kontur(*SEGMENT, *words, cwd=tmp_path)
+    assert (result.returncode, result.stderr) == (64, f"kontur: error: {sentence}\n")
 
 
 @pytest.mark.parametrize(

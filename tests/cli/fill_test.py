@@ -37,7 +37,7 @@ def test_a_ball_is_filled_and_what_was_painted_stays(tmp_path, axis):
     [label] = report["labels"]
     assert label["slices"][axis] == len(between) and sum(label["slices"]) == len(between)
     assert label["painted_voxels"] + label["added_voxels"] == (full == 5).sum()
-    assert f"across {'ijk'[axis]}" in text
+    assert f"painted on {len(between)} slices across {'ijk'[axis]}; " in text
     assert report["provenance"]["options"].startswith("ends=closed")
 
 

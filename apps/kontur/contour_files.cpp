@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contour_files.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "kontur/base/error.h"
+#include "kontur/io/rtstruct.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string list(const std::vector<fs::path>& paths) {
+    std::string text;
+    for (const fs::path& path : paths) text += (text.empty() ? "" : ", ") + path.string();
+    return text;
+}
+
+[[noreturn]] void refuse(const std::string& files, const std::string& problem) {
+    throw Error(ErrorKind::invalid_input, fmt::format("{}: {}", files, problem));
+}
+
+/// The first that a contour by itself is to blame for.
+std::optional<std::string> problem_of_a_contour(ContourSet set) {
+    drop_duplicate_points(set);
+    const std::vector<std::string> all = contour_problems(set);
+    return all.size() > set_problems(set).size() ? std::optional(all.front()) : std::nullopt;
+}
+
+}  // namespace
+
+ReadContours read_contours_to_fit(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
+    ReadContours all = read_contours(paths, options);
+    if (all.contours.contours.empty())
+        refuse(list(paths), fmt::format("{} no contour; at least 1 is needed",
+                                        options.roi ? fmt::format("the structure '{}' has", *options.roi) : "there is"));
+    ContourSet set = all.contours;
+    drop_duplicate_points(set);
+    const std::vector<std::string> problems = contour_problems(set);
+    if (problems.empty()) return all;
+    for (const fs::path& path : paths) {
+        ReadContoursOptions of_this = options;
+        if (!is_rtstruct(path)) of_this.roi.reset();
+        if (const auto problem = problem_of_a_contour(read_contours(path, of_this).contours))
+            refuse(path.string(), *problem);
+    }
+    refuse(list(paths), problems.front());
+}
+
+}  // namespace kontur::app

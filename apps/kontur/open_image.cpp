@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "open_image.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "dicom_output.h"
+#include "kontur/base/error.h"
+#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom_suv.h"
+#include "kontur/io/frame_needed.h"
+#include "kontur/io/image.h"
+#include "kontur/phantom/phantom.h"
+#include "open_words.h"
+#include "viewer/image_identity.h"
+#include "viewer/workspace.h"
+
+namespace kontur::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPhantomScan = "abdomen";
+
+Image phantom_image(const Work& work) {
+    const std::vector<PhantomVolume> scans = phantom_volumes();
+    const auto scan =
+        std::find_if(scans.begin(), scans.end(), [](const PhantomVolume& v) { return v.name == kPhantomScan; });
+    return make_phantom_image(scan->grid, {}, work);
+}
+
+/// Whose image it is, and what files that are made of it refer to.
+void tell_series(const ImageInput& input, viewer::OpenedImage& opened) {
+    opened.frame_of_reference_uid = frame_of_reference_of(input);
+    if (!looks_like_dicom(input.path) || is_dicom_seg(input.path)) return;
+    opened.series = read_dicom_grid(input.path, input.options.dicom).series;
+    opened.identity = dicom_identity(opened.series->files.front());
+    const auto& [patient, description] = std::pair(opened.identity.patient_name, opened.identity.series_description);
+    if (!description.empty()) opened.title = description;
+    if (!patient.empty()) opened.title = patient + ", " + opened.title;
+}
+
+bool is_example(const fs::path& path) {
+    std::error_code ignored;
+    return path == viewer::kExample && !fs::exists(path, ignored);
+}
+
+void open_file(const ImageInput& input, const Work& work, viewer::OpenedImage& opened, Told& told) {
+    ReadImageOptions options = input.options;
+    std::vector<std::string> warnings;
+    options.on_note = [&](std::string_view note) { opened.notes.emplace_back(note); };
+    options.on_warning = [&](std::string_view warning) { warnings.emplace_back(warning); };
+    opened.image = std::make_shared<const Image>(read_image(input.path, options, work));
+    told.notes.insert(told.notes.end(), opened.notes.begin(), opened.notes.end());
+    told.warnings.insert(told.warnings.end(), warnings.begin(), warnings.end());
+    opened.notes.insert(opened.notes.end(), warnings.begin(), warnings.end());
+    opened.title = fs::absolute(input.path).lexically_normal().filename().string();
+    opened.reference.path = fs::absolute(input.path).lexically_normal().string();
+    opened.reference.choice = choice_of(input.options);
+    tell_series(input, opened);
+}
+
+Image times(const Image& image, double factor) {
+    std::vector<float> values;
+    std::visit(
+        [&](const auto& samples) {
+            values.reserve(samples.size());
+            for (const auto sample : samples) values.push_back(static_cast<float>(factor * static_cast<double>(sample)));
+        },
+        image.samples);
+    return {image.grid, std::move(values)};
+}
+
+/// PET in Bq/ml is shown as SUV, where its files tell how.
+void turn_into_suv(viewer::OpenedImage& opened, Told& told) {
+    const auto scale = opened.series ? suv_scale(opened.series->files.front()) : std::nullopt;
+    if (!scale) return;
+    opened.notes.push_back(scale->told);
+    told.notes.push_back(scale->told);
+    if (scale->suv_per_bqml == 0) return;
+    opened.image = std::make_shared<const Image>(times(*opened.image, scale->suv_per_bqml));
+    opened.identity.unit = kSuvUnit;
+}
+
+/// How many volumes there are, of which one was chosen: frames of a file, or volumes of a DICOM series.
+int count_times(const ImageInput& input, const viewer::OpenedImage& opened) {
+    if (opened.series && input.options.dicom.volume) {
+        const auto all = list_dicom_series(input.path);
+        return static_cast<int>(std::count_if(
+            all.begin(), all.end(), [&](const DicomSeries& one) { return one.series_uid == opened.series->series_uid; }));
+    }
+    if (!input.options.frame) return 1;
+    ReadImageOptions options = input.options;
+    options.frame.reset();
+    options.max_voxels = 1;  // no voxel is read: either a frame is missing, or there are too many voxels
+    try {
+        read_image(input.path, options);
+    } catch (const FrameNeeded& error) {
+        return static_cast<int>(error.frames());
+    } catch (const Error&) {
+    }
+    return 1;
+}
+
+/// The other volumes are read when somebody looks at them.
+viewer::Times times_of(const ImageInput& input, const viewer::OpenedImage& opened) {
+    const bool is_series = opened.series && input.options.dicom.volume;
+    const auto own = is_series ? *input.options.dicom.volume - 1 : input.options.frame.value_or(0);
+    const auto read = [input, is_series](int time) {
+        ImageInput other = input;
+        if (is_series) other.options.dicom.volume = time + 1;
+        else other.options.frame = time;
+        Told told;  // what there is to say was said of the one that was opened
+        viewer::OpenedImage image;
+        open_file(other, {}, image, told);
+        turn_into_suv(image, told);
+        return image.image;
+    };
+    return {count_times(input, opened), static_cast<int>(own), read};
+}
+
+}  // namespace
+
+viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Told& told) {
+    viewer::OpenedImage opened;
+    if (is_example(input.path)) {
+        opened.image = std::make_shared<const Image>(phantom_image(work));
+        opened.title = "Phantom: upper abdomen";
+        opened.reference.path = viewer::kExample;
+    } else {
+        open_file(input, work, opened, told);
+        opened.times = times_of(input, opened);
+    }
+    work.report("look at values", 1);
+    opened.reference.fingerprint = viewer::fingerprint(*opened.image);
+    turn_into_suv(opened, told);  // by its file's values it is known again
+    return opened;
+}
+
+}  // namespace kontur::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files.h"
+#include "kontur/base/work.h"
+#include "viewer/opened_image.h"
+
+namespace kontur::app {
+
+/// What the user of a command should know.
+struct Told {
+    std::vector<std::string> notes, warnings;
+};
+
+/// An image for the viewer, PET in Bq/ml as SUV; `viewer::kExample` is the phantom where there is no such file. Throws what
+/// the readers throw.
+viewer::OpenedImage open_image(const ImageInput& input, const Work& work, Told& told);
+
+}  // namespace kontur::app

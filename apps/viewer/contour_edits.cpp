@@ -210,7 +210,7 @@ DrawnContour redraw(const DrawnContour& contour, const std::vector<Vec3>& path, 
         std::find_if(sketch.begin() + 1, sketch.end(), [&](const SketchPoint& p) { return p.at == contour.points[first]; });
     sketch.erase(std::next(replaced), sketch.end());
     sketch.back().kind = Stretch::free;
-    sketch.back().path = thinned(part, kRedrawnThinning_mm);
+    sketch.back().path = thinned(part);
     return redrawn(contour, sketch, edges);
 }
 

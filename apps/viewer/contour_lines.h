@@ -12,8 +12,6 @@
 
 namespace kontur::viewer {
 
-constexpr double kRedrawnThinning_mm = 0.1;  ///< of what a hand draws in place of a part
-
 /// `contour` with the line of this sketch instead of its own.
 DrawnContour redrawn(const DrawnContour& contour, const std::vector<SketchPoint>& sketch, SliceEdges& edges,
                      SketchOptions options = {.snap = false});

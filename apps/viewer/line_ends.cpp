@@ -25,7 +25,7 @@ DrawnContour with_part(const DrawnContour& line, std::size_t first, std::size_t 
     const std::size_t from = split_at(split, first), to = split_at(split, last);
     Sketched sketch = sketch_of(split);
     sketch[from].kind = Stretch::free;
-    sketch[from].path = thinned(path, kRedrawnThinning_mm);
+    sketch[from].path = thinned(path);
     sketch.erase(sketch.begin() + static_cast<std::ptrdiff_t>(from) + 1, sketch.begin() + static_cast<std::ptrdiff_t>(to));
     return redrawn(line, sketch, edges);
 }
@@ -37,7 +37,7 @@ DrawnContour led_on(const DrawnContour& line, std::size_t point, const std::vect
     Sketched sketch = sketch_of(split);
     sketch.resize(from + 1);
     sketch[from].kind = Stretch::free;
-    sketch[from].path = thinned(path, kRedrawnThinning_mm);
+    sketch[from].path = thinned(path);
     return redrawn(line, sketch, edges);
 }
 
@@ -47,7 +47,7 @@ DrawnContour led_up(const DrawnContour& line, std::size_t point, const std::vect
     const std::size_t to = split_at(split, point);
     Sketched sketch = sketch_of(split);
     sketch.erase(sketch.begin(), sketch.begin() + static_cast<std::ptrdiff_t>(to));
-    const std::vector<Vec3> part = thinned(path, kRedrawnThinning_mm);
+    const std::vector<Vec3> part = thinned(path);
     sketch.insert(sketch.begin(),
                   {.at = part.front(), .kind = Stretch::free, .path = std::vector<Vec3>(part.begin() + 1, part.end())});
     return redrawn(line, sketch, edges);
@@ -60,7 +60,7 @@ DrawnContour led_around(const DrawnContour& line, const std::vector<Vec3>& path,
     ring.inside.reset();
     Sketched sketch = sketch_of(line);
     sketch.back().kind = Stretch::free;
-    sketch.back().path = thinned(path, kRedrawnThinning_mm);
+    sketch.back().path = thinned(path);
     return redrawn(ring, sketch, edges);
 }
 

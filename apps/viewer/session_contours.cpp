@@ -32,7 +32,7 @@ SketchPoint sketch_point(const json& item) {
     if (!m.has("path")) return point;
     std::vector<Vec3> line = m.points("path");
     line.insert(line.begin(), point.at);
-    line = thinned(line, 0.1);
+    line = thinned(line);
     point.path.emplace(line.begin() + 1, line.end());
     return point;
 }

@@ -29,6 +29,11 @@ json value_json(const Image& image, const Affine3& mm_to_index, const Vec3& at) 
 
 void Session::put_second_image(OpenedImage opened) {
     const OpenedImage first{image_, title_, {}, {}, frame_of_reference_uid_, {}, identity_};
+    // The page keeps its notes in sight: what of its folder was passed over need be told but once.
+    const auto is_passing = [](const std::string& note) { return note.starts_with("left out "); };
+    for (const std::string& note : opened.notes)
+        if (is_passing(note)) notice("info", note);
+    std::erase_if(opened.notes, is_passing);
     for (std::string& sentence : assumptions_of_one_space(first, opened)) opened.notes.push_back(std::move(sentence));
     const ImageReference reference = opened.reference;
     auto shown = std::make_shared<const FurtherImage>(further_image(std::move(opened)));

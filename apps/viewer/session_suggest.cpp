@@ -71,7 +71,7 @@ json Session::outline_of(const Members& m) {
     const double most_mm = kMostSlicesApart * std::max({spacing.x, spacing.y, spacing.z});
     for (Polyline& line : proposed_lines(*found->second->mesh, plane)) {
         const DrawnContour* beside = snaps ? neighbour_of(line.points, structure, plane, now, most_mm) : nullptr;
-        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *image_), 0.1);
+        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *image_));
         lines.push_back(to_json(line.points));
     }
     return {{"lines", std::move(lines)}};

@@ -13,7 +13,7 @@
 namespace kontur::viewer {
 namespace {
 
-constexpr double kThinning_mm = 0.1;
+constexpr double kThinning_mm = 0.1, kThinning = 0.005;  // the latter of the extent
 constexpr double kSamePoint_mm = 1e-6;
 
 /// What lies on the plane to rounding keeps its last bits, so that drawing a contour again changes nothing.
@@ -79,15 +79,21 @@ private:
         if (from.path) return *from.path;
         std::vector<Vec3> line;
         if (from.kind == Stretch::spline)
-            line = spline_stretch(neighbour(i, -1), from.at, to, neighbour(i, 2), options_.spline_step_mm);
+            line = spline_stretch(neighbour(i, -1), from.at, to, neighbour(i, 2), spline_step_mm(from.at, to));
         if (from.kind == Stretch::wire) {
             line = edges_.path(plane_, from.at, to, from.image);
             line.push_back(to);
-            line = thinned(line, kThinning_mm);
+            line = thinned(line);
             line.pop_back();
         }
         if (!line.empty()) line.erase(line.begin());
         return line;
+    }
+
+    double spline_step_mm(const Vec3& from, const Vec3& to) const {
+        constexpr double kFewestSteps = 8;
+        const double length = distance(from, to);
+        return length > 0 ? std::min(options_.spline_step_mm, length / kFewestSteps) : options_.spline_step_mm;
     }
 
     const Vec3& neighbour(std::size_t i, std::ptrdiff_t step) const {
@@ -110,8 +116,9 @@ private:
 
 }  // namespace
 
-std::vector<Vec3> thinned(const std::vector<Vec3>& line, double tolerance_mm) {
+std::vector<Vec3> thinned(const std::vector<Vec3>& line) {
     if (line.size() < 3) return line;
+    const double tolerance_mm = std::min(kThinning_mm, kThinning * bounding_box(line).diagonal());
     std::vector<bool> kept(line.size(), false);
     kept.front() = kept.back() = true;
     std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};

@@ -23,12 +23,12 @@ struct SketchOptions {
     bool closed = true;
     bool snap = true;  ///< control points of wire stretches move to the edge nearby
     double snap_radius_mm = 3;
-    double spline_step_mm = 1;
+    double spline_step_mm = 1;  ///< at most; of a short stretch no more than an eighth of its length
 };
 
 /// The line through a sketch: `control` with indices into `points`, all on the plane. Hand-drawn and edge-following
-/// stretches are thinned out: no point that is dropped lies more than 0.1 mm from the line. Points that coincide with
-/// the one before are left out, so the control points of a very short sketch may be fewer.
+/// stretches are `thinned`. Points that coincide with the one before are left out, so the control points of a very short
+/// sketch may be fewer.
 struct Drawing {
     std::vector<ControlPoint> control;
     std::vector<Vec3> points;
@@ -39,8 +39,8 @@ Drawing draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEd
 /// The contour as a sketch that draws the same line.
 std::vector<SketchPoint> sketch_of(const DrawnContour& contour);
 
-/// Drops points while none of them lies farther than this from the remaining line (Douglas and Peucker 1973); keeps both
-/// ends.
-std::vector<Vec3> thinned(const std::vector<Vec3>& line, double tolerance_mm);
+/// Drops points while none of them lies farther than 0.1 mm from the remaining line, or than 0.005 of its extent if that is
+/// less: what is drawn may be a cell (Douglas and Peucker 1973). Keeps both ends.
+std::vector<Vec3> thinned(const std::vector<Vec3>& line);
 
 }  // namespace kontur::viewer

@@ -229,7 +229,7 @@ TEST(SelfCrossings, AreNoMoreThanWereAskedFor) {
 TEST(Thinned, KeepsEndsAndStaysWithinItsTolerance) {
     std::vector<Vec3> line;
     for (int i = 0; i <= 500; ++i) line.push_back({0.1 * i, 3 * std::sin(0.02 * i), 0});
-    const std::vector<Vec3> thin = thinned(line, 0.1);
+    const std::vector<Vec3> thin = thinned(line);
     EXPECT_EQ(thin.front(), line.front());
     EXPECT_EQ(thin.back(), line.back());
     EXPECT_LT(thin.size(), 40u);
@@ -242,6 +242,15 @@ TEST(Thinned, KeepsEndsAndStaysWithinItsTolerance) {
         }
         EXPECT_LE(nearest, 0.1 + 1e-12);
     }
+}
+
+TEST(Thinned, OfALineOfAMicrometreKeepsItsShape) {
+    std::vector<Vec3> line;
+    for (int i = 0; i <= 200; ++i) line.push_back({1e-3 * std::cos(0.03 * i), 1e-3 * std::sin(0.03 * i), 0});
+    const std::size_t small = thinned(line).size();
+    for (Vec3& p : line) p = 1e4 * p;  // 10 mm
+    EXPECT_GE(small, thinned(line).size());
+    EXPECT_GT(small, 12u);
 }
 
 }  // namespace

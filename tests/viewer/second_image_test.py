@@ -82,6 +82,21 @@ def test_a_page_adds_one_and_all_pages_are_told(tmp_path, home):
         assert len(page.do("value", at=[0, 0, 0])["values"]) == 1
 
 
+def test_what_was_passed_over_in_its_folder_is_told_once_and_does_not_stay_with_it(tmp_path, pet_and_ct):
+    (pet_and_ct / "pet" / "readme.txt").write_text("hello")
+    try:
+        with running(tmp_path, pet_and_ct / "ct", HOME=str(pet_and_ct)) as server:
+            page = Page(server)
+            assert add(server, pet_and_ct / "pet") == (200, {})
+            events = []
+            while not events or events[-1]["event"] != "images":
+                events.append(page.receive())
+            assert "left out 1 file (not a DICOM file): readme.txt" in [event["text"] for event in events if event["event"] == "notice"]
+            assert events[-1]["images"][0]["notes"] == [NO_SUV]
+    finally:
+        (pet_and_ct / "pet" / "readme.txt").unlink()
+
+
 def test_it_is_there_again_with_the_project_and_its_frame(tmp_path, home):
     write_pet(home / "beating.nii.gz", frames=3)
     project = tmp_path / "work.kontur"

@@ -37,6 +37,8 @@ const LAYOUTS: [LayoutName, string, string][] = [
   ["single", ICONS.single, "One view alone"],
 ];
 
+const USUAL_DIGITS = 5; // for which a field of the window has room
+
 export class Toolbar {
   readonly element = el("header", { class: "toolbar", role: "toolbar", "aria-label": "Tools" });
   private readonly tools = new Map<ToolName, HTMLButtonElement>();
@@ -60,6 +62,7 @@ export class Toolbar {
   );
   private readonly title = el("span", { class: "file-title" });
   private readonly overflow: Overflow;
+  private areLong = false; // the numbers of the window, for which their fields become wider
   private presetList: Preset[] = [];
 
   constructor(private readonly services: ToolbarServices) {
@@ -170,6 +173,9 @@ export class Toolbar {
     const { center, width } = navigation.window;
     setValue(this.center, short(center));
     setValue(this.width, short(width));
+    const areLong = Math.max(this.center.value.length, this.width.value.length) > USUAL_DIGITS;
+    if (areLong !== this.areLong) this.overflow.fit(true);
+    this.areLong = areLong;
     const preset = this.presetList.findIndex((entry) => short(entry.center) === short(center) && short(entry.width) === short(width));
     this.presets.value = preset < 0 ? "" : String(preset);
   }

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "casters.h"
 
+#include "checked.h"
 #include "define.h"
 #include "points.h"
 
 namespace kontur::python {
 
 std::string shape_text(const py::array& array) { return py::str(py::tuple(array.attr("shape"))).cast<std::string>(); }
+
+std::string given_text(py::handle value) {
+    constexpr std::size_t kLongest = 40;
+    if (py::isinstance<py::array>(value)) return "an array of shape " + shape_text(py::reinterpret_borrow<py::array>(value));
+    const auto text = py::repr(value).cast<std::string>();
+    if (text.size() <= kLongest && text.find('\n') == std::string::npos) return text;
+    return "an object of type " + py::type::of(value).attr("__name__").cast<std::string>();
+}
+
+void refuse_argument(const std::string& function, const std::string& parameter, const std::string& needed,
+                     py::handle given) {
+    throw py::type_error(function + "(): " + parameter + ": " + needed + " is needed, not " + given_text(given));
+}
 
 void check_numbers(const py::array& array, bool whole) {
     const std::string_view kinds = whole ? "biu" : "biufO";

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "casters.h"
+#include "checked.h"
 
 // Functions and their docstrings. A docstring starts with "name(parameters)\n--\n\n", from which inspect.signature and
 // help() read the signature, as for the built-in functions of CPython.
@@ -125,11 +126,24 @@ auto pybind_extra(const Extra& extra) {
     else return std::tuple<Extra>(extra);
 }
 
+/// With a default or without.
+template <class Extra>
+void append_name(std::vector<std::string>& names, const Extra& extra) {
+    if constexpr (std::is_base_of_v<py::arg, Extra>) names.emplace_back(extra.name);
+}
+
+template <class... Extra>
+std::vector<std::string> parameter_names(std::vector<std::string> names, const Extra&... extra) {
+    (append_name(names, extra), ...);
+    return names;
+}
+
 /// Adds a function to the module.
 template <class Function, class... Extra>
 void define(py::module_& module, const char* name, const char* help, Function function, const Extra&... extra) {
     const std::string doc = docstring(name, "", help, extra...);
-    std::apply([&](const auto&... rest) { module.def(name, function, rest..., doc.c_str()); },
+    const auto its = checked(name, parameter_names({}, extra...), function);
+    std::apply([&](const auto&... rest) { module.def(name, its, rest..., doc.c_str()); },
                std::tuple_cat(pybind_extra(extra)...));
 }
 
@@ -137,7 +151,8 @@ void define(py::module_& module, const char* name, const char* help, Function fu
 template <class Class, class Function, class... Extra>
 void method(Class& type, const char* name, const char* help, Function function, const Extra&... extra) {
     const std::string doc = docstring(name, "self", help, extra...);
-    std::apply([&](const auto&... rest) { type.def(name, function, rest..., doc.c_str()); },
+    const auto its = checked(name, parameter_names({"self"}, extra...), function);
+    std::apply([&](const auto&... rest) { type.def(name, its, rest..., doc.c_str()); },
                std::tuple_cat(pybind_extra(extra)...));
 }
 
@@ -145,7 +160,8 @@ void method(Class& type, const char* name, const char* help, Function function, 
 template <class Class, class Factory, class... Extra>
 void constructor(Class& type, Factory factory, const Extra&... extra) {
     const std::string doc = docstring("__init__", "self", "", extra...);
-    type.def(py::init(factory), extra..., doc.c_str());
+    const auto name = py::type::of<typename Class::type>().attr("__name__").template cast<std::string>();
+    type.def(py::init(checked(name, parameter_names({}, extra...), factory)), extra..., doc.c_str());
 }
 
 }  // namespace kontur::python

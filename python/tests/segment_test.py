@@ -329,3 +329,19 @@ def test_a_preview_is_a_closed_surface_about_the_mask(case, kidney):
     assert kontur.topology(preview).closed
     assert kontur.signed_volume_mm3(preview) / 1000 == pytest.approx(kidney.report.mask_volume_ml, rel=0.02)
     assert len(preview.triangles) < len(kidney.mesh.triangles) / 4
+
+
+def test_an_argument_of_another_type_is_named_in_one_sentence():
+    case = kontur.phantom_case("kidney_radial6")
+    points = numpy.zeros((1000, 3))
+    for call, sentence in [
+        (lambda: kontur.segment(points, case.grid), "segment(): contours: ContourSet is needed, not an array of shape (1000, 3)"),
+        (lambda: kontur.segment(case.contours, None), "segment(): grid: Grid is needed, not None"),
+        (lambda: kontur.segment(case.contours, case.grid, image=points), "segment(): image: Image is needed, not an array of shape (1000, 3)"),
+        (lambda: kontur.ContourSet([points]), "ContourSet(): contours: List[Contour] is needed, not an object of type list"),
+        (lambda: kontur.Contour(points, plane=3), "Contour(): plane: Optional[Plane] is needed, not 3"),
+        (lambda: kontur.compare("a", "b"), "compare(): a: Mask is needed, not 'a'"),
+    ]:
+        with pytest.raises(TypeError) as refused:
+            call()
+        assert str(refused.value) == sentence

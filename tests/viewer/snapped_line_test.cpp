@@ -20,7 +20,7 @@ Vec3 centre_at(double z) { return {20 + 0.6 * (z - 20), 20, z}; }
 /// 0 outside, `inside` in the rod, `rim` in the 1.5 mm within its border, and noise.
 Image rod(double inside, double rim, double noise) {
     std::mt19937 random(7);
-    std::normal_distribution<double> normal(0, noise);
+    std::normal_distribution<double> normal;
     Image image{{{40, 40, 40}, {}}, std::vector<float>(64000)};
     auto& values = std::get<std::vector<float>>(image.samples);
     for (std::int64_t k = 0; k < 40; ++k)
@@ -31,7 +31,7 @@ Image rod(double inside, double rim, double noise) {
                 values[image.grid.offset(i, j, k)] = static_cast<float>((depth < 0     ? 0
                                                                          : depth < 1.5 ? rim
                                                                                        : inside) +
-                                                                        (noise > 0 ? normal(random) : 0));
+                                                                        noise * normal(random));
             }
     return image;
 }

@@ -34,6 +34,13 @@ TEST(SurfaceUncertainty, IsNotKnownBelowThreePlanes) {
     EXPECT_TRUE(fitted(egg(), three_planes(kCenter)).report.uncertainty.is_known);
 }
 
+TEST(SurfaceUncertainty, IsNotKnownWhereNoVoxelIsInside) {
+    const Grid coarse = grid_around({kCenter - Vec3{40, 40, 40}, kCenter + Vec3{160, 160, 160}}, {200, 200, 200}, 0);
+    const SurfaceUncertainty none = fitted(drawn(egg(), three_planes(kCenter)), coarse).report.uncertainty;
+    EXPECT_FALSE(none.is_known);
+    EXPECT_EQ(sentence(none), "how sure the surface is cannot be told: on this grid there is none");
+}
+
 TEST(SurfaceUncertainty, PlanesStillToDrawAreCountedAsFarAsThatMeansAnything) {
     SurfaceUncertainty known;
     known.is_known = true;

@@ -115,6 +115,7 @@ std::string planes_still(std::size_t planes, std::string_view dice) {
 }  // namespace
 
 std::string sentence(const SurfaceUncertainty& u) {
+    if (!u.is_known && u.planes >= kLeastPlanes) return "how sure the surface is cannot be told: on this grid there is none";
     if (!u.is_known)
         return fmt::format("how sure the surface is, {} do{} not tell; {} are needed", counted(u.planes, "plane"),
                            u.planes == 1 ? "es" : "", kLeastPlanes);

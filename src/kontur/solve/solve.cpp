@@ -116,11 +116,11 @@ double kernel_scale(Kernel kernel, const UnitFrame& frame) {
 }
 
 /// The ball's; with the screened kernel so wide that all centres are within reach of each other, clicks far from what was
-/// drawn among them.
+/// drawn among them; but what has no mean is a change of another function, and keeps that one's frame.
 UnitFrame frame_of(const ConstraintSet& constraints, const SolveOptions& options) {
     if (!options.ball) return unit_frame(constraints.centers);
     UnitFrame frame{options.ball->center, options.ball->radius > 0 ? options.ball->radius : 1.0};
-    if (options.kernel == Kernel::screened)
+    if (options.kernel == Kernel::screened && options.mean_radii != 0)
         for (const Vec3& p : constraints.centers)
             frame.scale = std::max(frame.scale, distance(p, frame.center) / (kScreenedReach / 2));
     return frame;

@@ -69,7 +69,8 @@ std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImag
 }
 
 /// Outside of the surface f changes as beneath.
-std::vector<PointConstraint> outside(const Movement& movement, const Affine3& frame, double radius_mm) {
+std::vector<PointConstraint> outside(const Movement& movement, const FittedFunction& fitted, const Affine3& frame,
+                                     double radius_mm) {
     std::vector<Vec3> surface;
     for (const MovingPoint& p : movement.points) surface.push_back(p.position);
     std::vector<PointConstraint> told;
@@ -78,7 +79,8 @@ std::vector<PointConstraint> outside(const Movement& movement, const Affine3& fr
         std::vector<Vec3> places;
         for (const MovingPoint& p : movement.points) {
             const Vec3 place = p.position + above * p.normal;
-            if (nearest_distance(place, surface) > kOutsideAlone * above) places.push_back(place);
+            if (may_tell_outside(fitted, place) && nearest_distance(place, surface) > kOutsideAlone * above)
+                places.push_back(place);
         }
         for (const Vec3& place : spread(places, shell.places, frame))
             told.push_back({.position = place, .value = change_near(movement, place), .noise_mm = kOutsideNoise * above});
@@ -144,7 +146,7 @@ RefinedFunction move_surface(AskedSurface asked, const DrawnOnImage& drawn, cons
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         work.check();
         ImageData told{observations(movement, fitted.function, voxel, work),
-                       outside(movement, frame_of(drawing.contours), drawing.diameter_mm() / 2),
+                       outside(movement, fitted, frame_of(drawing.contours), drawing.diameter_mm() / 2),
                        [&](const Vec3& p) { return change_near(movement, p); }};
         told.values.insert(told.values.end(), held.begin(), held.end());
         FittedFunction moved = refit.with(told, work);

@@ -66,6 +66,12 @@ FittedFunction with_function(FittedFunction fitted, ImplicitFunction function) {
 
 }  // namespace
 
+bool may_tell_outside(const FittedFunction& fitted, const Vec3& place) {
+    constexpr double kMostRadii = 1.45;  // all centres are to be within kScreenedReach of each other
+    const UnitFrame& frame = fitted.function.frame();
+    return distance(place, frame.center) < kMostRadii * frame.scale;
+}
+
 Refit::Refit(const PreparedContours& prepared, const FittedFunction& fitted, const FitOptions& options, double spacing_mm)
     : prepared_(prepared), fitted_(fitted), options_(options) {
     const auto most = static_cast<std::size_t>(std::ceil(length_mm(prepared.points) / (kBetween * spacing_mm)));

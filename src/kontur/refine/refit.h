@@ -23,8 +23,11 @@ struct OutsideShell {
     double radii;
     std::size_t places;
 };
-inline constexpr OutsideShell kOutsideShells[] = {{0.25, 120}, {0.5, 60}, {1, 30}};
+inline constexpr OutsideShell kOutsideShells[] = {{0.25, 120}, {0.5, 60}};
 inline constexpr double kOutsideNoise = 0.3;  ///< of the distance from the surface
+
+/// Whether a place outside is to tell that: far ones are beyond the reach of sums, and f falls there by itself.
+bool may_tell_outside(const FittedFunction& fitted, const Vec3& place);
 
 /// Adds what the image says to a fit f: f + g, where g is the smoothest function of the same kernel that is 0 in all that
 /// the fit knew and elsewhere what f is off the image's data. That is the minimum of fit and image together, but that g

@@ -82,8 +82,8 @@ std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Draw
     Refit refit(prepared, fitted, options.fit, cells.edge_mm());
     for (const WalkedDataOptions& attempt : kAttempts) {
         work.check();
-        FittedFunction through = refit.with(
-            walked_data(walk, cells, alone, fitted.function, frame, drawing.diameter_mm() / 2, attempt, work), work);
+        FittedFunction through =
+            refit.with(walked_data(walk, cells, alone, fitted, frame, drawing.diameter_mm() / 2, attempt, work), work);
         const double on_contours = largest_change(fitted.function, through.function, drawing.contours, work);
         const CellDepths now = cell_depths(cells, through.function, drawing.contours, work, Doubts::left);
         if (on_contours > kMostOnContours * voxel_mm || leaves(walk, now, walked, cells) ||

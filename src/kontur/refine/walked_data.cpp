@@ -78,11 +78,12 @@ public:
     }
 
     /// Of each shell the places of a lattice that fall into it, which goes on beyond the cells.
-    std::vector<PointConstraint> outside(const Affine3& frame, double radius_mm) const {
+    std::vector<PointConstraint> outside(const FittedFunction& before, const Affine3& frame, double radius_mm) const {
         std::vector<PointConstraint> told;
         for (const OutsideShell& shell : kOutsideShells) {
             const double above = shell.radii * radius_mm, step = above / kStepsToShell;
-            const std::vector<PointConstraint> all = between_depths(above, above + step, step);
+            std::vector<PointConstraint> all = between_depths(above, above + step, step);
+            std::erase_if(all, [&](const PointConstraint& one) { return !may_tell_outside(before, one.position); });
             const std::vector<PointConstraint> kept = some(all, shell.places, frame);
             told.insert(told.end(), kept.begin(), kept.end());
         }
@@ -192,12 +193,11 @@ private:
 
 }  // namespace
 
-ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone,
-                      const ImplicitFunction& before, const Affine3& frame, double radius_mm,
-                      const WalkedDataOptions& options, const Work& work) {
+ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone, const FittedFunction& before,
+                      const Affine3& frame, double radius_mm, const WalkedDataOptions& options, const Work& work) {
     const Data data(walk, cells, alone, options);
-    ImageData told{data.beside_surface(frame), data.outside(frame, radius_mm)};
-    for (const std::vector<PointConstraint>& more : {data.gone(frame), data.held(before, frame, work)})
+    ImageData told{data.beside_surface(frame), data.outside(before, frame, radius_mm)};
+    for (const std::vector<PointConstraint>& more : {data.gone(frame), data.held(before.function, frame, work)})
         told.values.insert(told.values.end(), more.begin(), more.end());
     told.change_mm = [data](const Vec3& p) { return data.change_mm(p); };
     return told;

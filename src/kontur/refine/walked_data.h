@@ -19,9 +19,8 @@ struct WalkedDataOptions {
 /// alone have elsewhere is not there; and that in drawn planes f stays what it was, where the walk's surface comes near
 /// them beside the contours; and farther outside what kOutsideShells says. `alone`: depths below the surface `before`
 /// through the contours alone, whose ball has this radius. `frame` turns with the drawing.
-ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone,
-                      const ImplicitFunction& before, const Affine3& frame, double radius_mm,
-                      const WalkedDataOptions& options, const Work& work = {});
+ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone, const FittedFunction& before,
+                      const Affine3& frame, double radius_mm, const WalkedDataOptions& options, const Work& work = {});
 
 /// Of each cell below the surface of the walk; above it less than 0.
 std::vector<float> depths_below(const VoxelWalk& walk, const ImageCells& cells);

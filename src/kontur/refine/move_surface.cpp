@@ -41,10 +41,9 @@ std::vector<PointConstraint> observations(const Movement& movement, const Implic
 
 /// How far the nearest point of the surface moves outwards.
 double change_near(const Movement& movement, const Vec3& place) {
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < movement.points.size(); ++i)
-        if (distance(movement.points[i].position, place) < distance(movement.points[nearest].position, place)) nearest = i;
-    return movement.offsets.mean_mm[nearest];
+    const auto away = [&](const MovingPoint& point) { return distance(point.position, place); };
+    const auto nearest = std::ranges::min_element(movement.points, {}, away);
+    return movement.offsets.mean_mm[static_cast<std::size_t>(nearest - movement.points.begin())];
 }
 
 /// Where moving points would meet a drawn plane: f stays there what the contours make of it.

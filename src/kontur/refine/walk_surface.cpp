@@ -78,15 +78,15 @@ std::optional<RefinedFunction> walk_surface(const WalkedImage& image, const Draw
     const CellDepths first =
         begin ? moved_depths(alone, cells, fitted.function, begin->movement, begin->beliefs, {}, work) : alone;
     const VoxelWalk walk = walk_voxels(cells, first, walking, work);
-    const std::vector<float> walked = depths_below(walk, cells);
+    const Depths walked = depths_below(walk, cells);
     Refit refit(prepared, fitted, options.fit, cells.edge_mm());
     for (const WalkedDataOptions& attempt : kAttempts) {
         work.check();
-        FittedFunction through =
-            refit.with(walked_data(walk, cells, alone, fitted, frame, drawing.diameter_mm() / 2, attempt, work), work);
+        FittedFunction through = refit.with(
+            walked_data(walk, walked, cells, alone, fitted, frame, drawing.diameter_mm() / 2, attempt, work), work);
         const double on_contours = largest_change(fitted.function, through.function, drawing.contours, work);
         const CellDepths now = cell_depths(cells, through.function, drawing.contours, work, Doubts::left);
-        if (on_contours > kMostOnContours * voxel_mm || leaves(walk, now, walked, cells) ||
+        if (on_contours > kMostOnContours * voxel_mm || leaves(walk, now, walked.depth_mm, cells) ||
             comes_through_planes(through.function, now, fitted.function, alone, image, work))
             continue;
         Moved places = moved(through.function, now, walk, alone, cells, frame, options.samples, work);

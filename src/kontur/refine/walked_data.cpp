@@ -19,21 +19,11 @@ constexpr std::size_t kMostGone = 450, kMostHeld = 900;
 constexpr double kStepsToShell = 1.5;                     // of the lattice whose places tell of what lies outside
 constexpr double kHeldNoise = 0.2, kMostHeldValue = 1.5;  // cells
 
-std::vector<std::uint8_t> insides(const VoxelWalk& walk) {
-    std::vector<std::uint8_t> inside(walk.inside.size());
-    for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = walk.is_inside(n);
-    return inside;
-}
-
 class Data {
 public:
-    Data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone, const WalkedDataOptions& options)
-        : walk_(walk),
-          cells_(cells),
-          alone_(alone),
-          walked_(depths_of(insides(walk), cells)),
-          options_(options),
-          asked_(walk.inside.size()) {
+    Data(const VoxelWalk& walk, const Depths& walked, const ImageCells& cells, const CellDepths& alone,
+         const WalkedDataOptions& options)
+        : walk_(walk), cells_(cells), alone_(alone), walked_(walked), options_(options), asked_(walk.inside.size()) {
         for (const std::uint32_t cell : walk.asked) asked_[cell] = 1;
     }
 
@@ -185,7 +175,7 @@ private:
     const VoxelWalk& walk_;
     const ImageCells& cells_;
     const CellDepths& alone_;
-    Depths walked_;  ///< below the walk's surface
+    const Depths& walked_;  ///< below the walk's surface
     Affine3 to_index_ = cells_.grid.index_to_mm.inverse();
     const WalkedDataOptions& options_;
     std::vector<std::uint8_t> asked_;
@@ -193,9 +183,10 @@ private:
 
 }  // namespace
 
-ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const CellDepths& alone, const FittedFunction& before,
-                      const Affine3& frame, double radius_mm, const WalkedDataOptions& options, const Work& work) {
-    const Data data(walk, cells, alone, options);
+ImageData walked_data(const VoxelWalk& walk, const Depths& walked, const ImageCells& cells, const CellDepths& alone,
+                      const FittedFunction& before, const Affine3& frame, double radius_mm, const WalkedDataOptions& options,
+                      const Work& work) {
+    const Data data(walk, walked, cells, alone, options);
     ImageData told{data.beside_surface(frame), data.outside(before, frame, radius_mm)};
     for (const std::vector<PointConstraint>& more : {data.gone(frame), data.held(before.function, frame, work)})
         told.values.insert(told.values.end(), more.begin(), more.end());
@@ -203,8 +194,10 @@ ImageData walked_data(const VoxelWalk& walk, const ImageCells& cells, const Cell
     return told;
 }
 
-std::vector<float> depths_below(const VoxelWalk& walk, const ImageCells& cells) {
-    return depths_of(insides(walk), cells).depth_mm;
+Depths depths_below(const VoxelWalk& walk, const ImageCells& cells) {
+    std::vector<std::uint8_t> inside(walk.inside.size());
+    for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = walk.is_inside(n);
+    return depths_of(inside, cells);
 }
 
 }  // namespace kontur

@@ -41,7 +41,7 @@ std::vector<double> distances(const TriangleMesh& mesh, const ImplicitFunction& 
 }  // namespace
 
 Json editing(const PhantomCase& phantom, int repeat) {
-    Editor editor({.segment = {}, .preview_spacing_mm = 2, .refined_spacing_mm = 4});  // of that, only the function counts
+    Editor editor({.segment = {}, .preview_spacing_mm = 2, .finished_spacing_mm = 4});  // of that, only the function counts
     editor.preview(phantom.contours);
     std::vector<Preview> previews;
     std::vector<double> shares, largest;
@@ -53,7 +53,7 @@ Json editing(const PhantomCase& phantom, int repeat) {
         previews.emplace_back(timing.seconds, preview.seconds);
         cpu_s += timing.cpu_seconds;
         if (edit % 6 != 2) continue;
-        const std::vector<double> off = distances(preview.mesh, editor.refine(contours).function);
+        const std::vector<double> off = distances(preview.mesh, editor.finish(contours).function);
         const auto within = std::upper_bound(off.begin(), off.end(), 0.5) - off.begin();
         shares.push_back(static_cast<double>(within) / static_cast<double>(off.size()));
         largest.push_back(off.back());

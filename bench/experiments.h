@@ -32,7 +32,7 @@ Json stages(const std::vector<std::pair<std::string, double>>& seconds);
 Json end_to_end(const PhantomCase& phantom, int repeat);
 
 /// From an edit of one contour to the preview's surface at 2 mm, while that contour is dragged to and fro; and how far the
-/// previews are from the refined surfaces.
+/// previews are from the finished surfaces.
 Json editing(const PhantomCase& phantom, int repeat);
 
 }  // namespace kontur::bench

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "kontur/drawing/orient.h"
-#include "kontur/drawing/prepare.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/solve/kernel_matrix.h"
 #include "kontur/solve/solve.h"
 #include "machine.h"

@@ -25,7 +25,7 @@ import sys
 import image_sources
 
 FIELDS = ["structure", "kind", "planes", "hand", "method", "dice_without", "hd95_without_mm", "mean_without_mm", "dice", "hd95_mm",
-          "mean_mm", "use", "error_without_mm", "error_with_mm", "largest_move_mm", "on_contours_voxels", "fit_cpu_s", "refine_cpu_s"]
+          "mean_mm", "use", "error_without_mm", "error_with_mm", "largest_move_mm", "on_contours_voxels", "fit_cpu_s", "image_cpu_s"]
 
 
 def command(program, data, name, words):
@@ -90,7 +90,7 @@ def line(name, rows):
     return (f"| {name} | {len(rows)} | {mean('dice_without'):.4f} | {mean('dice'):.4f} | {statistics.fmean(gains):+.4f} | "
             f"{statistics.median(gains):+.4f} | {min(gains):+.4f} | {sum(g < -0.005 for g in gains)} | {sum(g < -0.01 for g in gains)} | "
             f"{mean('mean_without_mm'):.2f} -> {mean('mean_mm'):.2f} | {sum(row['use'] in ('used', 'walked') for row in rows)} | {sum(row['use'] == 'walked' for row in rows)} | "
-            f"{mean('refine_cpu_s'):.2f} |")
+            f"{mean('image_cpu_s'):.2f} |")
 
 
 def tables(options):

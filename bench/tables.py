@@ -165,7 +165,7 @@ def editing(results):
         for row in results["editing"]
     ]
     header = [
-        "case", "edits", "median, s", "nine of ten within, s", "CPU s", "within 0.5 mm of the refined surface, %",
+        "case", "edits", "median, s", "nine of ten within, s", "CPU s", "within 0.5 mm of the finished surface, %",
         "largest distance, mm",
     ]
     return table(header, rows)

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "kontur/drawing/prepare.h"
 #include "kontur/extract/track.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/stages.h"
 
 namespace kontur {

@@ -23,8 +23,8 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/parallel.h"
-#include "kontur/io/atomic_file.h"
-#include "kontur/io/check_json.h"
+#include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/bytes/check_json.h"
 #include "kontur/view/picture.h"
 #include "outputs.h"
 

@@ -15,8 +15,8 @@
 #include "files.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
-#include "kontur/io/dicom_folder.h"
-#include "kontur/io/image_files.h"
+#include "kontur/io/dicom/dicom_folder.h"
+#include "kontur/io/images/image_files.h"
 #include "kontur/shape/sha256.h"
 #include "outputs.h"
 

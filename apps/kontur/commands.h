@@ -13,13 +13,13 @@
 #include "kontur/extract/trace.h"
 #include "kontur/fill_labels.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
-#include "kontur/io/rtstruct.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/phantom.h"
-#include "kontur/refine/candidate_planes.h"
 #include "kontur/segment.h"
-#include "viewer/server_options.h"
+#include "kontur/sureness/candidate_planes.h"
+#include "viewer/server/server_options.h"
 
 // One struct for each command, with its words and options and their defaults, and the function that runs it: it reads, calls
 // the library and writes. What it writes appears whole or not at all. All of them throw kontur::Error.

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "kontur/base/work.h"
-#include "kontur/io/read_image_options.h"
+#include "kontur/io/images/read_image_options.h"
 
 namespace kontur::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "kontur/base/error.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/rtstruct.h"
 
 namespace kontur::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "dicom_output.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "outputs.h"
 #include "structures.h"
 

@@ -5,9 +5,9 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/contours.h"
-#include "kontur/io/dicom_seg.h"
-#include "kontur/io/nrrd.h"
-#include "kontur/io/segment_tags.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/images/nrrd.h"
+#include "kontur/io/images/segment_tags.h"
 #include "kontur/labels/scattered.h"
 
 namespace kontur::app {

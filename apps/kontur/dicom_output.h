@@ -8,8 +8,8 @@
 
 #include "files.h"
 #include "kontur/base/work.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
-#include "kontur/io/rtstruct.h"
 #include "kontur/segment.h"
 #include "structures.h"
 

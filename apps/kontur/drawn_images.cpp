@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
-#include "kontur/io/dicom_series.h"
+#include "kontur/io/dicom/dicom_series.h"
 
 namespace kontur::app {
 namespace {

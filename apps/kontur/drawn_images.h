@@ -5,7 +5,7 @@
 
 #include "files.h"
 #include "kontur/base/work.h"
-#include "kontur/io/dicom_drawings.h"
+#include "kontur/io/dicom/dicom_drawings.h"
 
 namespace kontur::app {
 

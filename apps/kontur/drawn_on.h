@@ -7,8 +7,8 @@
 
 #include "files.h"
 #include "kontur/base/work.h"
+#include "kontur/image/follow_image.h"
 #include "kontur/io/image.h"
-#include "kontur/refine/refine.h"
 
 namespace kontur::app {
 

@@ -9,11 +9,11 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
-#include "kontur/io/dicom_seg.h"
-#include "kontur/io/dicom_series.h"
+#include "kontur/io/contours/vtk_contours.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
-#include "kontur/io/rtstruct.h"
-#include "kontur/io/vtk_contours.h"
 
 namespace kontur::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "kontur/io/read_image_options.h"
+#include "kontur/io/images/read_image_options.h"
 
 // The one place that knows which of the library's readers and writers a file needs.
 

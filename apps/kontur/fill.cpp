@@ -15,7 +15,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/machine_memory.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 #include "outputs.h"
 
 namespace kontur::app {
@@ -45,7 +45,7 @@ void check(const FillCommand& command) {
                     "--image is for --use-image auto and for DICOM (.dcm), which refers to images");
 }
 
-Facts image_facts(const RefineReport& image) {
+Facts image_facts(const ImageReport& image) {
     return {{"verdict", name(image.verdict)},
             {"planes_left_out", image.planes_left_out},
             {"displaced", image.displaced},

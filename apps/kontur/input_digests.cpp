@@ -10,7 +10,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/io/file_digest.h"
-#include "kontur/io/image_files.h"
+#include "kontur/io/images/image_files.h"
 #include "kontur/io/read_provenance.h"
 
 namespace kontur::app {

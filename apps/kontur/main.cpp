@@ -13,7 +13,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "kontur/base/error.h"
-#include "viewer/imports.h"
+#include "viewer/files/imports.h"
 
 namespace kontur::app {
 namespace {

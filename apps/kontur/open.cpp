@@ -18,12 +18,12 @@
 #include "child_process.h"
 #include "commands.h"
 #include "kontur/base/error.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 #include "open_project.h"
-#include "viewer/page.h"
-#include "viewer/server.h"
-#include "viewer/temporary_files.h"
-#include "viewer/workspace.h"
+#include "viewer/model/temporary_files.h"
+#include "viewer/server/page.h"
+#include "viewer/server/server.h"
+#include "viewer/server/workspace.h"
 
 namespace kontur::app {
 namespace {

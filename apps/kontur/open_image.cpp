@@ -7,14 +7,14 @@
 
 #include "dicom_output.h"
 #include "kontur/base/error.h"
-#include "kontur/io/dicom_seg.h"
-#include "kontur/io/dicom_suv.h"
-#include "kontur/io/frame_needed.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/dicom_suv.h"
 #include "kontur/io/image.h"
+#include "kontur/io/images/frame_needed.h"
 #include "kontur/phantom/phantom.h"
 #include "open_words.h"
-#include "viewer/image_identity.h"
-#include "viewer/workspace.h"
+#include "viewer/images/image_identity.h"
+#include "viewer/server/workspace.h"
 
 namespace kontur::app {
 namespace {

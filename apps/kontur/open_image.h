@@ -6,7 +6,7 @@
 
 #include "files.h"
 #include "kontur/base/work.h"
-#include "viewer/opened_image.h"
+#include "viewer/images/opened_image.h"
 
 namespace kontur::app {
 

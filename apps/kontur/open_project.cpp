@@ -12,13 +12,13 @@
 
 #include "drawn_images.h"
 #include "kontur/base/error.h"
-#include "kontur/io/dicom_drawings.h"
+#include "kontur/io/dicom/dicom_drawings.h"
 #include "kontur/io/image.h"
 #include "kontur/shape/repeated_contours.h"
-#include "viewer/import_doubts.h"
-#include "viewer/imports.h"
-#include "viewer/same_space.h"
-#include "viewer/temporary_files.h"
+#include "viewer/files/import_doubts.h"
+#include "viewer/files/imports.h"
+#include "viewer/images/same_space.h"
+#include "viewer/model/temporary_files.h"
 
 namespace kontur::app {
 namespace {

@@ -12,8 +12,8 @@
 #include "kontur/base/work.h"
 #include "open_image.h"
 #include "open_words.h"
-#include "viewer/session.h"
-#include "viewer/workspace.h"
+#include "viewer/server/workspace.h"
+#include "viewer/session/session.h"
 
 // What `kontur open` works on: an image with its project, from the words of the command or of a page.
 

@@ -8,9 +8,9 @@
 
 #include "drawn_images.h"
 #include "kontur/base/error.h"
-#include "kontur/io/dicom_drawings.h"
-#include "kontur/io/dicom_seg.h"
-#include "viewer/workspace.h"
+#include "kontur/io/dicom/dicom_drawings.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "viewer/server/workspace.h"
 
 namespace kontur::app {
 namespace {

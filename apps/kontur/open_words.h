@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "kontur/base/work.h"
-#include "viewer/image_reference.h"
+#include "viewer/images/image_reference.h"
 
 // What the words of `kontur open`, or of a page, name.
 

@@ -11,7 +11,7 @@
 
 #include "files.h"
 #include "kontur/base/error.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 
 namespace kontur::app {
 namespace {

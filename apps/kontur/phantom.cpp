@@ -9,7 +9,7 @@
 #include "facts.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
 #include "kontur/phantom/cases.h"

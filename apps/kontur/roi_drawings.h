@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "kontur/base/work.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/segment_together.h"
 
 namespace kontur::app {

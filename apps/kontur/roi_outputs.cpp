@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kontur/base/machine_memory.h"
-#include "kontur/io/region_mesh.h"
+#include "kontur/io/meshes/region_mesh.h"
 #include "kontur/report.h"
 #include "own_grid.h"
 

@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "dicom_output.h"
 #include "facts.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/labels/shared_surface.h"
 #include "kontur/segment_together.h"
 #include "roi_drawings.h"

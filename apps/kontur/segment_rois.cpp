@@ -15,7 +15,7 @@
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/extract/slice_contours.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 #include "kontur/labels/boxed_mask.h"
 #include "kontur/labels/section_contours.h"
 #include "kontur/report.h"

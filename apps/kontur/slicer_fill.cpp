@@ -5,7 +5,7 @@
 
 #include "fill.h"
 #include "kontur/base/error.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 #include "outputs.h"
 #include "slicer.h"
 #include "slicer_module.h"

@@ -9,9 +9,9 @@
 
 #include "commands.h"
 #include "kontur/base/error.h"
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 #include "kontur/io/file_digest.h"
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "kontur/segment.h"
 #include "outputs.h"
 #include "slicer_module.h"

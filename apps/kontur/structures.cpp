@@ -9,8 +9,8 @@
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/image.h"
-#include "kontur/io/nrrd.h"
-#include "kontur/io/segment_tags.h"
+#include "kontur/io/images/nrrd.h"
+#include "kontur/io/images/segment_tags.h"
 
 namespace kontur::app {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "files.h"
 #include "kontur/base/work.h"
-#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom/dicom_seg.h"
 #include "kontur/io/image.h"
 
 // What files say about the structures in them, and the structures one by one.

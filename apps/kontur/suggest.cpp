@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/refine/suggest_plane.h"
+#include "kontur/sureness/suggest_plane.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "facts.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
 #include "kontur/view/outline.h"
 #include "outputs.h"
 
@@ -136,7 +136,7 @@ void run(const SuggestCommand& command, Console& console) {
     outputs.commit();
 
     const std::string about = sentence(made.report.uncertainty);
-    const RefineReport& asked = made.report.image;
+    const ImageReport& asked = made.report.image;
     if (found.planes.size() < static_cast<std::size_t>(command.planes))
         console.warn(
             fmt::format("{} of {} planes are suggested: every other one that meets the object runs along one that "

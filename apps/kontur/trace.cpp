@@ -10,7 +10,7 @@
 #include "input_digests.h"
 #include "kontur/base/counted.h"
 #include "kontur/base/printable.h"
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
 #include "outputs.h"
 #include "structures.h"
 

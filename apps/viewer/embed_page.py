@@ -37,7 +37,7 @@ def main(folder, assembly, table):
         f'.incbin "{blob_path}"\n.section .note.GNU-stack,"",%progbits\n'
     )
     pathlib.Path(table).write_text(
-        "// Written by embed_page.py.\n#include \"viewer/page_table.h\"\n\nnamespace kontur::viewer {\n\n"
+        "// Written by embed_page.py.\n#include \"viewer/server/page_table.h\"\n\nnamespace kontur::viewer {\n\n"
         f"const PageEntry kPageEntries[] = {{\n" + "\n".join(rows) + "\n};\n"
         f"const std::size_t kPageEntryCount = {len(rows)};\n\n}}  // namespace kontur::viewer\n"
     )

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kontur/base/error.h"
-#include "kontur/refine/surface_uncertainty.h"
+#include "kontur/sureness/surface_uncertainty.h"
 
 namespace kontur {
 namespace {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fits the constants of src/kontur/refine/uncertainty_model.h to what simulated annotators drew.
+"""Fits the constants of src/kontur/sureness/uncertainty_model.h to what simulated annotators drew.
 
 Usage: bench/annotators/uncertainty_fit.py STATES.jsonl [--judge OTHER.jsonl]
 

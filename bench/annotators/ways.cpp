@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "kontur/refine/far_places.h"
-#include "kontur/refine/suggest_plane.h"
+#include "kontur/sureness/far_places.h"
+#include "kontur/sureness/suggest_plane.h"
 
 namespace kontur {
 namespace {

@@ -20,8 +20,8 @@
 #include "kontur/extract/voxelize.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/fit/fit.h"
-#include "kontur/io/read_image_options.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/images/read_image_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/grid.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/io/dicom_series.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "notes.h"
 #include "provenance.h"
 #include "roi_name.h"

@@ -25,10 +25,10 @@ Keywords<EditorOptions> editor_keywords() {
     };
     return Keywords<EditorOptions>()
         .field("preview_spacing_mm", &EditorOptions::preview_spacing_mm,
-               "Of the preview's lattice; 0: twice the refined surface's.")
+               "Of the preview's lattice; 0: twice the finished surface's.")
         .field(
-            "refined_spacing_mm", &EditorOptions::refined_spacing_mm,
-            "Of the refined surface's; 0: 1 % of the contours' diameter, or down to half of that where a drawn section is "
+            "finished_spacing_mm", &EditorOptions::finished_spacing_mm,
+            "Of the finished surface's; 0: 1 % of the contours' diameter, or down to half of that where a drawn section is "
             "narrower than four steps.")
         .field("preview_points", &EditorOptions::preview_points,
                "About how many of the drawn points a preview is fitted to.")
@@ -46,15 +46,15 @@ Keywords<EditorOptions> editor_keywords() {
 
 void bind_editor_itself(py::module_& m) {
     py::class_<EditedSurface> surface(m, "EditedSurface", "The surface through a set of contours.");
-    surface.def_readonly("refined", &EditedSurface::refined, "bool: False for a preview.");
+    surface.def_readonly("finished", &EditedSurface::finished, "bool: False for a preview.");
     surface.def_readonly("function", &EditedSurface::function, "ImplicitFunction");
     surface.def_readonly("mesh", &EditedSurface::mesh, "TriangleMesh: empty without contours.");
     surface.def_readonly("spacing_mm", &EditedSurface::spacing_mm, "float: of the lattice that the mesh was made on.");
-    surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; refined surfaces only.");
+    surface.def_readonly("residual", &EditedSurface::residual, "Residual: at all drawn points; finished surfaces only.");
     surface.def_readonly("near_lines", &EditedSurface::near_lines,
                          "list of NearLines: lines of one plane that count as one or leave a thin wall.");
     surface.def_readonly("solves", &EditedSurface::solves, "int: how often a linear system was solved for it.");
-    surface.def_readonly("image", &EditedSurface::image, "RefineReport: what became of the image; refined surfaces only.");
+    surface.def_readonly("image", &EditedSurface::image, "ImageReport: what became of the image; finished surfaces only.");
     surface.def_property_readonly(
         "seconds", [](const EditedSurface& s) { return py::dict(py::cast(s.seconds)); },
         "dict of str to float: wall time by stage; previews only.");
@@ -62,7 +62,7 @@ void bind_editor_itself(py::module_& m) {
     const Keywords<EditorOptions> keywords = editor_keywords();
     const std::string help = filled_in(R"(Follows contours while they are edited.
 
-After each edit `preview` gives a surface quickly, then `refine` the one that `segment` would give, with an image or without.
+After each edit `preview` gives a surface quickly, then `finish` the one that `segment` would give, with an image or without.
 Threads that share one wait for each other.
 
 Parameters
@@ -74,7 +74,7 @@ Examples
 >>> contours = kontur.phantom_case("kidney_radial6").contours
 >>> editor = kontur.Editor(preview_spacing_mm=2)
 >>> fewer = kontur.ContourSet(contours.contours[:5])
->>> editor.preview(fewer).refined, editor.preview(contours).refined, editor.refine(contours).refined
+>>> editor.preview(fewer).finished, editor.preview(contours).finished, editor.finish(contours).finished
 (False, False, True)
 )",
                                        keywords.documentation());
@@ -94,13 +94,13 @@ Examples
         },
         py::arg("contours"), py::kw_only(), kThreads, kProgress, kStop);
     method(
-        editor, "refine",
+        editor, "finish",
         "The final EditedSurface through a ContourSet: the same function as `segment`'s, with the `image` if one is given.",
         [](SharedEditor& self, const ContourSet& contours, const Image* image, int threads, const py::object& progress,
            const py::object& stop) {
             return run({progress, stop, threads}, [&](const Work& work) {
                 const std::lock_guard lock(self.mutex);
-                return self.editor.refine(contours, image, work);
+                return self.editor.finish(contours, image, work);
             });
         },
         py::arg("contours"), py::kw_only(), py::arg("image") = py::none(), kThreads, kProgress, kStop);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/io/contour_json.h"
 #include "kontur/io/contours.h"
+#include "kontur/io/contours/contour_json.h"
+#include "kontur/io/contours/markups.h"
 #include "kontur/io/file_digest.h"
-#include "kontur/io/markups.h"
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "kontur/io/read_provenance.h"
 #include "notes.h"
 #include "provenance.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
 #include "kontur/drawing/orient.h"
-#include "kontur/drawing/prepare.h"
 #include "kontur/drawing/reduce.h"
+#include "kontur/drawing/subdivide.h"
 #include "kontur/fit/fit.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/fit/sides.h"
 #include "kontur/solve/solve.h"
 #include "segment_words.h"
@@ -204,11 +205,11 @@ Contour
         },
         py::arg("contour"), py::arg("quality") = ReduceOptions{}.quality,
         py::arg("min_points") = ReduceOptions{}.min_points);
-    define(m, "refine", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.",
-           static_cast<Contour (*)(const Contour&, int)>(&refine), py::arg("contour"), py::arg("least_segments") = 0);
+    define(m, "subdivide", "The Contour with long segments subdivided; `least_segments` 0 is the paper's rule alone.",
+           static_cast<Contour (*)(const Contour&, int)>(&subdivide), py::arg("contour"), py::arg("least_segments") = 0);
     const auto preparing = prepare_keywords();
     define(
-        m, "prepare", R"(Reduces, refines and orients every contour.
+        m, "prepare", R"(Reduces, subdivides and orients every contour.
 
 Parameters
 ----------

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/io/affine_frame.h"
+#include "kontur/io/geometry/affine_frame.h"
 
 namespace kontur::python {
 namespace {

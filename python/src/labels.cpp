@@ -68,7 +68,7 @@ void bind_report(py::module_& m) {
         .field("slices", &FilledLabel::slices, "list of 3 int: painted ones across the grid's axes i, j and k.")
         .field("painted_voxels", &FilledLabel::painted_voxels, "int")
         .field("added_voxels", &FilledLabel::added_voxels, "int")
-        .field("image", &FilledLabel::image, "RefineReport: what became of the image between the slices.")
+        .field("image", &FilledLabel::image, "ImageReport: what became of the image between the slices.")
         .field("warnings", &FilledLabel::warnings, "list of str: one sentence each.")
         .picklable();
     py::class_<FillReport> report(m, "FillReport", "What `fill_labels` did.");

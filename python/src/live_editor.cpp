@@ -68,7 +68,7 @@ public:
             if (answered_ >= newest_) return;
             if (!editor_)
                 throw Error(ErrorKind::cancelled,
-                            "the editor was closed before edit " + std::to_string(newest_) + " was refined");
+                            "the editor was closed before edit " + std::to_string(newest_) + " was finished");
         }
     }
 
@@ -194,7 +194,7 @@ private:
 };
 
 std::string word(EditorUpdate::Kind kind) {
-    constexpr std::array<const char*, 5> kWords{"preview", "refined", "with_image", "problem", "progress"};
+    constexpr std::array<const char*, 5> kWords{"preview", "finished", "with_image", "problem", "progress"};
     return kWords[static_cast<std::size_t>(kind)];
 }
 
@@ -202,7 +202,7 @@ void bind_update(py::module_& m) {
     py::class_<EditorUpdate> update(m, "EditorUpdate", "What a LiveEditor has to say about an edit.");
     update.def_property_readonly(
         "kind", [](const EditorUpdate& u) { return word(u.kind); },
-        "str: 'preview', 'refined' (what the contours make: final for this edit, unless `asks_image`), 'with_image' (the "
+        "str: 'preview', 'finished' (what the contours make: final for this edit, unless `asks_image`), 'with_image' (the "
         "image "
         "was asked, and this is final), 'problem' (the contours cannot be fitted) or 'progress'.");
     update.def_readonly("edit", &EditorUpdate::edit, "int: which edit this answers, from 1.");
@@ -212,7 +212,7 @@ void bind_update(py::module_& m) {
             return has_surface(u) ? std::optional(u.surface) : std::nullopt;
         },
         "EditedSurface of an update that is neither a problem nor progress, else None.");
-    update.def_readonly("asks_image", &EditorUpdate::asks_image, "bool: of a refined one: 'with_image' follows.");
+    update.def_readonly("asks_image", &EditorUpdate::asks_image, "bool: of a finished one: 'with_image' follows.");
     update.def_readonly("problem", &EditorUpdate::problem, "str: why the contours cannot be fitted.");
     update.def_property_readonly(
         "stage", [](const EditorUpdate& u) { return std::string(u.stage); }, "str: of a progress update.");
@@ -224,9 +224,9 @@ void bind_update(py::module_& m) {
 void bind_live_editor(py::module_& m, const Keywords<EditorOptions>& keywords) {
     bind_update(m);
     const std::string help =
-        filled_in(R"(An Editor on a thread of its own: previews the newest contours, refines, then asks the image.
+        filled_in(R"(An Editor on a thread of its own: previews the newest contours, finishes, then asks the image.
 
-An edit cancels a running refinement, and the question to the image, at once; a running preview is finished first. Close it, or use it in a `with` statement.
+An edit cancels a running finishing, and the question to the image, at once; a running preview is finished first. Close it, or use it in a `with` statement.
 In a forked process it is closed.
 
 Parameters
@@ -244,7 +244,7 @@ Examples
 ...     number = editor.edit(contours)
 ...     editor.wait()
 >>> number, kinds[-1], "preview" in kinds
-(1, 'refined', True)
+(1, 'finished', True)
 )",
                   keywords.documentation());
     py::class_<ListenedEditor> editor(m, "LiveEditor", help.c_str());

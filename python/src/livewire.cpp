@@ -94,10 +94,10 @@ Returns
         },
         py::arg("pixel"), py::arg("radius"));
     method(
-        edges, "refined",
+        edges, "subpixel_position",
         "The edge's position to a fraction of a pixel: (column, row) as floats; the pixel's centre elsewhere.",
         [](const EdgeMap& self, const Position& pixel) {
-            const PixelPosition found = self.refined(pixel_of(self, pixel));
+            const PixelPosition found = self.subpixel_position(pixel_of(self, pixel));
             return py::make_tuple(found[0], found[1]);
         },
         py::arg("pixel"));

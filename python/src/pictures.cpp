@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/io/png.h"
+#include "kontur/io/bytes/png.h"
 #include "kontur/view/picture.h"
 #include "kontur/view/reslice.h"
 #include "kontur/view/window.h"

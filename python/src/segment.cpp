@@ -60,38 +60,38 @@ py::object mesh_of(const py::object& self) {
     return py::cast(&*mesh, py::return_value_policy::reference_internal, self);
 }
 
-void bind_refine_report(py::module_& m) {
+void bind_image_report(py::module_& m) {
     py::class_<AskedPoint> asked(m, "AskedPoint", "A place of the surface at which the image was asked.");
     Fields(asked)
         .field("position", &AskedPoint::position, "ndarray, shape (3,): mm.")
         .field("share", &AskedPoint::share, "float: of the error without the image that it leaves, 0 to 1.")
         .picklable();
-    py::class_<RefineReport> type(m, "RefineReport", "What became of the image between the contours.");
+    py::class_<ImageReport> type(m, "ImageReport", "What became of the image between the contours.");
     Fields(type)
-        .field("verdict", &RefineReport::verdict,
+        .field("verdict", &ImageReport::verdict,
                "str: 'none' (no image, or not asked for), 'labels' (a mask or label map), 'unknown' (too few planes to "
                "tell), 'no_help' and 'astray' (not used) or 'used'.")
-        .field("planes_left_out", &RefineReport::planes_left_out, "int: one after another, to see whether the image helps.")
-        .field("error_without_mm", &RefineReport::error_without_mm,
+        .field("planes_left_out", &ImageReport::planes_left_out, "int: one after another, to see whether the image helps.")
+        .field("error_without_mm", &ImageReport::error_without_mm,
                "float: mean distance of contours left out from the surface through the others.")
-        .field("error_with_mm", &RefineReport::error_with_mm, "float: the same with the image.")
-        .field("displaced", &RefineReport::displaced,
+        .field("error_with_mm", &ImageReport::error_with_mm, "float: the same with the image.")
+        .field("displaced", &ImageReport::displaced,
                "bool: the errors are those of a surface displaced at the contours on purpose, where leaving planes out did "
                "not show that the image helps.")
-        .field("walked", &RefineReport::walked,
+        .field("walked", &ImageReport::walked,
                "bool: the surface follows a random walk on the image's voxels, which finds branches that no contour shows.")
-        .field("weight", &RefineReport::weight,
+        .field("weight", &ImageReport::weight,
                "float: how far what the image shows is followed, 0 to 1: the walk, or else the movement.")
-        .field("wrong_without", &RefineReport::wrong_without,
+        .field("wrong_without", &ImageReport::wrong_without,
                "float: voxels of planes left out on the wrong side of the surface through the others, over those inside; 0 "
                "where no walk was used or tried.")
-        .field("wrong_with", &RefineReport::wrong_with, "float: the same with the walk.")
-        .field("largest_move_mm", &RefineReport::largest_move_mm, "float: of the surface.")
-        .field("intensities", &RefineReport::intensities, "int: read from the image.")
-        .field("on_contours_mm", &RefineReport::on_contours_mm, "float: the largest change of f at any drawn point.")
-        .field("asked", &RefineReport::asked, "list of AskedPoint: where the image was asked.")
+        .field("wrong_with", &ImageReport::wrong_with, "float: the same with the walk.")
+        .field("largest_move_mm", &ImageReport::largest_move_mm, "float: of the surface.")
+        .field("intensities", &ImageReport::intensities, "int: read from the image.")
+        .field("on_contours_mm", &ImageReport::on_contours_mm, "float: the largest change of f at any drawn point.")
+        .field("asked", &ImageReport::asked, "list of AskedPoint: where the image was asked.")
         .picklable();
-    type.def("__str__", [](const RefineReport& report) { return sentence(report); });
+    type.def("__str__", [](const ImageReport& report) { return sentence(report); });
 }
 
 void bind_report(py::module_& m) {
@@ -116,7 +116,7 @@ void bind_report(py::module_& m) {
         .field("solver", &Report::solver, "str: the one that ran.")
         .field("voxelizer", &Report::voxelizer, "str")
         .field("use_image", &Report::use_image, "str")
-        .field("image", &Report::image, "RefineReport: what became of the image between the contours.")
+        .field("image", &Report::image, "ImageReport: what became of the image between the contours.")
         .field("solves", &Report::solves, "int")
         .field("iterations", &Report::iterations, "int: over all solves; 0 for direct solvers.")
         .field("residual", &Report::residual, "Residual: at all drawn points.")
@@ -203,7 +203,7 @@ Keywords<SegmentOptions> segment_keywords() {
 }
 
 void bind_segment(py::module_& m) {
-    bind_refine_report(m);
+    bind_image_report(m);
     bind_report(m);
     bind_segmentation(m);
 

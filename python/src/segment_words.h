@@ -4,7 +4,7 @@
 #include "casters.h"
 #include "kontur/drawing/corners.h"
 #include "kontur/drawing/reconcile.h"
-#include "kontur/refine/refine.h"
+#include "kontur/image/follow_image.h"
 #include "kontur/shape/fill_rule.h"
 
 namespace kontur::python {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
-#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom/dicom_seg.h"
 #include "notes.h"
 #include "provenance.h"
 

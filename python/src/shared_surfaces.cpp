@@ -4,7 +4,7 @@
 
 #include "bindings.h"
 #include "fields.h"
-#include "kontur/io/region_mesh.h"
+#include "kontur/io/meshes/region_mesh.h"
 #include "kontur/segment_together.h"
 #include "provenance.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings.h"
 #include "fields.h"
-#include "kontur/refine/suggest_plane.h"
-#include "kontur/refine/surface_uncertainty.h"
-#include "kontur/refine/uncertainty_map.h"
 #include "kontur/segment.h"
+#include "kontur/sureness/suggest_plane.h"
+#include "kontur/sureness/surface_uncertainty.h"
+#include "kontur/sureness/uncertainty_map.h"
 
 namespace kontur::python {
 

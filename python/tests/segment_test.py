@@ -210,7 +210,7 @@ def test_wrong_options_are_refused_by_name(case):
 def test_options_out_of_their_range_are_refused_before_any_work(case, tmp_path):
     nan = float("nan")
     for editor in (kontur.Editor, lambda **options: kontur.LiveEditor(print, **options)):
-        for option in ("preview_spacing_mm", "refined_spacing_mm"):
+        for option in ("preview_spacing_mm", "finished_spacing_mm"):
             with pytest.raises(kontur.InvalidInputError, match="spacing is nan mm; it must be finite and at least 0"):
                 editor(**{option: nan})
     with pytest.raises(kontur.InvalidInputError, match="the window's width is 0"):

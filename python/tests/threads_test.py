@@ -86,7 +86,7 @@ def test_closing_ends_the_waits(case):
     time.sleep(0.05)
     editor.close()
     thread.join(timeout=20)
-    assert ends == [(kontur.CancelledError, "the editor was closed before edit 1 was refined")]
+    assert ends == [(kontur.CancelledError, "the editor was closed before edit 1 was finished")]
     with pytest.raises(kontur.InvalidInputError, match="closed"):
         editor.wait()
 

@@ -102,9 +102,9 @@ def test_a_live_editor_answers_the_newest_edit(case):
             number = editor.edit(kontur.ContourSet(case.contours.contours[:count]))
         editor.wait()
         assert number == 4
-    final = [update for update in updates if update.kind == "refined"][-1]
-    assert final.edit == 4 and final.surface.refined
-    assert numpy.array_equal(final.surface.function.weights, kontur.Editor().refine(case.contours).function.weights)
+    final = [update for update in updates if update.kind == "finished"][-1]
+    assert final.edit == 4 and final.surface.finished
+    assert numpy.array_equal(final.surface.function.weights, kontur.Editor().finish(case.contours).function.weights)
     with pytest.raises(kontur.InvalidInputError, match="closed"):
         editor.edit(case.contours)
 
@@ -125,17 +125,17 @@ def test_editors_ask_the_image_that_they_are_given():
     contours, image = ball_on_image()
     wanted = kontur.segment(contours, image.grid, image=image)
     assert wanted.report.image.verdict == "used"
-    refined = kontur.Editor().refine(contours, image=image)
-    assert numpy.array_equal(refined.function.weights, wanted.function.weights)
-    assert refined.image.error_with_mm == wanted.report.image.error_with_mm
-    assert kontur.Editor().refine(contours).image.verdict == "none"
+    finished = kontur.Editor().finish(contours, image=image)
+    assert numpy.array_equal(finished.function.weights, wanted.function.weights)
+    assert finished.image.error_with_mm == wanted.report.image.error_with_mm
+    assert kontur.Editor().finish(contours).image.verdict == "none"
     updates = []
     with kontur.LiveEditor(updates.append) as editor:
         editor.edit(contours, image=image)
         del image  # the editor keeps it
         editor.wait()
     told = [update for update in updates if update.kind != "progress"]
-    assert [(update.kind, update.asks_image) for update in told] == [("preview", False), ("refined", True), ("with_image", False)]
+    assert [(update.kind, update.asks_image) for update in told] == [("preview", False), ("finished", True), ("with_image", False)]
     assert numpy.array_equal(told[-1].surface.function.weights, wanted.function.weights)
     assert told[-1].surface.image.verdict == "used"
     with pytest.raises(TypeError):

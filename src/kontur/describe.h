@@ -3,10 +3,10 @@
 
 #include "kontur/base/work.h"
 #include "kontur/extract/track.h"
-#include "kontur/refine/surface_evidence.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/volume.h"
 #include "kontur/stages.h"
+#include "kontur/sureness/surface_evidence.h"
 
 namespace kontur {
 
@@ -16,7 +16,7 @@ struct StageResults {
     const StageOptions& options;
     const PreparedContours& prepared;
     const FittedFunction& fitted;
-    const RefineReport& image;
+    const ImageReport& image;
     const SurfaceLattice& surface;
     const Mask& mask;
 };

@@ -16,7 +16,7 @@ namespace kontur {
 namespace {
 
 // A thousand points tell the surface to some 0.1 mm, so the solver need not do better.
-constexpr double kPreviewTolerance = 50;  // times that of the refined surface
+constexpr double kPreviewTolerance = 50;  // times that of the finished surface
 constexpr std::size_t kPreviewLines = 2;  // times as many points as the preview has tell where lines run
 // Of what follows the image's last word until the next one: a liver of 30 contours with 8,540 points is on average 0.105
 // instead of 0.049 mm off that, and told in a third of the time.
@@ -25,7 +25,7 @@ constexpr std::size_t kFollowedPoints = 3000;
 constexpr double kSpacingFraction = 0.01;   // of the contours' diameter
 constexpr double kLeastSpacing = 0.5;       // of that ...
 constexpr double kStepsAcross = 4;          // ... where something drawn is narrower than so many steps
-constexpr double kPreviewSteps = 2;         // so many times as far apart as the refined surface's
+constexpr double kPreviewSteps = 2;         // so many times as far apart as the finished surface's
 constexpr double kShownNoise = 0.04;        // of the preview's spacing: what the image said before
 constexpr double kPlaneTolerance = 0.0015;  // of the diameter: what is drawn so near to each other is in one plane
 // A cut is cheap: it may be finer than the mesh.
@@ -89,19 +89,19 @@ EditedSurface surface_of(const FittedFunction& fit, std::span<const Vec3> starts
 
 Editor::Editor(EditorOptions options) : options_(options) {
     check_not_below_0("the preview's spacing", options_.preview_spacing_mm, " mm");
-    check_not_below_0("the refined surface's spacing", options_.refined_spacing_mm, " mm");
+    check_not_below_0("the finished surface's spacing", options_.finished_spacing_mm, " mm");
     if (options_.preview_points < 1)
         throw Error(ErrorKind::invalid_input, "the preview is fitted to 0 points; at least 1 is needed");
 }
 
-double Editor::refined_spacing(const Drawing& drawing) const {
-    if (options_.refined_spacing_mm > 0) return options_.refined_spacing_mm;
+double Editor::finished_spacing(const Drawing& drawing) const {
+    if (options_.finished_spacing_mm > 0) return options_.finished_spacing_mm;
     const double usual = kSpacingFraction * drawing.diameter_mm();
     return std::clamp(narrowest_mm(drawing) / kStepsAcross, kLeastSpacing * usual, usual);
 }
 
 double Editor::preview_spacing(const Drawing& drawing) const {
-    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kPreviewSteps * refined_spacing(drawing);
+    return options_.preview_spacing_mm > 0 ? options_.preview_spacing_mm : kPreviewSteps * finished_spacing(drawing);
 }
 
 /// Of the point that lies nearest to a place, if it is near: mostly that of number `n`.
@@ -218,26 +218,26 @@ EditedSurface Editor::preview(const ContourSet& drawn, const Work& work,
     return surface;
 }
 
-EditedSurface Editor::refine(const ContourSet& drawn, const Work& work) const {
-    return Editor(options_).refine(drawn, nullptr, work);
+EditedSurface Editor::finish(const ContourSet& drawn, const Work& work) const {
+    return Editor(options_).finish(drawn, nullptr, work);
 }
 
-EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const Work& work,
+EditedSurface Editor::finish(const ContourSet& drawn, const Image* image, const Work& work,
                              const std::function<void(const EditedSurface&)>& alone) {
     if (drawn.contours.empty()) {
         EditedSurface nothing;
-        nothing.refined = true;
+        nothing.finished = true;
         return nothing;
     }
     const Drawing drawing = read_drawing(drawn, options_.segment.fill_rule);
     const StageOptions stages = stage_options(options_.segment, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages, work);
-    const double spacing_mm = refined_spacing(drawing);
-    const auto refined_surface = [&](const FittedFunction& fitted) {
+    const double spacing_mm = finished_spacing(drawing);
+    const auto finished_surface = [&](const FittedFunction& fitted) {
         EditedSurface surface =
             surface_of(fitted, start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm),
                        {spacing_mm}, work);
-        surface.refined = true;
+        surface.finished = true;
         surface.residual = residual(surface.function, drawing.contours, work);
         surface.residual.worst_contour = drawing.numbers.at(surface.residual.worst_contour);
         surface.sides = sides_of(drawing);
@@ -253,24 +253,24 @@ EditedSurface Editor::refine(const ContourSet& drawn, const Image* image, const 
         once.most_solves = 1;
         once.most_points = kFollowedPoints;
         if (shown > 0) {
-            EditedSurface surface = refined_surface(fit(followed, once, work));
+            EditedSurface surface = finished_surface(fit(followed, once, work));
             surface.shown_before = shown;
             alone(surface);
         }
     }
     const FittedFunction by_contours = fit(prepared, stages.fit, work);
-    EditedSurface surface = refined_surface(by_contours);
+    EditedSurface surface = finished_surface(by_contours);
     if (!asks) return surface;
     if (alone) alone(surface);
     fits_->begin_question();
-    RefinedFunction with_image = kontur::refine(drawing, prepared, by_contours, *image, stages, work, fits_.get());
-    if (with_image.report.verdict == ImageVerdict::used) surface = refined_surface(with_image.fitted);
+    ImageFit with_image = follow_image(drawing, prepared, by_contours, *image, stages, work, fits_.get());
+    if (with_image.report.verdict == ImageVerdict::used) surface = finished_surface(with_image.fitted);
     surface.image = std::move(with_image.report);
     follow_image_of(drawn, surface.image);
     return surface;
 }
 
-void Editor::follow_image_of(const ContourSet& drawn, const RefineReport& said) {
+void Editor::follow_image_of(const ContourSet& drawn, const ImageReport& said) {
     forget_image();
     if (!said.asked.empty()) asked_.emplace(drawn, said.asked);
 }

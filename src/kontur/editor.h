@@ -10,11 +10,11 @@
 
 #include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
-#include "kontur/drawing/prepare.h"
 #include "kontur/extract/surface_band.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/fit/residual.h"
-#include "kontur/refine/asked_before.h"
-#include "kontur/refine/kept_fits.h"
+#include "kontur/image/asked_before.h"
+#include "kontur/image/kept_fits.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/volume.h"
 
@@ -22,23 +22,23 @@ namespace kontur {
 
 struct EditorOptions {
     SegmentOptions segment;             ///< how the contours are fitted; `voxelizer` and `mesh` do not matter
-    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: twice what that of the refined surface would be
-    double refined_spacing_mm = 0;      ///< of the refined surface's lattice; 0: a hundredth of the contours' diameter, or
+    double preview_spacing_mm = 0;      ///< of the preview's lattice; 0: twice what that of the finished surface would be
+    double finished_spacing_mm = 0;     ///< of the finished surface's lattice; 0: a hundredth of the contours' diameter, or
                                         ///< down to half of that where a drawn section is narrower than four steps
     std::size_t preview_points = 1000;  ///< about how many of the drawn points a preview is fitted to; at least 1
 };
 
 /// The surface through a set of contours.
 struct EditedSurface {
-    bool refined = false;  ///< false: a preview
+    bool finished = false;  ///< false: a preview
     ImplicitFunction function;
     TriangleMesh mesh;                    ///< in mm, with normals; empty without contours
     double spacing_mm = 0;                ///< of the lattice that the mesh was made on
-    Residual residual;                    ///< at all drawn points, contours as they came; refined surfaces only
+    Residual residual;                    ///< at all drawn points, contours as they came; finished surfaces only
     std::vector<FoundSide> sides;         ///< of the open contours that do not tell, numbered as they came
     std::vector<NearLines> near_lines{};  ///< of one plane, numbered as they came
     int solves = 0;                       ///< how often a linear system was solved for it
-    RefineReport image{};                 ///< what became of the image; refined surfaces only
+    ImageReport image{};                  ///< what became of the image; finished surfaces only
     std::size_t shown_before = 0;  ///< places at which it follows what the image said before the edit: of previews, and of
                                    ///< what is told while the image is asked again
 
@@ -46,7 +46,7 @@ struct EditedSurface {
 };
 
 /// Follows contours while they are edited. After each edit, `preview` gives a surface within about a tenth of a second for
-/// organs, then `refine` the one that `segment` would give, with an image or without: the same function, to the last bit,
+/// organs, then `finish` the one that `segment` would give, with an image or without: the same function, to the last bit,
 /// whatever came before.
 ///
 /// A preview is fitted to a part of the points, to a fraction of a voxel, and of lines with many more than that a part is
@@ -68,15 +68,15 @@ public:
     /// `ahead` is told as soon as the surface can be cut by planes, halfway to the mesh; not without contours.
     EditedSurface preview(const ContourSet& contours, const Work& work = {},
                           const std::function<void(const SurfaceBand&)>& ahead = {});
-    EditedSurface refine(const ContourSet& contours, const Work& work = {}) const;
+    EditedSurface finish(const ContourSet& contours, const Work& work = {}) const;
     /// With an image, which has to stay until the call returns. Where it is to be asked, `alone` is told first what the
     /// contours alone make, which stays the result where the image does not help; and before that, where the image has been
     /// asked about an earlier drawing, what some 3,000 of the drawn points make with what it said then. Throws as
-    /// `kontur::refine`, too.
-    EditedSurface refine(const ContourSet& contours, const Image* image, const Work& work = {},
+    /// `follow_image`, too.
+    EditedSurface finish(const ContourSet& contours, const Image* image, const Work& work = {},
                          const std::function<void(const EditedSurface&)>& alone = {});
-    /// Previews follow what an image said of these contours, as it was told when they were refined.
-    void follow_image_of(const ContourSet& contours, const RefineReport& said);
+    /// Previews follow what an image said of these contours, as it was told when they were finished.
+    void follow_image_of(const ContourSet& contours, const ImageReport& said);
     /// Previews no longer follow what an image said: it is another one now, or none.
     void forget_image() { asked_.reset(); }
 
@@ -108,7 +108,7 @@ private:
     std::vector<std::size_t> held_before(const std::vector<Bound>& bounds) const;
     void remember(const ContourSet& contours, const PreparedContours& prepared, const FittedFunction& fitted);
     double preview_spacing(const Drawing& drawing) const;
-    double refined_spacing(const Drawing& drawing) const;
+    double finished_spacing(const Drawing& drawing) const;
 
     EditorOptions options_;
     std::vector<Known> known_;

@@ -33,7 +33,7 @@ double beyond(FillEnds ends) {
 }
 
 /// By which factor the image makes the variance of the fit smaller; 1 where it is not used.
-double variance_left(const RefineReport& image) { return image.share_left() * image.share_left(); }
+double variance_left(const ImageReport& image) { return image.share_left() * image.share_left(); }
 
 /// What one fit leaves.
 struct Fitted {
@@ -50,7 +50,7 @@ public:
     const Grid& grid() const { return map_.labels().grid; }
 
     /// Fits one object and gives it what nobody painted and no deeper one has. Returns what became of the image.
-    RefineReport add(const PaintedObject& object, const IndexBox& range) {
+    ImageReport add(const PaintedObject& object, const IndexBox& range) {
         Segmentation result = fit(object, range, image_);
         follow_shapes(object, range, result);
         std::map<std::int64_t, std::vector<std::size_t>> contested;
@@ -103,11 +103,11 @@ private:
 
     /// With the image through all outlines: there it is learnt what the border looks like.
     Segmentation fit(const PaintedObject& object, const IndexBox& range, const Image* image) const {
-        RefineReport asked;
+        ImageReport asked;
         if (image) {
-            Segmentation refined = segment_object(object, range, image, {});
-            if (refined.report.image.verdict == ImageVerdict::used) return refined;
-            asked = std::move(refined.report.image);
+            Segmentation with_image = segment_object(object, range, image, {});
+            if (with_image.report.image.verdict == ImageVerdict::used) return with_image;
+            asked = std::move(with_image.report.image);
         }
         const ContourSet contours = contours_of(object, options_.smoothing_voxels);
         Segmentation alone = segment_object(object, range, nullptr, outline_smoothing(object, contours));

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/refine/refine.h"
+#include "kontur/image/follow_image.h"
 #include "kontur/shape/volume.h"
 
 namespace kontur {
@@ -43,7 +43,7 @@ struct FilledLabel {
     std::array<std::int64_t, 3> slices{};  ///< painted ones across the grid's axes i, j and k
     std::int64_t painted_voxels = 0;
     std::int64_t added_voxels = 0;
-    RefineReport image{};               ///< what became of the image between the slices
+    ImageReport image{};                ///< what became of the image between the slices
     std::vector<std::string> warnings;  ///< one sentence each
 };
 

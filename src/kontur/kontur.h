@@ -9,9 +9,9 @@
 #include "kontur/base/geometry.h"
 #include "kontur/base/parallel.h"
 #include "kontur/base/printable.h"
-#include "kontur/shape/sha256.h"
 #include "kontur/base/smallest_ball.h"
 #include "kontur/base/work.h"
+#include "kontur/shape/sha256.h"
 
 // What goes in and comes out.
 #include "kontur/shape/box_tree.h"
@@ -32,23 +32,24 @@
 #include "kontur/shape/volume.h"
 
 // Files to shapes.
-#include "kontur/io/contour_json.h"
 #include "kontur/io/contours.h"
-#include "kontur/io/dicom_identity.h"
-#include "kontur/io/dicom_seg.h"
-#include "kontur/io/dicom_series.h"
+#include "kontur/io/contours/contour_json.h"
+#include "kontur/io/contours/markups.h"
+#include "kontur/io/dicom/dicom_identity.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
-#include "kontur/io/markups.h"
 #include "kontur/io/read_provenance.h"
-#include "kontur/io/rtstruct.h"
 
 // What the contours say.
 #include "kontur/drawing/corners.h"
 #include "kontur/drawing/orient.h"
-#include "kontur/drawing/prepare.h"
 #include "kontur/drawing/reconcile.h"
 #include "kontur/drawing/reduce.h"
+#include "kontur/drawing/subdivide.h"
+#include "kontur/fit/prepare.h"
 
 // The function: sums of a kernel.
 #include "kontur/function/fast_function.h"
@@ -62,7 +63,7 @@
 #include "kontur/solve/solve.h"
 
 // The image between the contours.
-#include "kontur/refine/refine.h"
+#include "kontur/image/follow_image.h"
 
 // The function becomes voxels or triangles; a mask becomes contours.
 #include "kontur/extract/adaptive.h"
@@ -76,14 +77,14 @@
 #include "kontur/extract/voxelize.h"
 
 // How sure the surface is, and where to draw next.
-#include "kontur/refine/candidate_planes.h"
-#include "kontur/refine/drawn_lines.h"
-#include "kontur/refine/expected_dice.h"
-#include "kontur/refine/suggest_plane.h"
-#include "kontur/refine/surface_evidence.h"
-#include "kontur/refine/surface_samples.h"
-#include "kontur/refine/surface_uncertainty.h"
-#include "kontur/refine/uncertainty_map.h"
+#include "kontur/sampling/drawn_lines.h"
+#include "kontur/sampling/surface_samples.h"
+#include "kontur/sureness/candidate_planes.h"
+#include "kontur/sureness/expected_dice.h"
+#include "kontur/sureness/suggest_plane.h"
+#include "kontur/sureness/surface_evidence.h"
+#include "kontur/sureness/surface_uncertainty.h"
+#include "kontur/sureness/uncertainty_map.h"
 
 // All of it at once.
 #include "kontur/editor.h"
@@ -105,10 +106,10 @@
 #include "kontur/view/reslice.h"
 
 // Shapes to files.
-#include "kontur/io/atomic_file.h"
-#include "kontur/io/mesh.h"
-#include "kontur/io/png.h"
-#include "kontur/io/region_mesh.h"
+#include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/bytes/png.h"
+#include "kontur/io/meshes/mesh.h"
+#include "kontur/io/meshes/region_mesh.h"
 
 // Bodies with exact truth.
 #include "kontur/phantom/bodies.h"

@@ -66,7 +66,7 @@ struct LiveEditor::Worker {
     std::uint64_t answered = 0;  ///< the newest that is done with
     std::optional<Edit> pending;
     std::shared_ptr<Edit> answering;  ///< null once the last is told of it; its number alone changes
-    std::stop_source refining{std::nostopstate};
+    std::stop_source finishing{std::nostopstate};
     bool closing = false;
     std::jthread thread;  // last: starts when all else is there
 
@@ -82,7 +82,7 @@ struct LiveEditor::Worker {
     ~Worker() {
         const std::lock_guard lock(mutex);
         closing = true;
-        refining.request_stop();
+        finishing.request_stop();
         changed.notify_all();
     }
 
@@ -114,16 +114,16 @@ struct LiveEditor::Worker {
             update.surface = editor.preview(edit.contours, work_for(edit, closed), tell_ahead);
             update.kind = EditorUpdate::Kind::preview;
             tell(edit, update);
-            const std::stop_token stop = start_refining();
+            const std::stop_token stop = start_finishing();
             if (stop.stop_requested()) return;
             Answer answer{edit.contours, edit.image, edit.image != nullptr, std::nullopt, {}};
-            answer.last.kind = EditorUpdate::Kind::refined;
+            answer.last.kind = EditorUpdate::Kind::finished;
             const auto tell_before = [&](const EditedSurface& surface) {
                 tell_before_image(edit, surface);
                 answer.alone = surface;  // the last of them
                 answer.last.kind = EditorUpdate::Kind::with_image;
             };
-            answer.last.surface = editor.refine(edit.contours, edit.image.get(), work_for(edit, stop), tell_before);
+            answer.last.surface = editor.finish(edit.contours, edit.image.get(), work_for(edit, stop), tell_before);
             tell_last(edit, answer.last);
             keep(std::move(answer));
         } catch (const std::exception& error) {
@@ -153,7 +153,7 @@ struct LiveEditor::Worker {
 
     void tell_before_image(const Edit& edit, const EditedSurface& surface) {
         EditorUpdate update;
-        update.kind = EditorUpdate::Kind::refined;
+        update.kind = EditorUpdate::Kind::finished;
         update.surface = surface;
         update.asks_image = true;
         tell(edit, update);
@@ -189,12 +189,12 @@ struct LiveEditor::Worker {
     }
 
     /// Waits a little, then returns a token that the next edit stops; stopped already if that edit has come.
-    std::stop_token start_refining() {
+    std::stop_token start_finishing() {
         std::unique_lock lock(mutex);
         const bool is_disturbed = changed.wait_for(lock, rest, [&] { return pending || closing; });
-        refining = std::stop_source();
-        if (is_disturbed) refining.request_stop();
-        return refining.get_token();
+        finishing = std::stop_source();
+        if (is_disturbed) finishing.request_stop();
+        return finishing.get_token();
     }
 
     Work work_for(const Edit& edit, std::stop_token stop) {
@@ -221,7 +221,7 @@ std::uint64_t LiveEditor::edit(ContourSet contours, std::shared_ptr<const Image>
     const std::shared_ptr<Worker::Edit>& answering = worker_->answering;
     if (!worker_->pending && answering && answering->asks_the_same(contours, image)) return answering->number = number;
     worker_->pending = {number, std::move(contours), std::move(image)};
-    worker_->refining.request_stop();
+    worker_->finishing.request_stop();
     worker_->changed.notify_all();
     return number;
 }

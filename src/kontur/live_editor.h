@@ -15,16 +15,16 @@ namespace kontur {
 /// What a LiveEditor has to say about an edit.
 struct EditorUpdate {
     enum class Kind {
-        preview,     ///< `surface` is a preview; the refined one follows unless there is another edit
-        refined,     ///< `surface` is what the contours make: final for this edit, unless `asks_image`
-        with_image,  ///< the image was asked, and `surface` is final: the refined one, where `surface.image` was not used
+        preview,     ///< `surface` is a preview; the finished one follows unless there is another edit
+        finished,    ///< `surface` is what the contours make: final for this edit, unless `asks_image`
+        with_image,  ///< the image was asked, and `surface` is final: the finished one, where `surface.image` was not used
         problem,     ///< the contours cannot be fitted; `problem` says why
         progress,    ///< `stage` has done the fraction `done`
     };
     Kind kind = Kind::progress;
     std::uint64_t edit = 0;  ///< which edit this answers
     EditedSurface surface;
-    /// Of a refined one: `with_image` follows, unless there is another edit. Where the image has been asked before, the
+    /// Of a finished one: `with_image` follows, unless there is another edit. Where the image has been asked before, the
     /// first such one follows what it said then (`surface.shown_before`), and the second is what the contours make alone.
     bool asks_image = false;
     std::string problem;
@@ -32,8 +32,8 @@ struct EditorUpdate {
     double done = 0;
 };
 
-/// An Editor on a thread of its own: takes the newest contours, previews them, refines, and asks the image, if there is one.
-/// An edit cancels a running refinement, and the question to the image, at once. A running preview is finished first, so
+/// An Editor on a thread of its own: takes the newest contours, previews them, finishes, and asks the image, if there is
+/// one. An edit cancels a running finishing, and the question to the image, at once. A running preview is finished first, so
 /// that surfaces keep coming while a hand drags a contour; edits that arrive meanwhile are answered by the newest of them
 /// alone. An edit that changes nothing, as when a hand lets go, does not begin anything anew: what is being computed answers
 /// it, too. One that makes the drawing what it was for one of the last `kKeptAnswers` edits that have their final surface,
@@ -49,7 +49,7 @@ public:
     /// Likewise, when a preview can be cut by planes but has no mesh yet.
     using BandListener = std::function<void(std::uint64_t edit, const SurfaceBand& band)>;
 
-    /// Works on so many threads (0: the machine's). `rest`: so long after a preview refining begins, so that whoever shows
+    /// Works on so many threads (0: the machine's). `rest`: so long after a preview finishing begins, so that whoever shows
     /// the preview has the processors to himself. Throws as Editor does.
     LiveEditor(const EditorOptions& options, Listener listener, BandListener ahead = {}, int threads = 0,
                std::chrono::milliseconds rest = {});

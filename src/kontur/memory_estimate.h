@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kontur/drawing/drawing.h"
-#include "kontur/drawing/prepare.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/grid.h"
 

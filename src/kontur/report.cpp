@@ -64,7 +64,7 @@ Facts mask_json(const SegmentReport& report) {
 
 /// What the image said between the contours; only its use where it was not asked.
 Facts image_json(const SegmentReport& report) {
-    const RefineReport& image = report.image;
+    const ImageReport& image = report.image;
     if (image.verdict == ImageVerdict::none) return {{"verdict", name(image.verdict)}};
     return {{"verdict", name(image.verdict)},
             {"sentence", sentence(image)},

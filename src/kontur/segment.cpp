@@ -33,8 +33,8 @@ Segmentation segment(const ContourSet& drawn, const Grid& grid, const Image* ima
     watch.lap("fit");
     const bool asks_image = image && options.use_image != UseImage::off;
     const auto [fitted, image_report] =
-        asks_image ? refine(drawing, prepared, by_contours, *image, stages, work) : RefinedFunction{by_contours, {}};
-    if (image_report.verdict != ImageVerdict::none) watch.lap("refine");
+        asks_image ? follow_image(drawing, prepared, by_contours, *image, stages, work) : ImageFit{by_contours, {}};
+    if (image_report.verdict != ImageVerdict::none) watch.lap("image");
 
     const std::vector<Vec3> starts =
         start_points(drawing.contours, prepared, fitted.function, stages.prepare.click_margin_mm);

@@ -5,12 +5,12 @@
 
 #include "kontur/base/work.h"
 #include "kontur/function/implicit_function.h"
-#include "kontur/refine/surface_evidence.h"
 #include "kontur/segment_options.h"
 #include "kontur/segment_report.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/mesh.h"
 #include "kontur/shape/volume.h"
+#include "kontur/sureness/surface_evidence.h"
 
 namespace kontur {
 

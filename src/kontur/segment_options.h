@@ -7,7 +7,7 @@
 #include "kontur/drawing/reconcile.h"
 #include "kontur/extract/voxelize.h"
 #include "kontur/fit/fit.h"
-#include "kontur/refine/refine.h"
+#include "kontur/image/follow_image.h"
 #include "kontur/shape/fill_rule.h"
 
 namespace kontur {

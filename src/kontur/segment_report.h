@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "kontur/fit/residual.h"
-#include "kontur/refine/refine.h"
-#include "kontur/refine/surface_uncertainty.h"
+#include "kontur/image/follow_image.h"
 #include "kontur/segment_options.h"
 #include "kontur/shape/contour.h"
 #include "kontur/shape/crossings.h"
 #include "kontur/shape/grid.h"
 #include "kontur/shape/near_lines.h"
 #include "kontur/shape/provenance.h"
+#include "kontur/sureness/surface_uncertainty.h"
 
 namespace kontur {
 
@@ -39,7 +39,7 @@ struct SegmentReport {
     Solver solver = Solver::automatic;
     Voxelizer voxelizer = Voxelizer::adaptive;
     UseImage use_image = UseImage::automatic;
-    RefineReport image;  ///< what became of the image between the contours
+    ImageReport image;  ///< what became of the image between the contours
     int solves = 0;
     int iterations = 0;                 ///< over all solves; 0 for direct solvers
     Residual residual;                  ///< at all drawn points

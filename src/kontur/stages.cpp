@@ -11,7 +11,7 @@
 #include "kontur/drawing/ring_starts.h"
 #include "kontur/fit/sides.h"
 #include "kontur/fit/spread.h"
-#include "kontur/refine/spread_points.h"
+#include "kontur/sampling/spread_points.h"
 
 namespace kontur {
 namespace {
@@ -142,13 +142,13 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
     return fit(prepare(drawing, coarse, work), coarse.fit, work).function;
 }
 
-RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image& image, const StageOptions& options, const Work& work, KeptFits* kept) {
+ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
+                      const Image& image, const StageOptions& options, const Work& work, KeptFits* kept) {
     work.report("ask the image", 0);
     const Work alone{.threads = 1, .stop = work.stop};  // parts are fitted beside each other
     const FitContours fit_part = [&](const ContourSet& part) { return fit_coarsely(part, options, alone); };
     const FitContours fit_once = [&](const ContourSet& part) { return kept->of(part, drawing.diameter_mm(), fit_part); };
-    return refine(drawing, prepared, fitted, image, kept ? fit_once : fit_part, {.fit = options.fit}, work);
+    return follow_image(drawing, prepared, fitted, image, kept ? fit_once : fit_part, {.fit = options.fit}, work);
 }
 
 namespace {

@@ -5,11 +5,11 @@
 
 #include "kontur/base/work.h"
 #include "kontur/drawing/drawing.h"
-#include "kontur/drawing/prepare.h"
 #include "kontur/drawing/reconcile.h"
 #include "kontur/fit/fit.h"
-#include "kontur/refine/kept_fits.h"
-#include "kontur/refine/refine.h"
+#include "kontur/fit/prepare.h"
+#include "kontur/image/follow_image.h"
+#include "kontur/image/kept_fits.h"
 #include "kontur/segment_options.h"
 
 namespace kontur {
@@ -41,8 +41,8 @@ ImplicitFunction fit_coarsely(const ContourSet& part, const StageOptions& option
 
 /// The fit, moved between the contours to where the image shows the border, where it helps; else as it came. Parts of the
 /// drawing that `kept` holds are not fitted again.
-RefinedFunction refine(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
-                       const Image& image, const StageOptions& options, const Work& work = {}, KeptFits* kept = nullptr);
+ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
+                      const Image& image, const StageOptions& options, const Work& work = {}, KeptFits* kept = nullptr);
 
 /// Where the surface is known to pass: every drawn point and point of the fit, each edge of each lobe where contours cross
 /// themselves, a place near each exterior point that only just got its side, for it may have made a cavity, and places

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kontur/drawing/prepare.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"
 #include "support/polygons.h"
@@ -43,14 +43,14 @@ TEST(Corners, AreWhereTheLineTurnsByThirtyDegrees) {
 }
 
 TEST(Corners, PointsGrowDenseTowardsThemAndStayOnTheEdges) {
-    const Contour refined = refine_to_corners(square(), std::vector<bool>(4, true), 0.05, 4);
-    const std::size_t n = refined.points.size();
+    const Contour subdivided = subdivide_to_corners(square(), std::vector<bool>(4, true), 0.05, 4);
+    const std::size_t n = subdivided.points.size();
     EXPECT_EQ(n % 4, 0u);
-    for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(refined.points[side * n / 4], square().points[side]);
+    for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(subdivided.points[side * n / 4], square().points[side]);
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec3& p = refined.points[i];
+        const Vec3& p = subdivided.points[i];
         EXPECT_NEAR(std::max(std::abs(p.x), std::abs(p.y)), 20, 1e-12);
-        const double step = distance(p, refined.points[(i + 1) % n]);
+        const double step = distance(p, subdivided.points[(i + 1) % n]);
         EXPECT_LE(step, 4 * 1.75);
         EXPECT_GE(step, 0.05 / 4);
         double to_corner = 100;
@@ -58,7 +58,7 @@ TEST(Corners, PointsGrowDenseTowardsThemAndStayOnTheEdges) {
         EXPECT_LE(step, std::max(0.05, 1.3 * to_corner) + 1e-12);
     }
     const Contour circle = test::circle(kAxial, 20, 60);
-    EXPECT_EQ(refine_to_corners(circle, find_corners(circle), 0.05, 4).points, circle.points);
+    EXPECT_EQ(subdivide_to_corners(circle, find_corners(circle), 0.05, 4).points, circle.points);
 }
 
 TEST(Corners, TheirPointsHaveNoNormalAndThoseBesideThemTheirEdges) {

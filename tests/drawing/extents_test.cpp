@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kontur/drawing/prepare.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/stages.h"
 #include "support/contour_sets.h"

@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "kontur/drawing/prepare.h"
-#include "kontur/drawing/reduce.h"
+#include "kontur/drawing/subdivide.h"
 #include "kontur/fit/constraints.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/shape/predicates.h"
 #include "support/contour_sets.h"
 #include "support/polygons.h"
@@ -56,11 +56,12 @@ ContourSet in_plane(std::vector<std::vector<test::Point2>> polygons) {
     return set;
 }
 
-ContourSet refined_narrow(const ContourSet& set, double shortest_mm, double long_mm = 0.1) {
+ContourSet subdivided_narrow(const ContourSet& set, double shortest_mm, double long_mm = 0.1) {
     const std::size_t count = set.contours.size();
-    ContourSet refined = set;
-    refine_narrow(set, refined, {std::vector<double>(count, shortest_mm), std::vector<double>(count, long_mm), 1000}, 1e-3);
-    return refined;
+    ContourSet subdivided = set;
+    subdivide_narrow(set, subdivided, {std::vector<double>(count, shortest_mm), std::vector<double>(count, long_mm), 1000},
+                     1e-3);
+    return subdivided;
 }
 
 /// The longest edge whose middle lies in the box.
@@ -73,10 +74,10 @@ double longest_edge(const Contour& contour, const test::Point2& low, const test:
     return longest;
 }
 
-TEST(RefineNarrow, ThinPartsGetPointsAsCloseAsTheyAreThin) {
+TEST(SubdivideNarrow, ThinPartsGetPointsAsCloseAsTheyAreThin) {
     // A spade: a blade of 40 x 40 mm with a handle of 2 mm.
     const ContourSet spade = in_plane({{{-20, 0}, {-1, 0}, {-1, -60}, {1, -60}, {1, 0}, {20, 0}, {20, 40}, {-20, 40}}});
-    const ContourSet fine = refined_narrow(spade, 0.1);
+    const ContourSet fine = subdivided_narrow(spade, 0.1);
     EXPECT_LE(longest_edge(fine.contours[0], {-2, -59.9}, {2, -0.1}), 2);
     EXPECT_NEAR(longest_edge(fine.contours[0], {-30, 39}, {30, 41}), 40, 1e-9) << "the blade is as wide as its edge is long";
     const auto& points = fine.contours[0].points;
@@ -87,48 +88,48 @@ TEST(RefineNarrow, ThinPartsGetPointsAsCloseAsTheyAreThin) {
     }
 }
 
-TEST(RefineNarrow, CleftsBetweenContoursAreNarrowOnBothSides) {
+TEST(SubdivideNarrow, CleftsBetweenContoursAreNarrowOnBothSides) {
     const ContourSet bars = in_plane({{{0, 0}, {40, 0}, {40, 60}, {0, 60}}, {{0, 61}, {40, 61}, {40, 120}, {0, 120}}});
-    const ContourSet fine = refined_narrow(bars, 0.1);
+    const ContourSet fine = subdivided_narrow(bars, 0.1);
     for (const Contour& contour : fine.contours) {
         EXPECT_LE(longest_edge(contour, {0, 59.5}, {40, 61.5}), 1);
         EXPECT_NEAR(longest_edge(contour, {0, -1}, {40, 121}), 40, 1e-9) << "the side that faces away";
     }
 }
 
-TEST(RefineNarrow, WhatWasDrawnInSmallStepsStaysAsItIs) {
+TEST(SubdivideNarrow, WhatWasDrawnInSmallStepsStaysAsItIs) {
     // A plate of 1 mm, its upper side drawn in steps of 4 mm; pieces of its lower side are as long.
     std::vector<test::Point2> plate{{0, 0}, {40, 0}};
     for (double u = 40; u >= 0; u -= 4) plate.push_back({u, 1});
     const ContourSet drawn = in_plane({plate});
     ContourSet fine = drawn;
-    fine.contours[0] = refine(drawn.contours[0], 0);
+    fine.contours[0] = subdivide(drawn.contours[0], 0);
     EXPECT_LT(longest_edge(fine.contours[0], {0, -0.5}, {40, 0.5}), 8);
-    refine_narrow(drawn, fine, {{0.1}, {5.0}, 1000}, 1e-3);
+    subdivide_narrow(drawn, fine, {{0.1}, {5.0}, 1000}, 1e-3);
     EXPECT_LE(longest_edge(fine.contours[0], {0, -0.5}, {40, 0.5}), 1);
     EXPECT_NEAR(longest_edge(fine.contours[0], {0, 0.5}, {40, 1.5}), 4, 1e-9);
 }
 
-TEST(RefineNarrow, EndsOfThinPartsGetPointsWhereTheLineTurnsTwice) {
+TEST(SubdivideNarrow, EndsOfThinPartsGetPointsWhereTheLineTurnsTwice) {
     // A bar of 60 x 4 mm with a step; the step's corners turn to either side.
     const ContourSet drawn = in_plane({{{0, 0}, {30, 0}, {30, 1}, {60, 1}, {60, 5}, {0, 5}}});
     ContourSet bar = drawn;
-    refine_narrow(drawn, bar, {{1.0}, {1000}, 0.6}, 1e-3);
+    subdivide_narrow(drawn, bar, {{1.0}, {1000}, 0.6}, 1e-3);
     EXPECT_NEAR(longest_edge(bar.contours[0], {59, 1}, {61, 5}), 2, 1e-9)
         << "4 / 2 tan(90 degrees / 4) is 0.83, 2 / 2 tan(45 degrees / 4) is 0.2";
     EXPECT_NEAR(longest_edge(bar.contours[0], {29, 0}, {31, 1}), 1, 1e-9);
 }
 
-TEST(RefineNarrow, PointsHaveALimitAndScaleWithTheDrawing) {
+TEST(SubdivideNarrow, PointsHaveALimitAndScaleWithTheDrawing) {
     // Walls that meet at a tip: pieces become shorter towards it, down to the limit.
     ContourSet wedge = in_plane({{{0, 0}, {100, 0}, {100, 10}}});
-    const ContourSet fine = refined_narrow(wedge, 0.5);
+    const ContourSet fine = subdivided_narrow(wedge, 0.5);
     const std::size_t count = fine.contours[0].points.size();
     EXPECT_GT(count, 40);
     EXPECT_LT(count, 211 / 0.5);
     for_each_edge(fine.contours[0].points, [](const Vec3& from, const Vec3& to) { EXPECT_GE(distance(from, to), 0.5); });
     for (Vec3& p : wedge.contours[0].points) p = kPlane.origin + 7 * (p - kPlane.origin);
-    EXPECT_EQ(refined_narrow(wedge, 3.5).contours[0].points.size(), count);
+    EXPECT_EQ(subdivided_narrow(wedge, 3.5).contours[0].points.size(), count);
 }
 
 /// As far as the reach, along the normal, by looking at every edge of every contour.

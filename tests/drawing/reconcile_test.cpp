@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kontur/drawing/prepare.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/segment.h"

@@ -9,10 +9,12 @@
 #include "support/expect_error.h"
 #include "support/polygons.h"
 #include "support/random.h"
+#include "support/subsequence.h"
 
 namespace kontur {
 namespace {
 
+using test::is_subsequence;
 using test::Point2;
 
 const Plane kTilted = make_plane({30, -20, 100}, {0.3, -0.5, 0.8});
@@ -34,22 +36,6 @@ std::vector<Vec3> reduced_naively(std::vector<Vec3> points, std::size_t keep) {
         points.erase(points.begin() + (std::min_element(weights.begin(), weights.end()) - weights.begin()));
     }
     return points;
-}
-
-bool is_subsequence(const std::vector<Vec3>& part, const std::vector<Vec3>& whole) {
-    auto at = whole.begin();
-    for (const Vec3& p : part) {
-        at = std::find(at, whole.end(), p);
-        if (at == whole.end()) return false;
-        ++at;
-    }
-    return true;
-}
-
-double average_segment(const std::vector<Vec3>& points) {
-    double total = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) total += distance(points[i], points[(i + 1) % points.size()]);
-    return total / static_cast<double>(points.size());
 }
 
 TEST(Reduce, KeepsExactlyTheAskedShareInOrder) {
@@ -105,41 +91,6 @@ TEST(Reduce, RefusesAQualityOutsideOfItsRange) {
     const Contour contour = test::circle(kTilted, 10, 20);
     for (const double quality : {0.0, -1.0, 1.0001, std::nan("")})
         EXPECT_KONTUR_ERROR(reduce(contour, {quality}), ErrorKind::invalid_input, "quality");
-}
-
-TEST(Refine, LeavesNoSegmentLongerThanTwiceTheAverage) {
-    std::mt19937 random = test::random_of_this_test();
-    for (int round = 0; round < 40; ++round) {
-        Contour uneven = test::contour_in(kTilted, test::random_star(60, random));
-        uneven.points.erase(uneven.points.begin() + 2, uneven.points.begin() + 20);
-        const double average = average_segment(uneven.points);
-        const Contour refined = refine(uneven);
-        EXPECT_TRUE(is_subsequence(uneven.points, refined.points));
-        EXPECT_GT(refined.points.size(), uneven.points.size());
-        for (std::size_t i = 0; i < refined.points.size(); ++i)
-            EXPECT_LE(distance(refined.points[i], refined.points[(i + 1) % refined.points.size()]), 2 * average);
-    }
-}
-
-TEST(Refine, DividesALongSideIntoEqualPieces) {
-    // Nine sides of 1 and one of 9: the average is 1.8.
-    std::vector<Point2> points{{0, 0}, {9, 0}};
-    for (int i = 1; i < 9; ++i) points.push_back({9.0 - i, i % 2 ? 1e-3 : -1e-3});
-    const Contour refined = refine(test::contour_in(Plane{}, points));
-    ASSERT_EQ(refined.points.size(), 10u + 4u);
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_LT(distance(refined.points[i], {1.8 * static_cast<double>(i), 0, 0}), 1e-12);
-}
-
-TEST(Refine, SquareOfFourCornersIsSubdividedOnlyWhereThatIsAskedFor) {
-    const Contour square = test::contour_in(kTilted, std::vector<Point2>{{0, 0}, {10, 0}, {10, 10}, {0, 10}});
-    EXPECT_EQ(refine(square).points, square.points) << "all its sides are average";
-    const Contour refined = refine(square, 48);
-    ASSERT_EQ(refined.points.size(), 48u);
-    EXPECT_TRUE(is_subsequence(square.points, refined.points));
-    for (std::size_t i = 0; i < 48; ++i)
-        EXPECT_NEAR(distance(refined.points[i], refined.points[(i + 1) % 48]), 10.0 / 12, 1e-12);
-    const Contour circle = test::circle(kTilted, 10, 60);
-    EXPECT_EQ(refine(circle, 48).points, circle.points) << "it has more segments already";
 }
 
 }  // namespace

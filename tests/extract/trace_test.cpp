@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
 #include "kontur/io/image.h"
 #include "support/expect_error.h"
 #include "support/random_masks.h"

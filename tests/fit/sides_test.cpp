@@ -7,7 +7,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/drawing/orient.h"
-#include "kontur/drawing/prepare.h"
+#include "kontur/fit/prepare.h"
 #include "support/contour_sets.h"
 
 namespace kontur {

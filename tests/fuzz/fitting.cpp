@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "fuzz/drawings.h"
-#include "kontur/drawing/prepare.h"
 #include "kontur/drawing/reconcile.h"
 #include "kontur/editor.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/stages.h"
 
 namespace kontur::fuzz {

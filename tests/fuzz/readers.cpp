@@ -9,11 +9,11 @@
 #include "kontur/base/printable.h"
 #include "kontur/csv.h"
 #include "kontur/io/contours.h"
-#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "kontur/io/read_provenance.h"
-#include "kontur/io/rtstruct.h"
 #include "kontur/measure/contour_check.h"
 
 namespace kontur::fuzz {

@@ -7,7 +7,7 @@
 
 #include "fuzz/scratch_folder.h"
 #include "kontur/base/error.h"
-#include "viewer/session.h"
+#include "viewer/session/session.h"
 
 namespace kontur::fuzz {
 namespace {

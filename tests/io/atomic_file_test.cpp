@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/atomic_file.h"
+#include "kontur/io/bytes/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>

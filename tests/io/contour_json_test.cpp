@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
 
 #include <gtest/gtest.h>
 
@@ -370,7 +370,7 @@ TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
     set.contours[2].inside = Hand::left;
     set.contours[2].weight = 2.5;
     write_contour_json(folder_ / "points.json", set);
-    const std::string schema = std::string(KONTUR_TEST_SUPPORT) + "/../../docs/contours.schema.json";
+    const std::string schema = test::support_folder() + "/../../docs/contours.schema.json";
     const auto valid = test::run_python(
         "validate_json.py", {schema, folder_ / "plain.json", folder_ / "empty.json", folder_ / "points.json", file(kSmall)});
     EXPECT_EQ(valid.exit_code, 0) << valid.output;
@@ -381,7 +381,7 @@ TEST_F(ContourJson, WrittenFilesFulfilTheSchema) {
 TEST_F(ContourJson, RealFilesFulfilTheSchema) {
     const std::string real = "derived_nonparallel/hippocampus_label5/radial6.json";
     KONTUR_REQUIRE_DATA(real);
-    const std::string schema = std::string(KONTUR_TEST_SUPPORT) + "/../../docs/contours.schema.json";
+    const std::string schema = test::support_folder() + "/../../docs/contours.schema.json";
     const auto valid = test::run_python("validate_json.py", {schema, test::data_dir() / real});
     EXPECT_EQ(valid.exit_code, 0) << valid.output;
 }

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "kontur/base/error.h"
-#include "kontur/io/contour_json.h"
-#include "kontur/io/markups.h"
+#include "kontur/io/contours/contour_json.h"
+#include "kontur/io/contours/markups.h"
 #include "support/contour_sets.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <fstream>
 
-#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/file_digest.h"
 #include "kontur/io/image.h"
-#include "kontur/io/rtstruct.h"
 #include "support/damage.h"
 #include "support/dicom_series_fixture.h"
 

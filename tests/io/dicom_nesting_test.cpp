@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/dicom_nesting.h"
+#include "kontur/io/dicom/dicom_nesting.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "kontur/io/decimal_string.h"
+#include "kontur/io/dicom/decimal_string.h"
 #include "support/damage.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

@@ -7,9 +7,9 @@
 
 #include "kontur/base/error.h"
 #include "kontur/extract/rasterize.h"
-#include "kontur/io/dicom_series.h"
-#include "kontur/io/nifti.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/images/nifti.h"
 #include "support/run_python.h"
 #include "support/test_data.h"
 

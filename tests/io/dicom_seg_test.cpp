@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/dicom_seg.h"
+#include "kontur/io/dicom/dicom_seg.h"
 
 #include <gtest/gtest.h>
 

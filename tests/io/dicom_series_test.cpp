@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/dicom_series.h"
+#include "kontur/io/dicom/dicom_series.h"
 
-#include "kontur/io/dicom_identity.h"
+#include "kontur/io/dicom/dicom_identity.h"
 
 #include <gtest/gtest.h>
 

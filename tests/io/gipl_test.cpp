@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/gipl.h"
+#include "kontur/io/images/gipl.h"
 
 #include "image_cases.h"
 #include "kontur/io/image.h"

@@ -14,6 +14,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/shape/volume.h"
+#include "support/paths.h"
 
 namespace kontur::test {
 
@@ -181,8 +182,8 @@ inline int compare_with_expectations(const std::filesystem::path& folder,
 /// Runs tests/support/image_oracle.py, an independent reader and writer; its complaints are the message.
 inline void run_image_oracle(const std::string& command, const std::filesystem::path& folder) {
     const std::filesystem::path log = folder / "oracle.log";
-    const std::string line = std::string("\"" KONTUR_TEST_PYTHON "\" \"" KONTUR_TEST_SUPPORT "/image_oracle.py\" ") +
-                             command + " \"" + folder.string() + "\" > \"" + log.string() + "\" 2>&1";
+    const std::string line = "\"" + python_program() + "\" \"" + support_folder() + "/image_oracle.py\" " + command + " \"" +
+                             folder.string() + "\" > \"" + log.string() + "\" 2>&1";
     EXPECT_EQ(std::system(line.c_str()), 0) << content_of(log);
     std::filesystem::remove(log);
 }

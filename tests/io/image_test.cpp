@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "image_cases.h"
-#include "kontur/io/image_files.h"
-#include "kontur/io/nrrd.h"
+#include "kontur/io/images/image_files.h"
+#include "kontur/io/images/nrrd.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
 

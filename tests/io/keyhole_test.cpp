@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/keyhole.h"
+#include "kontur/io/geometry/keyhole.h"
 
 #include <gtest/gtest.h>
 

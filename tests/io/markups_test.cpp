@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/markups.h"
+#include "kontur/io/contours/markups.h"
 
 #include <gtest/gtest.h>
 

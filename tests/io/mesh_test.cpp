@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/metaimage.h"
+#include "kontur/io/images/metaimage.h"
 
 #include "image_cases.h"
 #include "support/temporary_folder.h"

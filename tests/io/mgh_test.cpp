@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/mgh.h"
+#include "kontur/io/images/mgh.h"
 
 #include <limits>
 

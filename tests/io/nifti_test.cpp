@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/nifti.h"
+#include "kontur/io/images/nifti.h"
 
 #include <zlib.h>
 

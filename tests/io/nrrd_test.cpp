@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/nrrd.h"
+#include "kontur/io/images/nrrd.h"
 
 #include <zlib.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/png.h"
+#include "kontur/io/bytes/png.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/region_mesh.h"
+#include "kontur/io/meshes/region_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/rtstruct.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "kontur/extract/rasterize.h"
-#include "kontur/io/dicom_series.h"
-#include "kontur/io/keyhole.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/geometry/keyhole.h"
 #include "support/damage.h"
 #include "support/expect_error.h"
 #include "support/random.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/segment_tags.h"
+#include "kontur/io/images/segment_tags.h"
 
 #include <gtest/gtest.h>
 

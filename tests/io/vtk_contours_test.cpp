@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kontur/io/vtk_contours.h"
+#include "kontur/io/contours/vtk_contours.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "kontur/io/contours.h"
-#include "kontur/io/mesh.h"
+#include "kontur/io/meshes/mesh.h"
 #include "support/bodies.h"
 #include "support/damage.h"
 #include "support/expect_error.h"

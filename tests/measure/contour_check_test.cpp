@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "kontur/io/contours.h"
-#include "kontur/io/rtstruct.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/phantom/cases.h"
 #include "support/contour_sets.h"
 #include "support/polygons.h"

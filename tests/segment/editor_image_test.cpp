@@ -12,9 +12,9 @@
 #include "kontur/base/error.h"
 #include "kontur/live_editor.h"
 #include "kontur/segment.h"
-#include "refine/lobed_body.h"
 #include "segment/same_function.h"
 #include "support/expect_error.h"
+#include "support/lobed_body.h"
 #include "support/random.h"
 
 // Editors that ask the image.
@@ -71,18 +71,18 @@ public:
     LiveEditor editor;  ///< last: its thread uses all above
 };
 
-TEST(Editor, RefinesWithAnImageToTheFunctionOfSegment) {
+TEST(Editor, FinishesWithAnImageToTheFunctionOfSegment) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     const Image& image = *helpful_image();
     EditedSurface alone;
-    const EditedSurface refined = Editor().refine(contours, &image, {}, [&](const EditedSurface& told) { alone = told; });
-    EXPECT_EQ(refined.image.verdict, ImageVerdict::used);
-    EXPECT_TRUE(refined.refined);
-    expect_same_function(refined.function, segment(contours, image.grid, &image).function);
+    const EditedSurface finished = Editor().finish(contours, &image, {}, [&](const EditedSurface& told) { alone = told; });
+    EXPECT_EQ(finished.image.verdict, ImageVerdict::used);
+    EXPECT_TRUE(finished.finished);
+    expect_same_function(finished.function, segment(contours, image.grid, &image).function);
     expect_same_function(alone.function, segment(contours, image.grid).function);
-    EXPECT_NE(alone.mesh.points, refined.mesh.points);
+    EXPECT_NE(alone.mesh.points, finished.mesh.points);
     EXPECT_EQ(alone.image.verdict, ImageVerdict::none);
-    EXPECT_LT(refined.residual.rms_mm, 0.3);
+    EXPECT_LT(finished.residual.rms_mm, 0.3);
 }
 
 TEST(Editor, DoesNotAskTheImageWhereItIsToldNotTo) {
@@ -90,10 +90,10 @@ TEST(Editor, DoesNotAskTheImageWhereItIsToldNotTo) {
     bool is_told = false;
     const auto tell = [&](const EditedSurface&) { is_told = true; };
     Editor off({.segment = {.use_image = UseImage::off}});
-    const EditedSurface plain = off.refine(contours, helpful_image().get(), {}, tell);
+    const EditedSurface plain = off.finish(contours, helpful_image().get(), {}, tell);
     EXPECT_EQ(plain.image.verdict, ImageVerdict::none);
-    expect_same_function(plain.function, Editor().refine(contours).function);
-    EXPECT_TRUE(Editor().refine({}, helpful_image().get(), {}, tell).mesh.points.empty());
+    expect_same_function(plain.function, Editor().finish(contours).function);
+    EXPECT_TRUE(Editor().finish({}, helpful_image().get(), {}, tell).mesh.points.empty());
     EXPECT_FALSE(is_told) << "there is nothing to wait for";
 }
 
@@ -109,7 +109,7 @@ TEST(Editor, PreviewsFollowWhatTheImageSaidUntilItIsAskedAgain) {
     Editor editor, fresh;
     editor.preview(contours);
     fresh.preview(contours);
-    editor.refine(contours, helpful_image().get());
+    editor.finish(contours, helpful_image().get());
     const EditedSurface with = editor.preview(edited(contours)), without = fresh.preview(edited(contours));
     EXPECT_EQ(without.shown_before, 0u);
     EXPECT_GT(with.shown_before, 50u);
@@ -118,7 +118,7 @@ TEST(Editor, PreviewsFollowWhatTheImageSaidUntilItIsAskedAgain) {
     for (const Contour& contour : edited(contours).contours)
         for (const Vec3& p : contour.points) EXPECT_NEAR(with.function.value(p), without.function.value(p), 0.5);
     const Image& image = *helpful_image();
-    expect_same_function(editor.refine(edited(contours), &image).function,
+    expect_same_function(editor.finish(edited(contours), &image).function,
                          segment(edited(contours), image.grid, &image).function);
     editor.forget_image();
     const EditedSurface after = editor.preview(edited(contours)), alone = fresh.preview(edited(contours));
@@ -130,12 +130,12 @@ TEST(Editor, PreviewsDoNotFollowAnImageThatIsNoLongerAsked) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     Editor editor;
     editor.preview(contours);
-    editor.refine(contours, helpful_image().get());
+    editor.finish(contours, helpful_image().get());
     EXPECT_GT(editor.preview(contours).shown_before, 50u);
-    editor.refine(contours, noise_alone().get());
+    editor.finish(contours, noise_alone().get());
     EXPECT_EQ(editor.preview(contours).shown_before, 0u);
-    editor.refine(contours, helpful_image().get());
-    editor.refine(contours, nullptr);
+    editor.finish(contours, helpful_image().get());
+    editor.finish(contours, nullptr);
     EXPECT_EQ(editor.preview(contours).shown_before, 0u);
 }
 
@@ -155,13 +155,13 @@ TEST(LiveEditor, PreviewsWithAnotherImageDoNotFollowTheOneBefore) {
     EXPECT_EQ(follows, (std::vector{false, true, false}));
 }
 
-TEST(LiveEditor, AsksTheImageWhenTheSurfaceIsRefined) {
+TEST(LiveEditor, AsksTheImageWhenTheSurfaceIsFinished) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     Listened live;
     live.editor.edit(contours, helpful_image());
     live.editor.wait();
     const std::vector<EditorUpdate> updates = live.updates();
-    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::with_image}));
+    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::finished, Kind::with_image}));
     EXPECT_FALSE(updates[0].asks_image);
     EXPECT_TRUE(updates[1].asks_image);
     EXPECT_FALSE(updates[2].asks_image);
@@ -181,8 +181,8 @@ TEST(LiveEditor, FollowsWhatTheImageSaidWhileItIsAskedAgain) {
         live.editor.wait();
     }
     std::vector<EditorUpdate> updates = live.updates();
-    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::with_image, Kind::preview, Kind::refined,
-                                         Kind::refined, Kind::with_image}));
+    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::finished, Kind::with_image, Kind::preview, Kind::finished,
+                                         Kind::finished, Kind::with_image}));
     const EditorUpdate &followed = updates[4], &alone = updates[5], &made = updates[6];
     EXPECT_TRUE(followed.asks_image);
     EXPECT_GT(followed.surface.shown_before, 50u);
@@ -213,9 +213,9 @@ TEST(Editor, FollowsWhatTheImageSaidByThreeThousandOfManyPoints) {
     ASSERT_EQ(point_count(contours), 3960u);
     Editor editor;
     const auto image = helpful_image();
-    editor.refine(contours, image.get());
+    editor.finish(contours, image.get());
     std::vector<std::size_t> centres;
-    editor.refine(edited(contours), image.get(), {}, [&](const EditedSurface& told) {
+    editor.finish(edited(contours), image.get(), {}, [&](const EditedSurface& told) {
         EXPECT_LT(told.residual.rms_mm, 0.3);
         centres.push_back(told.function.centers().size() - told.shown_before);
     });
@@ -249,20 +249,20 @@ TEST(LiveEditor, AnUndoneEditNeedsNeitherTheImageNorASolve) {
     EXPECT_EQ(answers(contours, nullptr).front().kind, Kind::preview) << "no image is another question";
 }
 
-TEST(LiveEditor, KeepsTheRefinedSurfaceWhereTheImageDoesNotHelp) {
+TEST(LiveEditor, KeepsTheFinishedSurfaceWhereTheImageDoesNotHelp) {
     const ContourSet contours = drawn_on(orthogonal_planes());
     Listened live;
     live.editor.edit(contours, noise_alone());
     live.editor.wait();
     const std::vector<EditorUpdate> updates = live.updates();
-    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::with_image}));
+    ASSERT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::finished, Kind::with_image}));
     EXPECT_EQ(updates[2].surface.image.verdict, ImageVerdict::no_help);
     expect_same_function(updates[2].surface.function, updates[1].surface.function);
     EXPECT_EQ(updates[2].surface.mesh.points, updates[1].surface.mesh.points);
     live.editor.edit(contours);
     live.editor.wait();
-    ASSERT_EQ(live.updates().size(), 5u) << "without an image nothing follows the refined surface";
-    EXPECT_EQ(live.updates().back().kind, Kind::refined);
+    ASSERT_EQ(live.updates().size(), 5u) << "without an image nothing follows the finished surface";
+    EXPECT_EQ(live.updates().back().kind, Kind::finished);
     EXPECT_FALSE(live.updates().back().asks_image);
 }
 
@@ -275,7 +275,7 @@ TEST(LiveEditor, AnEditEndsTheQuestionToTheImage) {
     };
     live.editor.edit(contours, helpful_image());
     while (live.updates().empty() || live.updates().back().edit < 2) live.editor.wait();
-    EXPECT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::preview, Kind::refined, Kind::with_image}));
+    EXPECT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::finished, Kind::preview, Kind::finished, Kind::with_image}));
 }
 
 TEST(LiveEditor, TellsWhatIsWrongWithTheImage) {
@@ -284,7 +284,7 @@ TEST(LiveEditor, TellsWhatIsWrongWithTheImage) {
     Listened live;
     live.editor.edit(drawn_on(orthogonal_planes()), broken);
     live.editor.wait();
-    EXPECT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::refined, Kind::problem}));
+    EXPECT_EQ(live.kinds(), (std::vector{Kind::preview, Kind::finished, Kind::problem}));
     EXPECT_NE(live.updates().back().problem.find("the image has "), std::string::npos) << live.updates().back().problem;
 }
 
@@ -299,7 +299,7 @@ TEST(Cancellation, EndsTheQuestionToTheImageAtRandomMoments) {
     double all = 0, longest = 0, longest_processor = 0;
     {
         Clock::time_point asked{};
-        editor.refine(contours, helpful_image().get(), {}, [&](const EditedSurface&) { asked = Clock::now(); });
+        editor.finish(contours, helpful_image().get(), {}, [&](const EditedSurface&) { asked = Clock::now(); });
         all = Seconds(Clock::now() - asked).count();
     }
     std::mt19937 random = test::random_of_this_test();
@@ -318,7 +318,7 @@ TEST(Cancellation, EndsTheQuestionToTheImageAtRandomMoments) {
             });
         };
         try {
-            editor.refine(contours, helpful_image().get(), {.stop = source.get_token()}, asking);
+            editor.finish(contours, helpful_image().get(), {.stop = source.get_token()}, asking);
         } catch (const Error& error) {
             const Clock::time_point ended = Clock::now();
             const std::clock_t processor_ended = std::clock();

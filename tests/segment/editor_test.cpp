@@ -63,19 +63,19 @@ void edit_at_random(ContourSet& set, const Body& body, std::mt19937& random) {
     }
 }
 
-TEST(Editor, RefinesToTheFunctionOfSegmentAfterAnyEdits) {
+TEST(Editor, FinishesToTheFunctionOfSegmentAfterAnyEdits) {
     std::mt19937 random = test::random_of_this_test();
     const PhantomCase c = phantom_case("metastasis_parallel7");
     const Grid small_grid = test::coarse(c.grid, 6);
     ContourSet set = c.contours;
-    Editor editor({.segment = {}, .preview_spacing_mm = 2, .refined_spacing_mm = 4});
+    Editor editor({.segment = {}, .preview_spacing_mm = 2, .finished_spacing_mm = 4});
     for (int edit = 0; edit < 4; ++edit) {
         edit_at_random(set, *c.body, random);
         editor.preview(set);
-        const EditedSurface refined = editor.refine(set);
-        EXPECT_TRUE(refined.refined);
-        EXPECT_LT(refined.residual.max_mm, 0.2);
-        expect_same_function(refined.function, segment(set, small_grid).function);
+        const EditedSurface finished = editor.finish(set);
+        EXPECT_TRUE(finished.finished);
+        EXPECT_LT(finished.residual.max_mm, 0.2);
+        expect_same_function(finished.function, segment(set, small_grid).function);
     }
 }
 
@@ -84,13 +84,13 @@ TEST(Editor, PreviewsWithinAboutHalfAMillimetreOverRandomEdits) {
     for (const char* name : {"metastasis_parallel7_hand", "kidney_radial6"}) {
         const PhantomCase c = phantom_case(name);
         ContourSet set = c.contours;
-        Editor editor({.segment = {}, .preview_spacing_mm = 1, .refined_spacing_mm = 4});
+        Editor editor({.segment = {}, .preview_spacing_mm = 1, .finished_spacing_mm = 4});
         for (int edit = 0; edit < 6; ++edit) {
             edit_at_random(set, *c.body, random);
             const EditedSurface preview = editor.preview(set);
-            EXPECT_FALSE(preview.refined);
+            EXPECT_FALSE(preview.finished);
             ASSERT_FALSE(preview.mesh.points.empty());
-            const std::vector<double> off = distances(preview.mesh, editor.refine(set).function);
+            const std::vector<double> off = distances(preview.mesh, editor.finish(set).function);
             EXPECT_LT(off[off.size() * 98 / 100], 0.55) << name << ", edit " << edit << ", worst " << off.back();
         }
     }
@@ -134,8 +134,8 @@ TEST(Editor, PreviewsContoursThatAreDraggedWithTheTiltsOfBefore) {
             solves_anew += anew.solves;
         }
         EXPECT_LE(solves, solves_anew - 16) << name << ": both rounds are saved";
-        const ImplicitFunction refined = editor.refine(set).function;
-        EXPECT_LT(mean(distances(dragged.mesh, refined)), 2.5 * mean(distances(anew.mesh, refined))) << name;
+        const ImplicitFunction finished = editor.finish(set).function;
+        EXPECT_LT(mean(distances(dragged.mesh, finished)), 2.5 * mean(distances(anew.mesh, finished))) << name;
     }
 }
 
@@ -172,13 +172,13 @@ TEST(Editor, IsAheadOfItsMeshWithTheSameSurface) {
 TEST(Editor, SpacingsFollowTheContoursUnlessGiven) {
     const ContourSet ball = test::ball_contours();
     Editor editor;
-    const EditedSurface preview = editor.preview(ball), refined = editor.refine(ball);
-    EXPECT_DOUBLE_EQ(refined.spacing_mm, 0.01 * diameter_mm(ball));
-    EXPECT_DOUBLE_EQ(preview.spacing_mm, 2 * refined.spacing_mm);
-    EXPECT_GT(refined.mesh.triangles.size(), 3 * preview.mesh.triangles.size());
-    Editor fixed({.segment = {}, .preview_spacing_mm = 3, .refined_spacing_mm = 2});
+    const EditedSurface preview = editor.preview(ball), finished = editor.finish(ball);
+    EXPECT_DOUBLE_EQ(finished.spacing_mm, 0.01 * diameter_mm(ball));
+    EXPECT_DOUBLE_EQ(preview.spacing_mm, 2 * finished.spacing_mm);
+    EXPECT_GT(finished.mesh.triangles.size(), 3 * preview.mesh.triangles.size());
+    Editor fixed({.segment = {}, .preview_spacing_mm = 3, .finished_spacing_mm = 2});
     EXPECT_EQ(fixed.preview(ball).spacing_mm, 3);
-    EXPECT_EQ(fixed.refine(ball).spacing_mm, 2);
+    EXPECT_EQ(fixed.finish(ball).spacing_mm, 2);
 }
 
 /// Of two spheres about the origin, in three planes.
@@ -199,9 +199,9 @@ ContourSet shell(double radius_mm, double wall_mm) {
 TEST(Editor, StepsAreFinerWhereWhatWasDrawnIsNarrow) {
     Editor editor;
     const ContourSet thick = shell(40, 10), thin = shell(40, 2.4), thinnest = shell(40, 0.5);
-    EXPECT_DOUBLE_EQ(editor.refine(thick).spacing_mm, 0.01 * diameter_mm(thick));
-    EXPECT_NEAR(editor.refine(thin).spacing_mm, 2.4 / 4, 0.01);
-    EXPECT_DOUBLE_EQ(editor.refine(thinnest).spacing_mm, 0.005 * diameter_mm(thinnest));
+    EXPECT_DOUBLE_EQ(editor.finish(thick).spacing_mm, 0.01 * diameter_mm(thick));
+    EXPECT_NEAR(editor.finish(thin).spacing_mm, 2.4 / 4, 0.01);
+    EXPECT_DOUBLE_EQ(editor.finish(thinnest).spacing_mm, 0.005 * diameter_mm(thinnest));
 }
 
 /// As a mouse that tells a thousand places a second leaves them.
@@ -220,7 +220,7 @@ TEST(Editor, PreviewsOfLinesWithVeryManyPointsLookAtAPartOfThem) {
     const ContourSet few = phantom_case("kidney_radial6").contours, many = with_points_between(few, 12);
     Editor editor({.segment = {}, .preview_spacing_mm = 1});
     const EditedSurface preview = editor.preview(many);
-    const std::vector<double> off = distances(preview.mesh, editor.refine(many).function);
+    const std::vector<double> off = distances(preview.mesh, editor.finish(many).function);
     EXPECT_LT(off[off.size() * 98 / 100], 0.55);
     EXPECT_LT(preview.function.centers().size(), 2600u);
 }
@@ -228,8 +228,8 @@ TEST(Editor, PreviewsOfLinesWithVeryManyPointsLookAtAPartOfThem) {
 TEST(Editor, NoContoursGiveNoSurface) {
     Editor editor;
     EXPECT_TRUE(editor.preview({}).mesh.points.empty());
-    EXPECT_TRUE(editor.refine({}).mesh.points.empty());
-    EXPECT_TRUE(editor.refine({}).refined);
+    EXPECT_TRUE(editor.finish({}).mesh.points.empty());
+    EXPECT_TRUE(editor.finish({}).finished);
 }
 
 TEST(Editor, GoesOnAfterContoursThatCannotBeFitted) {
@@ -246,7 +246,7 @@ TEST(Editor, TheWorstContourIsNumberedAsTheContoursCame) {
     Contour& off = set.contours.back();
     for (Vec3& p : off.points) p = off.plane.origin + 1.2 * (p - off.plane.origin);
     set.contours.insert(set.contours.begin() + 1, set.contours[0]);  // a repetition, which is left out
-    EXPECT_EQ(Editor().refine(set).residual.worst_contour, set.contours.size() - 1);
+    EXPECT_EQ(Editor().finish(set).residual.worst_contour, set.contours.size() - 1);
 }
 
 TEST(Editor, TheSidesOfOpenLinesAreNumberedAsTheContoursCame) {
@@ -259,7 +259,7 @@ TEST(Editor, TheSidesOfOpenLinesAreNumberedAsTheContoursCame) {
     set.contours[2].points.resize(50);
     set.contours.insert(set.contours.begin() + 1, set.contours[0]);  // a repetition, which is left out
     Editor editor;
-    for (const EditedSurface& surface : {editor.preview(set), editor.refine(set)}) {
+    for (const EditedSurface& surface : {editor.preview(set), editor.finish(set)}) {
         ASSERT_EQ(surface.sides.size(), 1u);
         EXPECT_EQ(surface.sides[0].contour, 3u);
         EXPECT_TRUE(surface.sides[0].is_sure);

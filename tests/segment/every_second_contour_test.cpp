@@ -7,9 +7,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "kontur/io/dicom_series.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
-#include "kontur/io/rtstruct.h"
 #include "kontur/measure/compare.h"
 #include "kontur/segment.h"
 #include "support/test_data.h"

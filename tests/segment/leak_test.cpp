@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
 #include "kontur/segment.h"
 #include "support/contour_sets.h"
 #include "support/solids.h"

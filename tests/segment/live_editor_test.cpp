@@ -45,7 +45,7 @@ ContourSet moved_ball(double mm = 0.5) {
     return set;
 }
 
-TEST(LiveEditor, PreviewsAndThenRefinesAnEdit) {
+TEST(LiveEditor, PreviewsAndThenFinishesAnEdit) {
     Log log;
     LiveEditor editor({}, log.listener());
     EXPECT_EQ(editor.edit(test::ball_contours()), 1u);
@@ -53,17 +53,17 @@ TEST(LiveEditor, PreviewsAndThenRefinesAnEdit) {
     const std::vector<EditorUpdate> updates = log.updates();
     ASSERT_EQ(updates.size(), 2u);
     EXPECT_EQ(updates[0].kind, Kind::preview);
-    EXPECT_EQ(updates[1].kind, Kind::refined);
+    EXPECT_EQ(updates[1].kind, Kind::finished);
     EXPECT_EQ(updates[1].edit, 1u);
-    EXPECT_TRUE(updates[1].surface.refined);
+    EXPECT_TRUE(updates[1].surface.finished);
     EXPECT_TRUE(std::ranges::equal(updates[1].surface.function.weights(),
-                                   Editor().refine(test::ball_contours()).function.weights()));
+                                   Editor().finish(test::ball_contours()).function.weights()));
 }
 
 TEST(LiveEditor, WhatItsListenerThrowsIsAProblemAndEndsNothing) {
     std::vector<std::string> problems;
     LiveEditor editor({}, [&](const EditorUpdate& update) {
-        if (update.kind == Kind::refined) throw std::runtime_error("deaf");
+        if (update.kind == Kind::finished) throw std::runtime_error("deaf");
         if (update.kind != Kind::problem) return;
         problems.push_back(update.problem);
         throw std::runtime_error("deaf to this, too");
@@ -82,7 +82,7 @@ TEST(LiveEditor, TellsOfAPreviewAheadOfItsMesh) {
         {},
         [&](const EditorUpdate& update) {
             if (update.kind == Kind::preview) note("preview ", update.edit);
-            if (update.kind == Kind::refined) note("refined ", update.edit);
+            if (update.kind == Kind::finished) note("finished ", update.edit);
         },
         [&](std::uint64_t edit, const SurfaceBand& band) {
             EXPECT_EQ(band.cut(test::ball_contours().contours[0].plane).size(), 1u);
@@ -92,7 +92,7 @@ TEST(LiveEditor, TellsOfAPreviewAheadOfItsMesh) {
         editor.edit(set);
         editor.wait();
     }
-    EXPECT_EQ(told, (std::vector<std::string>{"ahead 1", "preview 1", "refined 1", "ahead 2", "preview 2", "refined 2"}));
+    EXPECT_EQ(told, (std::vector<std::string>{"ahead 1", "preview 1", "finished 1", "ahead 2", "preview 2", "finished 2"}));
 }
 
 TEST(LiveEditor, AnswersTheNewestOfManyEdits) {
@@ -107,9 +107,9 @@ TEST(LiveEditor, AnswersTheNewestOfManyEdits) {
     editor.wait();
     const std::vector<EditorUpdate> updates = log.updates();
     ASSERT_FALSE(updates.empty());
-    EXPECT_EQ(updates.back().kind, Kind::refined);
+    EXPECT_EQ(updates.back().kind, Kind::finished);
     EXPECT_EQ(updates.back().edit, kEdits);
-    EXPECT_TRUE(std::ranges::equal(updates.back().surface.function.weights(), Editor().refine(set).function.weights()));
+    EXPECT_TRUE(std::ranges::equal(updates.back().surface.function.weights(), Editor().finish(set).function.weights()));
     EXPECT_TRUE(std::ranges::is_sorted(updates, {}, &EditorUpdate::edit)) << "no answer is overtaken by an older one";
 }
 
@@ -130,8 +130,8 @@ std::vector<std::pair<Kind, std::uint64_t>> told_with_edit_at_preview(const Cont
 
 TEST(LiveEditor, AnswersAnEditThatChangesNothingByWhatItComputes) {
     using Told = std::vector<std::pair<Kind, std::uint64_t>>;
-    EXPECT_EQ(told_with_edit_at_preview(test::ball_contours()), (Told{{Kind::preview, 1}, {Kind::refined, 2}}));
-    EXPECT_EQ(told_with_edit_at_preview(moved_ball()), (Told{{Kind::preview, 1}, {Kind::preview, 2}, {Kind::refined, 2}}));
+    EXPECT_EQ(told_with_edit_at_preview(test::ball_contours()), (Told{{Kind::preview, 1}, {Kind::finished, 2}}));
+    EXPECT_EQ(told_with_edit_at_preview(moved_ball()), (Told{{Kind::preview, 1}, {Kind::preview, 2}, {Kind::finished, 2}}));
 }
 
 TEST(LiveEditor, AnEditThatIsUndoneIsAnsweredByTheSurfaceThatWasThere) {
@@ -148,7 +148,7 @@ TEST(LiveEditor, AnEditThatIsUndoneIsAnsweredByTheSurfaceThatWasThere) {
     answers(moved_ball());
     const std::vector<EditorUpdate> undone = answers(test::ball_contours());
     ASSERT_EQ(undone.size(), 1u) << "neither a preview nor progress";
-    EXPECT_EQ(undone[0].kind, Kind::refined);
+    EXPECT_EQ(undone[0].kind, Kind::finished);
     EXPECT_EQ(undone[0].edit, 3u);
     EXPECT_EQ(undone[0].surface.function.weights().data(), first.surface.function.weights().data());
     EXPECT_EQ(undone[0].surface.mesh.points, first.surface.mesh.points);
@@ -158,7 +158,7 @@ TEST(LiveEditor, AnEditThatIsUndoneIsAnsweredByTheSurfaceThatWasThere) {
     EXPECT_GT(answers(test::ball_contours()).size(), 2u) << "too long ago";
 }
 
-TEST(LiveEditor, RefinesNothingThatIsEditedWhileItRests) {
+TEST(LiveEditor, FinishesNothingThatIsEditedWhileItRests) {
     Log log;
     std::promise<void> both_told;
     LiveEditor* editing = nullptr;
@@ -194,7 +194,7 @@ TEST(LiveEditor, ReportsAProblemAndGoesOn) {
     EXPECT_NE(log.updates()[0].problem.find("contour 2 has 2 points"), std::string::npos) << log.updates()[0].problem;
     editor.edit(test::ball_contours());
     editor.wait();
-    EXPECT_EQ(log.updates().back().kind, Kind::refined);
+    EXPECT_EQ(log.updates().back().kind, Kind::finished);
     editor.edit({});
     editor.wait();
     EXPECT_TRUE(log.updates().back().surface.mesh.points.empty());

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iomanip>
 
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
 #include "kontur/io/image.h"
 #include "kontur/segment.h"
 #include "support/coarse_grid.h"

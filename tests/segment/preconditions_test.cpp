@@ -94,13 +94,13 @@ TEST(Preconditions, OfPreparingContours) {
     const std::function<void(const ReduceOptions&)> reducing = [&](const ReduceOptions& o) { reduce(contour, o); };
     add<ReduceOptions>(rows, "reduce", &ReduceOptions::quality, {0, -1, 2, kNan}, reducing, "quality");
     add<ReduceOptions>(rows, "min_points", &ReduceOptions::min_points, {0, 1}, reducing, "points");
-    rows.push_back({"refine", [&] { refine(contour, -1); }, "segments"});
+    rows.push_back({"subdivide", [&] { subdivide(contour, -1); }, "segments"});
     for (const double length : kNotAbove0) {
         const std::vector<bool> flags(contour.points.size());
-        rows.push_back({"nearest", [=] { refine_to_corners(contours().contours[0], flags, length, 1); }, "corners"});
-        rows.push_back({"longest", [=] { refine_to_corners(contours().contours[0], flags, 1, length); }, "corners"});
+        rows.push_back({"nearest", [=] { subdivide_to_corners(contours().contours[0], flags, length, 1); }, "corners"});
+        rows.push_back({"longest", [=] { subdivide_to_corners(contours().contours[0], flags, 1, length); }, "corners"});
     }
-    rows.push_back({"flags", [&] { refine_to_corners(contour, {true}, 0.1, 1); }, "flags"});
+    rows.push_back({"flags", [&] { subdivide_to_corners(contour, {true}, 0.1, 1); }, "flags"});
     rows.push_back({"orient", [] { orient(Contour{}); }, "points of the contour is 0"});
 
     const std::function<void(const TidyOptions&)> tidying = [](const TidyOptions& o) {
@@ -304,14 +304,15 @@ TEST(Preconditions, OfEditing) {
     };
     for (const auto& call : {editing, live}) {
         add<EditorOptions>(rows, "preview", &EditorOptions::preview_spacing_mm, kBelow0, call, "preview's spacing");
-        add<EditorOptions>(rows, "refined", &EditorOptions::refined_spacing_mm, kBelow0, call, "refined surface's spacing");
+        add<EditorOptions>(rows, "finished", &EditorOptions::finished_spacing_mm, kBelow0, call,
+                           "finished surface's spacing");
         add<EditorOptions>(rows, "points", &EditorOptions::preview_points, {0}, call, "0 points");
     }
     const auto refuse = [&](const std::string& part, const std::function<void(SegmentOptions&)>& spoil) {
         EditorOptions options;
         spoil(options.segment);
         rows.push_back({"preview", [=] { Editor(options).preview(contours()); }, part});
-        rows.push_back({"refine", [=] { Editor(options).refine(contours()); }, part});
+        rows.push_back({"finish", [=] { Editor(options).finish(contours()); }, part});
     };
     for (const double value : kNotAbove0) {
         refuse("normal offset", [=](SegmentOptions& o) { o.normal_offset_mm = value; });
@@ -320,7 +321,7 @@ TEST(Preconditions, OfEditing) {
     for (const double value : kBelow0) refuse("smoothing", [=](SegmentOptions& o) { o.smoothing = value; });
     for (const double value : {0.0, 1.5, kNan}) refuse("quality", [=](SegmentOptions& o) { o.quality = value; });
     rows.push_back({"preview", [] { Editor().preview(contours(), {.threads = -1}); }, "threads"});
-    rows.push_back({"refine", [] { Editor().refine(contours(), {.threads = -1}); }, "threads"});
+    rows.push_back({"finish", [] { Editor().finish(contours(), {.threads = -1}); }, "threads"});
     expect_refused(rows);
 }
 

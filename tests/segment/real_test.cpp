@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "kontur/extract/rasterize.h"
-#include "kontur/io/contour_json.h"
+#include "kontur/io/contours/contour_json.h"
+#include "kontur/io/dicom/rtstruct.h"
 #include "kontur/io/image.h"
-#include "kontur/io/rtstruct.h"
 #include "kontur/segment.h"
 #include "kontur/shape/section.h"
 #include "support/coarse_grid.h"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "kontur/drawing/prepare.h"
 #include "kontur/fit/constraints.h"
+#include "kontur/fit/prepare.h"
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
 #include "support/random.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kontur/base/error.h"
-#include "kontur/io/dicom_series.h"
+#include "kontur/io/dicom/dicom_series.h"
 #include "support/run_python.h"
 #include "support/temporary_folder.h"
 

@@ -57,16 +57,16 @@ def smallest_ball(points):
     return centre, np.linalg.norm(points - centre, axis=1).max()
 
 
-def refine(points):
+def subdivide(points):
     """Section 5.2: segments longer than twice the average get points at about the average length."""
     following = np.roll(points, -1, axis=0)
     lengths = np.linalg.norm(following - points, axis=1)
     average = lengths.mean()
-    refined = []
+    subdivided = []
     for start, end, length in zip(points, following, lengths):
         pieces = int(np.floor(length / average + 0.5)) if length > 2 * average else 1
-        refined += [start + (end - start) * (piece / pieces) for piece in range(pieces)]
-    return np.array(refined)
+        subdivided += [start + (end - start) * (piece / pieces) for piece in range(pieces)]
+    return np.array(subdivided)
 
 
 def segments_cross(a, b, c, d):
@@ -108,9 +108,9 @@ def place(contours):
     diameter = 2 * smallest_ball(np.concatenate([c[0] for c in contours]))[1]
     points, normals = [], []
     for drawn, plane_normal, hole in contours:
-        refined = refine(drawn)
-        points.append(refined)
-        normals.append(outward_normals(refined, plane_normal, hole))
+        subdivided = subdivide(drawn)
+        points.append(subdivided)
+        normals.append(outward_normals(subdivided, plane_normal, hole))
     points, normals = np.concatenate(points), np.concatenate(normals)
 
     kept = np.empty((0, 3))

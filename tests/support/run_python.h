@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.h"
+
 namespace kontur::test {
 
 struct PythonResult {
@@ -18,7 +20,7 @@ struct PythonResult {
 
 /// Runs tests/support/SCRIPT with Debian's Python, which has NumPy, SciPy, nibabel and pydicom.
 inline PythonResult run_python(const std::string& script, const std::vector<std::string>& arguments) {
-    std::string command = std::string(KONTUR_TEST_PYTHON) + " '" + KONTUR_TEST_SUPPORT + "/" + script + "'";
+    std::string command = python_program() + " '" + support_folder() + "/" + script + "'";
     for (const std::string& argument : arguments) command += " '" + argument + "'";
     std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
     if (!pipe) throw std::runtime_error("cannot run " + command);

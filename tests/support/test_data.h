@@ -6,12 +6,14 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "support/paths.h"
+
 namespace kontur::test {
 
 /// Folder of the real data sets: KONTUR_TEST_DATA if set, else beside the checkout. May not exist.
 inline std::filesystem::path data_dir() {
     const char* set = std::getenv("KONTUR_TEST_DATA");
-    return set && *set ? std::filesystem::path(set) : std::filesystem::path(KONTUR_TEST_DATA_DEFAULT);
+    return set && *set ? std::filesystem::path(set) : std::filesystem::path(default_data_folder());
 }
 
 }  // namespace kontur::test

@@ -15,6 +15,15 @@ def plant(root, file, include):
     path.write_text(f"// a source\n  #  include {include}\n")
 
 
+def test_planted_import_against_the_flow_of_the_page_is_found(tmp_path):
+    path = tmp_path / "apps/viewer/web/src/model/project.ts"
+    path.parent.mkdir(parents=True)
+    path.write_text('// a source\nimport { panel } from "../ui/panel";\nimport type { Vec3 } from "../geometry/vec";\n')
+    result = check(tmp_path)
+    assert result.returncode == 1
+    assert result.stdout.count("project.ts:") == 1 and "model/project.ts:2: model may not include ui" in result.stdout
+
+
 def check(root):
     return subprocess.run([sys.executable, CHECK, root], capture_output=True, text=True)
 
@@ -27,8 +36,12 @@ def check(root):
         ("src/kontur/shape/grid.cpp", '"kontur/io/image.h"'),
         ("src/kontur/solve/solve.cpp", '"kontur/extract/voxelize.h"'),
         ("src/kontur/extract/voxelize.h", '"kontur/solve/solve.h"'),
-        ("src/kontur/drawing/prepare.cpp", '"kontur/fit/sides.h"'),
-        ("src/kontur/solve/solve.cpp", '"kontur/drawing/bounds.h"'),
+        ("src/kontur/drawing/reduce.cpp", '"kontur/bounds/bounds.h"'),
+        ("src/kontur/bounds/ends.cpp", '"kontur/fit/sides.h"'),
+        ("src/kontur/io/bytes/png.cpp", '"kontur/io/images/nifti.h"'),
+        ("src/kontur/io/attic/old.cpp", '"kontur/io/bytes/png.h"'),
+        ("apps/viewer/model/model.cpp", '"viewer/session/session.h"'),
+        ("src/kontur/solve/solve.cpp", '"kontur/bounds/bounds.h"'),
         ("src/kontur/segment_options.h", '"kontur/segment.h"'),
         ("src/kontur/view/picture.cpp", '"kontur/function/implicit_function.h"'),
         ("src/kontur/io/image.cpp", '"kontur/function/implicit_function.h"'),
@@ -54,12 +67,14 @@ def test_planted_violation_is_found_at_its_line(tmp_path, file, include):
     "file, include",
     [
         ("src/kontur/base/error.h", "<string_view>"),
-        ("src/kontur/io/json_file.h", "<nlohmann/json.hpp>"),
+        ("src/kontur/io/bytes/json_file.h", "<nlohmann/json.hpp>"),
         ("src/kontur/extract/voxelize.h", '"kontur/function/implicit_function.h"'),
         ("src/kontur/segment.cpp", '"kontur/stages.h"'),
         ("src/kontur/view/picture.cpp", '"kontur/extract/trace.h"'),
         ("src/kontur/kontur.h", '"kontur/io/image.h"'),
         ("apps/kontur/main.cpp", '"kontur/io/image.h"'),
+        ("src/kontur/io/images/nifti.cpp", '"kontur/io/bytes/png.h"'),
+        ("apps/viewer/session/session.cpp", '"viewer/model/model.h"'),
         ("tests/io/image_test.cpp", '"support/test_data.h"'),
     ],
 )
@@ -72,7 +87,7 @@ def test_allowed_include_passes(tmp_path, file, include):
 @pytest.mark.parametrize(
     "includer, exit_code",
     [
-        ("src/kontur/io/markups.cpp", 0),
+        ("src/kontur/io/contours/markups.cpp", 0),
         ("tests/io/json_file_test.cpp", 0),
         ("src/kontur/segment.cpp", 1),
         ("src/kontur/kontur.h", 1),
@@ -82,7 +97,7 @@ def test_allowed_include_passes(tmp_path, file, include):
     ],
 )
 def test_header_that_brings_in_a_third_party_one_is_private_to_its_room(tmp_path, includer, exit_code):
-    plant(tmp_path, "src/kontur/io/json_file.h", "<nlohmann/json.hpp>")
-    plant(tmp_path, "src/kontur/io/json_numbers.h", '"kontur/io/json_file.h"')
+    plant(tmp_path, "src/kontur/io/bytes/json_file.h", "<nlohmann/json.hpp>")
+    plant(tmp_path, "src/kontur/io/json_numbers.h", '"kontur/io/bytes/json_file.h"')
     plant(tmp_path, includer, '"kontur/io/json_numbers.h"')
     assert check(tmp_path).returncode == exit_code

@@ -132,7 +132,7 @@ TEST(EdgeMap, SnapsToTheEdgeNearby) {
         Pixel p = on_circle(degrees);
         p.column += 3;
         const Pixel snapped = edges.snap(p, 6);
-        EXPECT_LT(off_circle(edges.refined(snapped)), 0.3) << degrees;
+        EXPECT_LT(off_circle(edges.subpixel_position(snapped)), 0.3) << degrees;
         EXPECT_LE(std::hypot(snapped.column - p.column, snapped.row - p.row), 6);
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/access.h"
+#include "viewer/server/access.h"
 
 #include <gtest/gtest.h>
 

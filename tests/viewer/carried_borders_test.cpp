@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/carried_borders.h"
+#include "viewer/edits/carried_borders.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "viewer/contour_edits.h"
 #include "viewer/drawn_contours.h"
+#include "viewer/edits/contour_edits.h"
 
 namespace kontur::viewer {
 namespace {

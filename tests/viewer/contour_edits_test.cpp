@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/contour_edits.h"
+#include "viewer/edits/contour_edits.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "support/expect_error.h"
-#include "viewer/contour_lines.h"
 #include "viewer/drawn_contours.h"
+#include "viewer/edits/contour_lines.h"
 
 namespace kontur::viewer {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "kontur/shape/volume.h"
-#include "viewer/sketch.h"
+#include "viewer/edits/sketch.h"
 
 namespace kontur::viewer::test {
 

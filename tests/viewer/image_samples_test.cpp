@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/image_samples.h"
+#include "viewer/images/image_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "viewer/views.h"
+#include "viewer/images/views.h"
 
 namespace kontur::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/import_doubts.h"
+#include "viewer/files/import_doubts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/kept_fits.h"
+#include "viewer/files/kept_fits.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include "kontur/base/geometry.h"
 #include "kontur/shape/predicates.h"
 #include "support/expect_error.h"
-#include "viewer/contour_edits.h"
 #include "viewer/drawn_contours.h"
+#include "viewer/edits/contour_edits.h"
 
 // Open lines: what edits do to them, and how contours are opened and lines are closed.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/mesh_code.h"
+#include "viewer/surfaces/mesh_code.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/message_checks.h"
+#include "viewer/model/message_checks.h"
 
 #include <gtest/gtest.h>
 

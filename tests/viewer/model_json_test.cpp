@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/model_json.h"
+#include "viewer/model/model_json.h"
 
 #include <gtest/gtest.h>
 

@@ -139,8 +139,8 @@ def test_drawing_gives_a_surface_and_outlines_in_every_view(server):
     assert len(head["crossings"]) >= 2
 
 
-def events_until_refined(page):
-    while not any(event["event"] == "surface" and event["stage"] == "refined" for event in page.events):
+def events_until_finished(page):
+    while not any(event["event"] == "surface" and event["stage"] == "finished" for event in page.events):
         page._apply(page.receive())
     return page.events
 
@@ -162,17 +162,17 @@ def test_outlines_are_told_ahead_of_their_surface_in_the_planes_that_were_asked_
         server.slice(plane, 65, 65, view=name, pixels=False)
     page.events.clear()
     page.do("contour.translate", id=ids[0], by=[1, 0, 0], draft=True)
-    events_until_refined(page)
+    events_until_finished(page)
     ahead = {event["revision"]: at for at, event in enumerate(page.events) if event["event"] == "outlines"}
     surfaces = {event["revision"]: (at, event) for at, event in enumerate(page.events) if event["event"] == "surface" and event["stage"] != "outdated"}
-    assert ahead.keys() == surfaces.keys() and [surface["stage"] for _, surface in surfaces.values()] == ["preview", "refined"]
+    assert ahead.keys() == surfaces.keys() and [surface["stage"] for _, surface in surfaces.values()] == ["preview", "finished"]
     for revision, at in ahead.items():
         assert at < surfaces[revision][0]
         for name, plane in planes.items():
             told_plane, (line,) = told_lines(page.events[at], name)
             assert told_plane == plane, "to the last bit, so that a page knows it again"
             assert numpy.abs(numpy.hypot(*(line - 32).T) * 0.5 - RADIUS).max() < 2
-    # Those of the refined surface are the ones that a slice shows.
+    # Those of the finished surface are the ones that a slice shows.
     for name, plane in planes.items():
         head, arrays = server.slice(plane, 65, 65, view=name, pixels=False)
         assert head["outlines"][0]["revision"] == max(ahead)
@@ -190,7 +190,7 @@ def test_only_the_latest_planes_are_watched(server):
         server.slice(page.session["views"]["axial"]["plane"] | {"mm_per_pixel": 1}, 8, 8, view=f"view {number}", pixels=False)
     page.events.clear()
     page.do("contour.translate", id=ids[0], by=[1, 0, 0])
-    told = [event for event in events_until_refined(page) if event["event"] == "outlines"]
+    told = [event for event in events_until_finished(page) if event["event"] == "outlines"]
     assert len(told) == 2
     for event in told:
         assert [view["view"] for view in event["views"]] == [f"view {number}" for number in range(12, 20)]
@@ -207,7 +207,7 @@ def test_two_pages_are_told_of_their_own_planes(server):
         server.slice(at, 65, 65, view="axial", pixels=False, **({"page": name} if name else {}))
     page.events.clear()
     page.do("contour.translate", id=max(page.contours), by=[1, 0, 0])
-    (last,) = [event for event in events_until_refined(page) if event["event"] == "outlines"][-1:]
+    (last,) = [event for event in events_until_finished(page) if event["event"] == "outlines"][-1:]
     assert [view["plane"] for view in last["views"]] == planes
 
 
@@ -227,22 +227,22 @@ def test_a_surface_is_outdated_before_anybody_is_told_of_an_edit(server):
         before = page.wait_for_surface(structure)
 
 
-def test_no_surface_of_contours_from_before_is_told_as_refined(server):
-    """Edits in the midst of a refinement: what that still gives comes as a preview."""
+def test_no_surface_of_contours_from_before_is_told_as_finished(server):
+    """Edits in the midst of a finishing: what that still gives comes as a preview."""
     page = server.page()
     structure = the_structure(page)
     ids = draw_ball(page, structure)
     page.wait_for_surface(structure)
     choose = random.Random(5)
-    is_refined = True
+    is_finished = True
     for n in range(40):  # never back to where it was, for which the surface is kept
         page.do("contour.translate", id=ids[1], by=[choose.choice((-1, 1)) * (1 + n / 64), 0, 0])
         time.sleep(choose.uniform(0, 0.3))
         page.do("ping")
         for event in page.events:
-            assert not (event["event"] == "changed" and is_refined)
+            assert not (event["event"] == "changed" and is_finished)
             if event["event"] == "surface":
-                is_refined = event["stage"] == "refined"
+                is_finished = event["stage"] == "finished"
         page.events.clear()
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/places.h"
+#include "viewer/store/places.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
-#include "viewer/recent.h"
+#include "viewer/store/recent.h"
 
 namespace kontur::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/project.h"
+#include "viewer/store/project.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/proposed_lines.h"
+#include "viewer/edits/proposed_lines.h"
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ def test_the_schema_is_json_schema():
 
 
 def test_the_schema_has_the_servers_calls_and_no_others():
-    table = (ROOT / "apps/viewer/session.cpp").read_text()
+    table = (ROOT / "apps/viewer/session/session.cpp").read_text()
     assert set(re.findall(r'\{"([a-z_.]+)", \{&Session::', table)) == set(CALLS)
 
 

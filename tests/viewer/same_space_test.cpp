@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/same_space.h"
+#include "viewer/images/same_space.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
-#include "viewer/session.h"
+#include "viewer/session/session.h"
 
 // An image that is shown beside the project's own: its values on slices, its edges, and what is kept of it.
 

@@ -11,11 +11,11 @@
 #include "kontur/io/image.h"
 #include "kontur/segment.h"
 #include "kontur/segment_together.h"
-#include "refine/lobed_body.h"
+#include "support/lobed_body.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
-#include "viewer/model_json.h"
-#include "viewer/session.h"
+#include "viewer/model/model_json.h"
+#include "viewer/session/session.h"
 
 // Surfaces and exports that the image helps to make.
 
@@ -129,7 +129,7 @@ double volume_ml(const Segmentation& made) {
 TEST(SessionImage, HelpsToMakeSurfaceAndExportsAsItDoesForSegment) {
     Visit here(image_of_body());
     const std::vector<json> told = here.told_surfaces();
-    ASSERT_EQ(stages(told), (std::vector<std::string>{"preview", "asking", "refined"}));
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"preview", "asking", "finished"}));
     EXPECT_FALSE(told[1].contains("image"));
     EXPECT_NE(told[1]["volume_ml"], told[2]["volume_ml"]);
     const Segmentation with = here.segmented(true), without = here.segmented(false);
@@ -151,7 +151,7 @@ TEST(SessionImage, IsUsedByASwitchThatCanBeTakenBack) {
     EXPECT_TRUE(here.slice()["outlines"][0].contains("without_image"));
     EXPECT_TRUE(here.call({{"call", "image.set"}, {"use", false}}).contains("result"));
     EXPECT_EQ(here.greeting()["use_image"], false);
-    EXPECT_EQ(here.surface()["stage"], "refined");
+    EXPECT_EQ(here.surface()["stage"], "finished");
     EXPECT_FALSE(here.surface().contains("image"));
     EXPECT_NE(here.surface()["volume_ml"], with_ml);
     EXPECT_FALSE(here.slice()["outlines"][0].contains("without_image"));
@@ -167,7 +167,7 @@ TEST(SessionImage, IsUsedByASwitchThatCanBeTakenBack) {
 TEST(SessionImage, WhereItDoesNotHelpTheSurfaceStaysAndKeepsItsRevision) {
     Visit here(image_of_noise());
     const std::vector<json> told = here.told_surfaces();
-    ASSERT_EQ(stages(told), (std::vector<std::string>{"preview", "asking", "refined"}));
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"preview", "asking", "finished"}));
     EXPECT_EQ(told[2]["revision"], told[1]["revision"]);
     EXPECT_EQ(told[2]["volume_ml"], told[1]["volume_ml"]);
     EXPECT_EQ(told[2]["image"]["verdict"], "no_help");
@@ -182,7 +182,7 @@ TEST(SessionImage, UntilItHasAnsweredAgainWhatIsShownFollowsWhatItSaidBefore) {
         const Id contour = here.greeting()["contours"][0]["id"];
         here.call({{"call", "contour.translate"}, {"id", contour}, {"by", {0.5, 0, 0}}});
         const std::vector<json> told = here.told_surfaces();
-        ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "asking", "refined"}));
+        ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "asking", "finished"}));
         const Segmentation made = here.segmented(true);
         const bool is_used = made.report.image.verdict == ImageVerdict::used;
         EXPECT_EQ(told[2]["revision"] == told[3]["revision"], !is_used);
@@ -206,7 +206,7 @@ TEST(SessionImage, WhatThePreviewFollowedIsTakenBackWhereTheImageIsNotUsedAnyMor
     const json contours = here.greeting()["contours"];
     here.call({{"call", "contour.remove"}, {"ids", {contours[0]["id"], contours[1]["id"]}}});
     const std::vector<json> told = here.told_surfaces();
-    ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "asking", "refined"}));
+    ASSERT_EQ(stages(told), (std::vector<std::string>{"outdated", "preview", "asking", "finished"}));
     EXPECT_EQ(told.back()["image"]["verdict"], "unknown");
     EXPECT_GT(told.back()["revision"], told[1]["revision"]);
     EXPECT_EQ(here.exported_mask(), here.segmented(false).mask.values);
@@ -217,7 +217,7 @@ TEST(SessionImage, IsNotAskedWhereItCannotTellBorders) {
     for (const auto& image : {label_map(), test::flat_image()}) {
         Visit here(image);
         EXPECT_EQ(here.greeting()["use_image"], nullptr);
-        EXPECT_EQ(stages(here.told_surfaces()), (std::vector<std::string>{"preview", "refined"}));
+        EXPECT_EQ(stages(here.told_surfaces()), (std::vector<std::string>{"preview", "finished"}));
         EXPECT_FALSE(here.surface().contains("image"));
     }
 }
@@ -232,7 +232,7 @@ TEST(SessionImage, IsAskedOfEachStructureOnceTheSwitchIsOn) {
     std::map<Id, json> last;
     for (const json& surface : here.told_surfaces()) last[surface["structure"]] = surface;
     for (const Id id : {here.structure, other}) {
-        EXPECT_EQ(last[id]["stage"], "refined");
+        EXPECT_EQ(last[id]["stage"], "finished");
         EXPECT_EQ(last[id]["image"]["verdict"], "used");
     }
 }
@@ -260,7 +260,7 @@ TEST(SessionSmoothing, OfAStructureIsAStepAndMakesSurfaceAndExportsAsSegmentDoes
     EXPECT_FALSE(here.greeting()["structures"][0].contains("smoothing"));
     here.told_surfaces();
     EXPECT_TRUE(smooth(1e-2).contains("result"));
-    EXPECT_EQ(stages(here.told_surfaces()), (std::vector<std::string>{"outdated", "preview", "refined"}));
+    EXPECT_EQ(stages(here.told_surfaces()), (std::vector<std::string>{"outdated", "preview", "finished"}));
     EXPECT_EQ(here.greeting()["structures"][0]["smoothing"], 1e-2);
     EXPECT_GT(here.surface()["residual"]["rms_mm"], usual["residual"]["rms_mm"]);
     EXPECT_NE(segmented(1e-2), segmented({}));
@@ -313,7 +313,7 @@ TEST(SessionSmoothing, ThatChangesWhileASurfaceIsOnItsWayLeavesTheLastOne) {
     const double volume_ml = here.surface()["volume_ml"];
     for (int round = 0; round < 12; ++round) set(round % 3 == 0 ? 0 : round % 3 == 1 ? 1e-3 : 1e-2);
     here.session.wait_for_surfaces();
-    EXPECT_EQ(here.surface()["stage"], "refined");
+    EXPECT_EQ(here.surface()["stage"], "finished");
     EXPECT_EQ(here.surface()["volume_ml"], volume_ml);
 }
 

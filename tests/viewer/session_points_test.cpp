@@ -7,8 +7,8 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
-#include "viewer/model_json.h"
-#include "viewer/session.h"
+#include "viewer/model/model_json.h"
+#include "viewer/session/session.h"
 
 // Single points that a structure's surface passes, or that lie inside or outside of it.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/session.h"
+#include "viewer/session/session.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "viewer/drawn_contours.h"
-#include "viewer/http_api.h"
+#include "viewer/server/http_api.h"
 
 namespace kontur::viewer {
 namespace {

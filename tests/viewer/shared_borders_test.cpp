@@ -12,10 +12,10 @@
 #include "support/contour_sets.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
-#include "viewer/border_sharing.h"
 #include "viewer/drawn_contours.h"
-#include "viewer/model_json.h"
-#include "viewer/session.h"
+#include "viewer/model/model_json.h"
+#include "viewer/session/session.h"
+#include "viewer/surfaces/border_sharing.h"
 
 namespace kontur::viewer {
 namespace {
@@ -27,7 +27,7 @@ constexpr double kRadius = 12, kOff = 10;  // of balls on both sides of the plan
 ContourSet ball(double x, double radius = kRadius) { return kontur::test::ball_slices({x, 0, 0}, radius, 2, 4); }
 
 LoneSurface fitted(Id id, ContourSet set) {
-    EditedSurface made = Editor().refine(set);
+    EditedSurface made = Editor().finish(set);
     return {id, std::make_shared<const ContourSet>(std::move(set)), made.function,
             std::make_shared<const TriangleMesh>(std::move(made.mesh))};
 }
@@ -101,7 +101,7 @@ struct SharingSession {
         session.wait_for_surfaces();
         const json event = told();
         for (const json& surface : event["surfaces"])
-            if (surface["structure"] == ids[n] && surface["stage"] == "refined") return surface["volume_ml"];
+            if (surface["structure"] == ids[n] && surface["stage"] == "finished") return surface["volume_ml"];
         return 0;
     }
 
@@ -195,7 +195,7 @@ TEST(Session, BordersAreThoseOfTheLatestContoursHoweverFastTheyCome) {
     }
     for (int n = 0; n < 12; ++n) here.call({{"call", "undo"}});
     EXPECT_DOUBLE_EQ(here.volume_ml(0), before);
-    EXPECT_EQ(here.told()["surfaces"][1]["stage"], "refined");
+    EXPECT_EQ(here.told()["surfaces"][1]["stage"], "finished");
 }
 
 TEST(Session, ANeighboursContourGoesAlongInTheSameStep) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/snapped_line.h"
+#include "viewer/edits/snapped_line.h"
 
 #include <gtest/gtest.h>
 

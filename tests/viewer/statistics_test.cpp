@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/statistics.h"
+#include "viewer/surfaces/statistics.h"
 
 #include <gtest/gtest.h>
 

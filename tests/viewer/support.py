@@ -198,7 +198,7 @@ class Page:
         assert "error" in reply, reply
         return reply["error"]
 
-    def wait_for_surface(self, structure, stage="refined"):
+    def wait_for_surface(self, structure, stage="finished"):
         """The first such surface among the events to come or not yet looked at."""
         while True:
             for at, event in enumerate(self.events):

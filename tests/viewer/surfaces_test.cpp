@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/surfaces.h"
+#include "viewer/surfaces/surfaces.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -50,7 +50,7 @@ TEST(Surfaces, EndWhileOneIsBeingFinishedAndStartNoOther) {
     SurfaceListener listener = deaf();
     listener.surface = [&](const std::shared_ptr<const Surface>& surface) { told.push_back(surface->structure); };
     listener.outlines = [&](Id structure, std::int64_t revision, const PlaneCutters&) {
-        if (structure != 2 || revision < 4) return;  // of the refined one, which comes after two for each preview
+        if (structure != 2 || revision < 4) return;  // of the finished one, which comes after two for each preview
         {
             const std::scoped_lock lock(mutex);
             is_finishing = true;
@@ -67,7 +67,7 @@ TEST(Surfaces, EndWhileOneIsBeingFinishedAndStartNoOther) {
         std::unique_lock lock(mutex);
         ASSERT_TRUE(changed.wait_for(lock, 60s, [&] { return is_finishing; }));
     }
-    EXPECT_EQ(std::count(told.begin(), told.end(), 2), 2) << "the preview and the refined one";
+    EXPECT_EQ(std::count(told.begin(), told.end(), 2), 2) << "the preview and the finished one";
     EXPECT_EQ(std::count(told.begin(), told.end(), 3), 0);
     // A thread that has ended is listed for a moment longer.
     for (int i = 0; i < 100 && threads() > before; ++i) std::this_thread::sleep_for(10ms);
@@ -91,7 +91,7 @@ TEST(Surfaces, AThreadLivesNoLongerThanTheContoursItFollows) {
     EXPECT_EQ(surfaces.all().size(), 39u);
     surfaces.follow(ball(2));
     surfaces.wait();
-    EXPECT_EQ(surfaces.all().at(2)->stage, SurfaceStage::refined) << "contours after none are followed again";
+    EXPECT_EQ(surfaces.all().at(2)->stage, SurfaceStage::finished) << "contours after none are followed again";
     EXPECT_EQ(surfaces.all().at(3)->stage, SurfaceStage::none);
 }
 
@@ -106,7 +106,7 @@ TEST(Surfaces, ContoursThatContradictEachOtherHaveOneBetweenThemAndAreNamed) {
     Surfaces surfaces(deaf());
     surfaces.follow(two_circles(20, 2));
     surfaces.wait();
-    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::refined);
+    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::finished);
     EXPECT_GT(surfaces.all().at(1)->volume_ml, 1);
     EXPECT_FALSE(surfaces.all().at(1)->conflicts.empty());
 }
@@ -130,7 +130,7 @@ TEST(Surfaces, AnImageThatCannotBeAskedTakesNoSurfaceAway) {
         surfaces.follow(ball(1));
         surfaces.wait();
         const auto shown = surfaces.all().at(1);
-        EXPECT_EQ(shown->stage, SurfaceStage::refined);
+        EXPECT_EQ(shown->stage, SurfaceStage::finished);
         EXPECT_GT(shown->volume_ml, 20);
         ASSERT_EQ(shown->warnings.size(), 1u);
         EXPECT_EQ(shown->warnings[0], "The image could not be asked: the image has 7 values for a grid of 729 voxels.");
@@ -182,7 +182,7 @@ TEST(Surfaces, WithoutAThreadThereIsAWarningUntilTheNextEdit) {
     }
     surfaces.follow(ball(1));
     surfaces.wait();
-    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::refined);
+    EXPECT_EQ(surfaces.all().at(1)->stage, SurfaceStage::finished);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/temporary_files.h"
+#include "viewer/model/temporary_files.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/time_axis.h"
+#include "viewer/images/time_axis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/views.h"
+#include "viewer/images/views.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kontur/io/nifti.h"
+#include "kontur/io/images/nifti.h"
 #include "support/test_data.h"
 
 namespace kontur::viewer {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/workspace.h"
+#include "viewer/server/workspace.h"
 
 #include <gtest/gtest.h>
 

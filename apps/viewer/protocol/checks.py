@@ -88,7 +88,7 @@ def checks_file():
     for name, kinds in messages.items():
         rows = "".join(f"        {{{json.dumps(key)}, &{tables.type(kind)}}},\n" for key, kind in kinds.items())
         functions.append(f"const Types& {name}() {{\n    static const Types types{{\n{rows}    }};\n    return types;\n}}")
-    head = ["// Made from apps/viewer/protocol by checks.py: change it there.", '#include "viewer/message_checks.h"', ""]
+    head = ["// Made from apps/viewer/protocol by checks.py: change it there.", '#include "viewer/model/message_checks.h"', ""]
     return "\n".join([*head, "namespace kontur::viewer {", "namespace {", *tables.lines, "}  // namespace", *functions, "}  // namespace kontur::viewer", ""])
 
 

@@ -56,22 +56,23 @@ std::vector<bool> find_corners(const Contour& contour) {
     return corners;
 }
 
-Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm) {
+Contour subdivide_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm,
+                             double longest_mm) {
     check_same_count("flags of corners", corners.size(), "points", contour.points.size());
     check_above_0("the spacing at corners", nearest_mm, " mm");
     check_above_0("the spacing between corners", longest_mm, " mm");
     const std::size_t n = contour.points.size(), edges = contour.closed || n == 0 ? n : n - 1;
-    Contour refined = contour;
-    refined.points.clear();
+    Contour subdivided = contour;
+    subdivided.points.clear();
     for (std::size_t i = 0; i < edges; ++i) {
         const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
         const double length = distance(from, to);
-        refined.points.push_back(from);
+        subdivided.points.push_back(from);
         for (const double at : steps_along(length, corners[i], corners[(i + 1) % n], nearest_mm, longest_mm))
-            refined.points.push_back(from + (at / length) * (to - from));
+            subdivided.points.push_back(from + (at / length) * (to - from));
     }
-    if (!contour.closed && n > 0) refined.points.push_back(contour.points.back());
-    return refined;
+    if (!contour.closed && n > 0) subdivided.points.push_back(contour.points.back());
+    return subdivided;
 }
 
 }  // namespace kontur

@@ -22,6 +22,6 @@ std::vector<bool> find_corners(const Contour& contour);
 /// corner, each further one half as far again, up to steps of `longest_mm`. Drawn points stay. An edge of length l gets
 /// about 2 l / longest + 5 log(longest / nearest) points. Throws Error(invalid_input) unless both lengths are finite and
 /// above 0 and there is one flag for each point.
-Contour refine_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm);
+Contour subdivide_to_corners(const Contour& contour, const std::vector<bool>& corners, double nearest_mm, double longest_mm);
 
 }  // namespace kontur

@@ -101,7 +101,7 @@ double gap(const PlaneLines& lines_here, const Vec3& from, const Vec3& direction
     return nearest <= reach ? nearest : std::numeric_limits<double>::infinity();
 }
 
-// Points of refined contours lie on their edge only up to rounding.
+// Points of subdivided contours lie on their edge only up to rounding.
 double own_edge(double tolerance_mm) { return 1e-5 * tolerance_mm; }
 
 /// Subdivides edges of one contour.
@@ -113,24 +113,24 @@ public:
 
     NarrowEdges(const PlaneLines& lines_here, const Limits& limits) : lines_(lines_here), limits_(limits) {}
 
-    std::vector<Vec3> subdivided(const std::vector<Vec3>& drawn, const Contour& refined) const {
-        const std::vector<Vec3>& all = refined.points;
+    std::vector<Vec3> subdivided(const std::vector<Vec3>& drawn, const Contour& subdivided) const {
+        const std::vector<Vec3>& all = subdivided.points;
         const std::size_t n = all.size();
         const auto turn_at = [&](std::size_t i) {
-            if (!refined.closed && (i == 0 || i == n - 1)) return 0.0;
+            if (!subdivided.closed && (i == 0 || i == n - 1)) return 0.0;
             return turn(all[(i + n - 1) % n], all[i], all[(i + 1) % n]);
         };
         std::vector<Vec3> points;
         std::size_t next = 0;  // of the drawn points
         bool is_long = false;
-        for (std::size_t i = 0; i < (refined.closed ? n : n - 1); ++i) {
+        for (std::size_t i = 0; i < (subdivided.closed ? n : n - 1); ++i) {
             if (next < drawn.size() && all[i] == drawn[next]) {
                 ++next;
                 is_long = distance(all[i], drawn[next % drawn.size()]) > limits_.long_mm;
             }
             append({all[i], all[(i + 1) % n], turn_at(i), turn_at((i + 1) % n)}, is_long, points);
         }
-        if (!refined.closed) points.push_back(all.back());
+        if (!subdivided.closed) points.push_back(all.back());
         return points;
     }
 
@@ -189,9 +189,9 @@ void find_gaps(const ContourSet& set, double reach_mm, double tolerance_mm, std:
     });
 }
 
-void refine_narrow(const ContourSet& drawn, ContourSet& refined, const FinePieces& pieces, double tolerance_mm,
-                   const Work& work) {
-    const std::size_t count = refined.contours.size();
+void subdivide_narrow(const ContourSet& drawn, ContourSet& subdivided, const FinePieces& pieces, double tolerance_mm,
+                      const Work& work) {
+    const std::size_t count = subdivided.contours.size();
     check_same_count("shortest lengths", pieces.shortest_mm.size(), "contours", count);
     check_same_count("long lengths", pieces.long_mm.size(), "contours", count);
     const AllLines lines = lines_of(drawn, tolerance_mm);
@@ -200,7 +200,7 @@ void refine_narrow(const ContourSet& drawn, ContourSet& refined, const FinePiece
             const auto c = static_cast<std::size_t>(begin);
             const NarrowEdges edges(lines.with(static_cast<std::int32_t>(c)),
                                     {pieces.shortest_mm[c], pieces.long_mm[c], pieces.bulge_mm, own_edge(tolerance_mm)});
-            refined.contours[c].points = edges.subdivided(drawn.contours[c].points, refined.contours[c]);
+            subdivided.contours[c].points = edges.subdivided(drawn.contours[c].points, subdivided.contours[c]);
         }
     });
 }

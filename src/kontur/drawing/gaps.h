@@ -23,14 +23,14 @@ struct FinePieces {
     double bulge_mm = 0;  ///< > 0: how far a smooth curve may stand out from an edge at whose ends the line turns
 };
 
-/// Subdivides edges of `refined`, which holds all points of `drawn`, where points as far apart as elsewhere would let f
+/// Subdivides edges of `subdivided`, which holds all points of `drawn`, where points as far apart as elsewhere would let f
 /// leave the drawn line. Pieces are halved, as long as the halves are not too short,
 /// - along thin parts and clefts, until one is no longer than the way across it, to the next line drawn in its plane;
 /// - between corners that turn the same way, at the end of a thin part: until the arc with the turns of a piece's ends, half
 ///   of each, stands out from it by `bulge_mm` at most.
 /// Contours share a plane within `tolerance_mm`. Throws Error(invalid_input) unless there is one of the lengths for each
 /// contour.
-void refine_narrow(const ContourSet& drawn, ContourSet& refined, const FinePieces& pieces, double tolerance_mm,
-                   const Work& work = {});
+void subdivide_narrow(const ContourSet& drawn, ContourSet& subdivided, const FinePieces& pieces, double tolerance_mm,
+                      const Work& work = {});
 
 }  // namespace kontur

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "kontur/drawing/reduce.h"
+#include "kontur/drawing/subdivide.h"
 #include "kontur/shape/section.h"
 
 namespace kontur {
@@ -15,7 +15,7 @@ constexpr int kLeastSegments = 48;
 
 /// The line, moved by that share of the way to the other one.
 void move_towards(const Contour& other, double share, Contour& line) {
-    line = refine(line, std::max(kLeastSegments, static_cast<int>(other.points.size())));
+    line = subdivide(line, std::max(kLeastSegments, static_cast<int>(other.points.size())));
     const Section there = section_of(other, line.plane);
     const SectionSearch search(there);
     for (Vec3& p : line.points) {

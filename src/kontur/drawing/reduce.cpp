@@ -8,7 +8,6 @@
 #include <queue>
 #include <string>
 
-#include "kontur/base/checks.h"
 #include "kontur/base/error.h"
 
 namespace kontur {
@@ -99,26 +98,6 @@ Contour reduce(const Contour& contour, const ReduceOptions& options) {
     for (std::size_t i = 0; i < n; ++i)
         if (ring.alive(i)) reduced.points.push_back(contour.points[i]);
     return reduced;
-}
-
-Contour refine(const Contour& contour, int least_segments) {
-    check_at_least("the least number of segments", least_segments, 0);
-    const std::size_t n = contour.points.size(), segments = contour.closed ? n : n - 1;
-    if (n < 2) return contour;
-    const double total = line_length(contour.points, contour.closed);
-    const double average = total / static_cast<double>(segments);
-    const double wanted = least_segments > 0 ? std::min(average, total / least_segments) : average;
-
-    Contour refined = contour;
-    refined.points.clear();
-    for (std::size_t i = 0; i < segments; ++i) {
-        const Vec3 &from = contour.points[i], &to = contour.points[(i + 1) % n];
-        const double length = distance(from, to);
-        const auto pieces = length > 2 * wanted ? static_cast<int>(std::round(length / wanted)) : 1;
-        for (int piece = 0; piece < pieces; ++piece) refined.points.push_back(from + (to - from) * (double(piece) / pieces));
-    }
-    if (!contour.closed) refined.points.push_back(contour.points.back());
-    return refined;
 }
 
 }  // namespace kontur

@@ -19,10 +19,4 @@ void check_quality(double quality);
 /// Throws Error(invalid_input) for a quality outside (0, 1] (check_quality), and fewer than 2 points at least.
 Contour reduce(const Contour& contour, const ReduceOptions& options = {});
 
-/// Subdivides long segments (paper section 5.2): a segment longer than twice the contour's average segment length gets
-/// equally spaced points at about the average length. Where the average is longer than 1 / `least_segments` of the
-/// perimeter, that length takes its place, so that a square drawn by its four corners stays a square. Drawn points stay.
-/// Throws Error(invalid_input) for `least_segments` below 0.
-Contour refine(const Contour& contour, int least_segments = 0);
-
 }  // namespace kontur

@@ -52,8 +52,8 @@ public:
 
     /// Moves the points by one step of Newton's method along their edges, with values and normals from where linear
     /// interpolation put them: a step of a tenth of an edge leaves some thousandths of it. Those with longer steps are left
-    /// to `refine`, and get their normals afterwards.
-    void refine_at_once(FastFunction& function, const Work& work) {
+    /// to `settle_vertices`, and get their normals afterwards.
+    void settle_at_once(FastFunction& function, const Work& work) {
         std::vector<Vec3> places, gradients(edges_.size());
         std::vector<double> values(edges_.size());
         for (const CutEdge& edge : edges_) places.push_back(mesh_.points[edge.point]);
@@ -75,7 +75,7 @@ public:
             else far.push_back(edge);
         }
         edges_ = far;
-        refine(function, work);
+        settle_vertices(function, work);
         places.clear();
         for (const CutEdge& edge : far) places.push_back(mesh_.points[edge.point]);
         gradients.resize(places.size());
@@ -85,7 +85,7 @@ public:
 
     /// Moves the points from where linear interpolation put them to the function's zeros; all of them step by step, because
     /// the function is cheaper in bulk. Between slices that are far apart the difference is a large part of a voxel.
-    void refine(FastFunction& function, const Work& work) {
+    void settle_vertices(FastFunction& function, const Work& work) {
         const double small_mm = kSmallValue * smallest_spacing(lattice_.grid());
         std::vector<Vec3> places;
         std::vector<double> values;
@@ -171,10 +171,10 @@ TriangleMesh polygonize(const SurfaceLattice& surface, FastFunction& function, c
     for (const Index3& cell : surface.cells) builder.add_cell(cell);
     work.report("polygonize", 0.3);
     if (accuracy == MeshAccuracy::of_a_screen) {
-        builder.refine_at_once(function, work);
+        builder.settle_at_once(function, work);
         return builder.finish();
     }
-    builder.refine(function, work);
+    builder.settle_vertices(function, work);
     work.report("polygonize", 0.6);
     builder.find_gradients(function, work);
     return builder.finish();

@@ -108,7 +108,7 @@ std::optional<Crossing> crossing_at(const std::array<double, 2>& point, const Sl
 
 /// Moves the lines' points from where linear interpolation put them to the function's zeros; all of them step by step,
 /// because the function is several times cheaper in bulk.
-void refine(std::vector<Isoline>& lines, const Slice& slice, const ImplicitFunction& function, const Plane& plane) {
+void settle_points(std::vector<Isoline>& lines, const Slice& slice, const ImplicitFunction& function, const Plane& plane) {
     constexpr int kSteps = 8;  // leaves less than 1e-6 of a voxel where the surface is as smooth as fits are
     std::vector<Crossing> crossings;
     std::vector<std::array<double, 2>*> points;
@@ -136,7 +136,7 @@ std::vector<Contour> contours_of_slice(const Mask& mask, const ImplicitFunction&
     slice.evaluate_border(function);
     const PlaneLattice lattice = lattice_of(mask.grid, k);
     std::vector<Isoline> lines = isolines(lattice, slice.levels());
-    refine(lines, slice, function, lattice.plane);
+    settle_points(lines, slice, function, lattice.plane);
     const Plane plane = plane_of(lattice);
     ContourSet set;
     for (const Isoline& line : lines) {

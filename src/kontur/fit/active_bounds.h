@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kontur/base/work.h"
+#include "kontur/bounds/bounds.h"
 #include "kontur/drawing/boundary_point.h"
-#include "kontur/drawing/bounds.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/function/implicit_function.h"
 

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "kontur/base/work.h"
-#include "kontur/drawing/prepare.h"
 #include "kontur/fit/constraints.h"
+#include "kontur/fit/prepare.h"
 #include "kontur/solve/solve.h"
 
 namespace kontur {

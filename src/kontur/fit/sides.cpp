@@ -8,7 +8,7 @@
 
 #include "kontur/base/error.h"
 #include "kontur/drawing/orient.h"
-#include "kontur/drawing/reduce.h"
+#include "kontur/drawing/subdivide.h"
 #include "kontur/fit/constraints.h"
 #include "kontur/solve/solve.h"
 
@@ -21,7 +21,7 @@ std::vector<BoundaryPoint> known_points(const ContourSet& set) {
     std::vector<BoundaryPoint> points;
     for (const Contour& drawn : set.contours) {
         if (!drawn.closed) continue;
-        const Contour contour = refine(drawn, kLeastSegments);
+        const Contour contour = subdivide(drawn, kLeastSegments);
         const std::vector<Vec3> normals = orient(contour).normals;
         for (std::size_t i = 0; i < normals.size(); ++i)
             points.push_back({contour.points[i], normals[i], contour.plane.normal, kNoContour, contour.weight});

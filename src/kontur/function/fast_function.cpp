@@ -72,7 +72,7 @@ struct FastFunction::State {
 
     /// After an error beyond the tolerance: a field whose coarsest lattice is half as coarse, if it still pays for the
     /// points to come, which are no fewer than the `count` of this call.
-    void refine_field(std::size_t count) {
+    void update_field(std::size_t count) {
         earlier_kernel_values += field->kernel_values();
         options.expected_points = std::max(options.expected_points - static_cast<std::int64_t>(answered - count),
                                            static_cast<std::int64_t>(count));
@@ -108,7 +108,7 @@ void FastFunction::values(std::span<const Vec3> points_mm, std::span<double> out
         for (std::size_t c = 0; c < checked.size(); ++c)
             s.error_mm = std::max(s.error_mm, std::abs(out[checked[c]] - exact[c]));
         if (s.error_mm <= s.options.tolerance_mm) return;
-        s.refine_field(points.size());
+        s.update_field(points.size());
     }
     DirectSum(s.exact).values(points, out, work);
     s.exact.add_fall(points, out);
@@ -129,7 +129,7 @@ void FastFunction::gradients(std::span<const Vec3> points_mm, std::span<Vec3> ou
         double error = 0;
         for (std::size_t c = 0; c < checked.size(); ++c) error = std::max(error, distance(out[checked[c]], exact[c]));
         if (error <= s.options.gradient_tolerance) return;
-        s.refine_field(points.size());
+        s.update_field(points.size());
     }
     work.check();
     s.exact.gradients(points_mm, out, work);

@@ -8,14 +8,14 @@
 
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
-#include "kontur/io/contour_json.h"
-#include "kontur/io/input_file.h"
-#include "kontur/io/json_file.h"
-#include "kontur/io/markups.h"
-#include "kontur/io/polydata.h"
-#include "kontur/io/rtstruct.h"
-#include "kontur/io/text_header.h"
-#include "kontur/io/vtk_contours.h"
+#include "kontur/io/bytes/input_file.h"
+#include "kontur/io/bytes/json_file.h"
+#include "kontur/io/bytes/text_header.h"
+#include "kontur/io/contours/contour_json.h"
+#include "kontur/io/contours/markups.h"
+#include "kontur/io/contours/vtk_contours.h"
+#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/meshes/polydata.h"
 
 namespace kontur {
 namespace {

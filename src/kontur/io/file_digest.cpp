@@ -9,7 +9,7 @@
 #include <span>
 
 #include "kontur/base/error.h"
-#include "kontur/io/dicom_folder.h"
+#include "kontur/io/dicom/dicom_folder.h"
 #include "kontur/shape/sha256.h"
 
 namespace kontur {

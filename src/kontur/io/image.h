@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kontur/base/work.h"
-#include "kontur/io/read_image_options.h"
+#include "kontur/io/images/read_image_options.h"
 #include "kontur/shape/provenance.h"
 #include "kontur/shape/volume.h"
 

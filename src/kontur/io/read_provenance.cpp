@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "kontur/base/printable.h"
-#include "kontur/io/dcmtk.h"
-#include "kontur/io/dicom_series.h"
-#include "kontur/io/input_file.h"
-#include "kontur/io/json_file.h"
-#include "kontur/io/mgh.h"
-#include "kontur/io/nifti_header.h"
-#include "kontur/io/nrrd_header.h"
-#include "kontur/io/text_header.h"
-#include "kontur/io/xml_tags.h"
+#include "kontur/io/bytes/input_file.h"
+#include "kontur/io/bytes/json_file.h"
+#include "kontur/io/bytes/text_header.h"
+#include "kontur/io/bytes/xml_tags.h"
+#include "kontur/io/dicom/dcmtk.h"
+#include "kontur/io/dicom/dicom_series.h"
+#include "kontur/io/images/mgh.h"
+#include "kontur/io/images/nifti_header.h"
+#include "kontur/io/images/nrrd_header.h"
 
 namespace kontur {
 namespace {

@@ -123,7 +123,7 @@ Pixel EdgeMap::snap(Pixel p, int radius) const {
     return best;
 }
 
-PixelPosition EdgeMap::refined(Pixel p) const {
+PixelPosition EdgeMap::subpixel_position(Pixel p) const {
     const std::size_t i = offset(p);
     return {p.column + shift_[i] * across_[i][0], p.row + shift_[i] * across_[i][1]};
 }
@@ -202,7 +202,7 @@ std::vector<PixelPosition> smooth_path(const EdgeMap& edges, std::span<const Pix
     constexpr int kPasses = 3;
     std::vector<PixelPosition> line;
     for (const Pixel& p : path) {
-        const PixelPosition at = edges.refined(p);
+        const PixelPosition at = edges.subpixel_position(p);
         if (line.empty() || length(line.back(), at) > 0.1 || &p == &path.back()) line.push_back(at);
     }
     for (int pass = 0; pass < kPasses; ++pass) {

@@ -40,7 +40,7 @@ public:
     Pixel snap(Pixel p, int radius) const;
 
     /// The edge's position to a fraction of a pixel: the gradient's maximum across the edge. The pixel's centre elsewhere.
-    PixelPosition refined(Pixel p) const;
+    PixelPosition subpixel_position(Pixel p) const;
 
 private:
     std::size_t offset(Pixel p) const {
@@ -91,7 +91,7 @@ private:
 };
 
 /// The path as a line: moved to the edge between the pixels, and smoothed over a pixel or two; the ends stay at the
-/// pixels' (refined) positions.
+/// pixels' (subpixel) positions.
 std::vector<PixelPosition> smooth_path(const EdgeMap& edges, std::span<const Pixel> path);
 
 }  // namespace kontur

@@ -11,7 +11,7 @@ import { VIEW_NAMES, type Outlines, type ServerEvent, type Session, type ViewNam
 import { Socket, type ConnectionState } from "./net/socket";
 import { PageActions } from "./page/actions";
 import { ArrangementKeeper } from "./page/arrangement";
-import { Cine } from "./page/cine";
+import { Cine } from "./model/cine";
 import { FurtherImageKeeper } from "./page/further_image";
 import { acceptDrops, guardClosing } from "./page/guards";
 import { Hints } from "./page/hints";

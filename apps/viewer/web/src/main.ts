@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { App } from "./app";
 import { themeOfPage } from "./page/theme";
-import { el } from "./ui/dom";
+import { el } from "./dom/dom";
 
 const theme = themeOfPage();
 const token = location.hash.slice(1) || sessionStorage.getItem("kontur-token") || "";

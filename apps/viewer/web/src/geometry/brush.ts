@@ -23,7 +23,7 @@ export function brushed(line: readonly BrushPoint[], from: Point2, to: Point2, r
 function pushedOut(line: readonly BrushPoint[], center: Point2, radius: number, isClosed: boolean): readonly BrushPoint[] {
   const isTouched = line.some(({ at }, i) => nearestOnLine(center, at, following(line, i, isClosed).at).distance < radius);
   if (!isTouched) return line;
-  const moved = refined(line, center, radius, isClosed).map((point) => (gap(point.at, center) < radius ? { at: onRim(point.at, center, radius) } : point));
+  const moved = subdivided(line, center, radius, isClosed).map((point) => (gap(point.at, center) < radius ? { at: onRim(point.at, center, radius) } : point));
   return thinned(moved, radius / POINTS_PER_RADIUS / 2);
 }
 
@@ -37,7 +37,7 @@ function onRim(p: Point2, center: Point2, radius: number): Point2 {
 }
 
 /** Stretches that the brush touches get points so close that they can follow its rim. */
-function refined(line: readonly BrushPoint[], center: Point2, radius: number, isClosed: boolean): BrushPoint[] {
+function subdivided(line: readonly BrushPoint[], center: Point2, radius: number, isClosed: boolean): BrushPoint[] {
   const spacing = radius / POINTS_PER_RADIUS;
   return line.flatMap((point, i) => {
     const a = point.at;

@@ -71,7 +71,7 @@ export class Project extends Emitter<Topic> {
   setSurface(surface: Surface): void {
     if (!this.structures.has(surface.structure)) return;
     const before = this.surfaces.get(surface.structure);
-    // While the hand moves only previews come; the figures of the last refined surface stay until there are new ones.
+    // While the hand moves only previews come; the figures of the last finished surface stay until there are new ones.
     const keepsFigures = surface.stage === "preview" || surface.stage === "outdated";
     this.surfaces.set(surface.structure, keepsFigures ? { ...before, ...surface } : surface);
     this.emit(surface.revision === before?.revision ? "stages" : "surfaces");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { FurtherImage, Window } from "../net/protocol";
-import { COLOR_MAPS, type ColorMapName } from "../view/color_maps";
+import { COLOR_MAPS, type ColorMapName } from "./color_maps";
 import { Emitter } from "./emitter";
 
 /** Which of the two images the slices show: the project's own, the second one over it, or the second one alone. */

@@ -5,7 +5,7 @@ import { dot, type Vec3 } from "../geometry/vec";
 import type { Navigation, PaneName } from "../model/navigation";
 import { VIEW_NAMES, type ViewName } from "../net/protocol";
 import type { SurfaceView } from "../three/surface_view";
-import { el } from "../ui/dom";
+import { el } from "../dom/dom";
 import type { InPlane } from "../ui/contour_names";
 import type { SliceView } from "../view/slice_view";
 

@@ -2,8 +2,8 @@
 import { ServerError, type Http } from "../net/http";
 import type { FurtherImage, OpenRequest, Place } from "../net/protocol";
 import { openDialog } from "../ui/dialogs";
-import { buttonPiece, el } from "../ui/dom";
-import { piece, render } from "../ui/pieces";
+import { buttonPiece, el } from "../dom/dom";
+import { piece, render } from "../dom/pieces";
 import { FolderView } from "./folder_view";
 import { Problem } from "./problem";
 

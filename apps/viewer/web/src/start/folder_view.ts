@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ServerError, type Http } from "../net/http";
 import type { Folder, ListedFile, OpenRequest, Place } from "../net/protocol";
-import { button, buttonPiece, el } from "../ui/dom";
-import { piece, render, type Piece } from "../ui/pieces";
-import { ICONS } from "../ui/icons";
+import { button, buttonPiece, el } from "../dom/dom";
+import { piece, render, type Piece } from "../dom/pieces";
+import { ICONS } from "../dom/icons";
 import { VolumeCards } from "./volume_cards";
 
 interface FolderServices {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, el, listen } from "../ui/dom";
+import { button, el, listen } from "../dom/dom";
 
 /** Asks which of a file's frames is meant; kontur counts them from 0. */
 export function frameChoice(frames: number, chosen: (frame: number) => void, wrong: (sentence: string) => void): { element: HTMLElement; focus: () => void } {

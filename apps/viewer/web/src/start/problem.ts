@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { OpenRequest } from "../net/protocol";
-import { button, el } from "../ui/dom";
+import { button, el } from "../dom/dom";
 import { frameChoice } from "./frame_choice";
 
 /** Where a chooser of images says what stands in the way, and asks for what is missing. */

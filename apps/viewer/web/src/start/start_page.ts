@@ -2,8 +2,8 @@
 import type { Http } from "../net/http";
 import type { Failed, OpeningState, OpenRequest, RecentProject, Start } from "../net/protocol";
 import type { ConnectionState } from "../net/socket";
-import { button, buttonPiece, el } from "../ui/dom";
-import { piece, render, type Piece } from "../ui/pieces";
+import { button, buttonPiece, el } from "../dom/dom";
+import { piece, render, type Piece } from "../dom/pieces";
 import { FolderView } from "./folder_view";
 import { Problem } from "./problem";
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Http } from "../net/http";
 import type { OpenRequest, Volume } from "../net/protocol";
-import { button, el } from "../ui/dom";
-import { render } from "../ui/pieces";
+import { button, el } from "../dom/dom";
+import { render } from "../dom/pieces";
 
 /** The volumes of a DICOM folder by patient and study, each with a picture of its middle slice. */
 export class VolumeCards {

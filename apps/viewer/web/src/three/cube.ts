@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { cross, dot, type Vec3 } from "../geometry/vec";
-import { el } from "../ui/dom";
+import { el } from "../dom/dom";
 
 export interface Side {
   letter: string;

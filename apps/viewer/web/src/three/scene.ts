@@ -5,7 +5,7 @@ import { boxSection } from "../geometry/plane";
 import type { Plane } from "../geometry/plane";
 import { add, distance, scale, type Vec3 } from "../geometry/vec";
 import type { Scheme } from "../model/theme";
-import { tinted } from "../view/palette";
+import { tinted } from "../model/palette";
 import { coarseTriangles } from "./coarse";
 import { drawsInSoftware, Materials, type SurfaceMaterial } from "./materials";
 import { Pace } from "./pace";

@@ -10,10 +10,10 @@ import { distancesOf, normalsOf, positionsOf, trianglesOf, widthsOf } from "../n
 import { VIEW_NAMES, type ImageInfo } from "../net/protocol";
 import { scaleBar } from "../geometry/scale_bar";
 import type { Vec3 } from "../geometry/vec";
-import { button, buttonPiece, el } from "../ui/dom";
-import { ICONS } from "../ui/icons";
-import { piece, render } from "../ui/pieces";
-import { PLANE_COLORS } from "../view/palette";
+import { button, buttonPiece, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, render } from "../dom/pieces";
+import { PLANE_COLORS } from "../model/palette";
 import type { Editor } from "../tools/editor";
 import type { SinglePoint } from "../tools/single_points";
 import { BAND_STOPS, bandColors, bandScale, DISTANCE_STOPS, distanceColors } from "./band";

@@ -3,7 +3,7 @@ import { toScreen, toWorld, type Point2, type Screen } from "../geometry/screen"
 import type { Vec3 } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
 import type { ViewName } from "../net/protocol";
-import { el } from "../ui/dom";
+import { el } from "../dom/dom";
 import type { Editor } from "./editor";
 import type { Gesture } from "./gesture";
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { FILL_RANGE, WIDTH_RANGE, type Appearance, type SavedAppearance } from "../model/appearance";
 import { THEMES, type Theme, type ThemeName } from "../model/theme";
-import { button, el } from "./dom";
-import { ICONS } from "./icons";
+import { button, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
 
 /** A button of the toolbar, and what it opens: how strongly outlines are filled, how wide lines are, and the page's colours. */
 export function appearanceButton(appearance: Appearance, theme: Theme): HTMLElement[] {

@@ -4,8 +4,8 @@ import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { BorderRule, Relation } from "../net/protocol";
 import { openDialog } from "./dialogs";
-import { button, el } from "./dom";
-import { piece, render, type Piece } from "./pieces";
+import { button, el } from "../dom/dom";
+import { piece, render, type Piece } from "../dom/pieces";
 
 export interface BorderServices {
   project: Project;

@@ -2,7 +2,7 @@
 import { nextDrawnSlice } from "../model/drawn_slices";
 import type { Navigation, PaneName } from "../model/navigation";
 import type { Project } from "../model/project";
-import type { Cine } from "../page/cine";
+import type { Cine } from "../model/cine";
 import type { SecondImage } from "../model/second_image";
 import type { ViewName } from "../net/protocol";
 import type { Editor } from "../tools/editor";

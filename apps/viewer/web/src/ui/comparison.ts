@@ -2,8 +2,8 @@
 import type { Http } from "../net/http";
 import type { Comparison } from "../net/protocol";
 import { lengthText } from "../model/lengths";
-import { button, el } from "./dom";
-import { piece, render } from "./pieces";
+import { button, el } from "../dom/dom";
+import { piece, render } from "../dom/pieces";
 
 interface Named {
   structure: number;

@@ -3,9 +3,9 @@ import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { Contour, ContourEnd } from "../net/protocol";
 import type { Editor } from "../tools/editor";
-import { buttonPiece, el } from "./dom";
-import { ICONS } from "./icons";
-import { piece, render, type Piece } from "./pieces";
+import { buttonPiece, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, render, type Piece } from "../dom/pieces";
 
 export interface ActionServices {
   project: Project;

@@ -6,11 +6,11 @@ import type { Project } from "../model/project";
 import type { Maker } from "../net/calls";
 import type { Contour, Structure, ViewName } from "../net/protocol";
 import type { SinglePoints } from "../tools/single_points";
-import { PLANE_COLORS } from "../view/palette";
+import { PLANE_COLORS } from "../model/palette";
 import { placeOf, type InPlane } from "./contour_names";
-import { buttonPiece, eye } from "./dom";
-import { ICONS } from "./icons";
-import { piece, type Piece } from "./pieces";
+import { buttonPiece, eye } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, type Piece } from "../dom/pieces";
 
 export interface RowServices {
   navigation: Navigation;

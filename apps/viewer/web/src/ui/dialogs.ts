@@ -2,10 +2,10 @@
 import type { Http } from "../net/http";
 import type { Project } from "../model/project";
 import type { Editor } from "../tools/editor";
-import { button, buttonPiece, el } from "./dom";
+import { button, buttonPiece, el } from "../dom/dom";
 import { download } from "./download";
-import { ICONS } from "./icons";
-import { render } from "./pieces";
+import { ICONS } from "../dom/icons";
+import { render } from "../dom/pieces";
 
 /** A modal window; Esc and a click beside it close it. */
 export function openDialog(title: string, name: string, ...content: HTMLElement[]): HTMLDialogElement {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { DIVIDERS, LEAST, MOST, type DividerName, type PaneSizes } from "../model/pane_sizes";
-import { el } from "./dom";
+import { el } from "../dom/dom";
 
 const NAMES: Record<DividerName, string> = {
   columns: "Width of the left slices",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { el } from "./dom";
+import { el } from "../dom/dom";
 
 /** Hands the bytes to the browser's downloads. */
 export function download(blob: Blob, name: string): void {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Structure } from "../net/protocol";
-import { PLANE_COLORS } from "../view/palette";
+import { PLANE_COLORS } from "../model/palette";
 import { contourName, placeOf } from "./contour_names";
 import type { RowServices } from "./contour_rows";
-import { buttonPiece } from "./dom";
-import { ICONS } from "./icons";
-import { piece, type Piece } from "./pieces";
+import { buttonPiece } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, type Piece } from "../dom/pieces";
 
 /** The planes in which nothing of the structure is: a row for each, to go there, and to take that back. */
 export function emptyPlaneRows({ id, empty_planes = [] }: Structure, { navigation, call, show }: RowServices): Piece[] {

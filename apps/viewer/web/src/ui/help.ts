@@ -3,7 +3,7 @@ import { TOOLS } from "../tools/registry";
 import { HELP_SECTIONS, type Help, type HelpRow, type HelpSection } from "../tools/tool";
 import { COMMANDS, HELD_KEYS } from "./commands";
 import { openDialog } from "./dialogs";
-import { el } from "./dom";
+import { el } from "../dom/dom";
 
 /** What the mouse does with every tool. */
 const GESTURES: Help = {

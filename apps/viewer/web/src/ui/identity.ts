@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Identity, ImageInfo, Session } from "../net/protocol";
-import { el } from "./dom";
-import { piece, render } from "./pieces";
+import { el } from "../dom/dom";
+import { piece, render } from "../dom/pieces";
 
 /** Whose image it is and what it shows, line by line: what no reader may have to guess. */
 export function identityLines({ identity, title, image }: Pick<Session, "identity" | "title" | "image">): string[] {

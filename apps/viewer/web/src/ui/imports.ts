@@ -2,7 +2,7 @@
 import type { Http } from "../net/http";
 import type { ImportEndings, ImportReply, NearDrawing } from "../net/protocol";
 import { openDialog } from "./dialogs";
-import { button, el } from "./dom";
+import { button, el } from "../dom/dom";
 import { accepted, importKind, sentence } from "./endings";
 import { nearRows } from "./near_drawings";
 

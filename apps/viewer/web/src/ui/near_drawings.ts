@@ -2,9 +2,9 @@
 import type { Project } from "../model/project";
 import type { Http } from "../net/http";
 import type { NearDrawing, Session } from "../net/protocol";
-import { buttonPiece, el } from "./dom";
-import { ICONS } from "./icons";
-import { piece, render, type Piece } from "./pieces";
+import { buttonPiece, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, render, type Piece } from "../dom/pieces";
 
 const MOST_NAMED = 12; // a structure set for planning has dozens
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { button, el } from "./dom";
-import { ICONS } from "./icons";
+import { button, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
 
 /** Puts what does not fit into a bar into a menu at its end. */
 export class Overflow {

@@ -7,9 +7,9 @@ import type { Maker } from "../net/calls";
 import type { Conflict, Contour, NearLines, Surface } from "../net/protocol";
 import { distinct, settled } from "../tools/settling";
 import { contourName } from "./contour_names";
-import { buttonPiece } from "./dom";
-import { ICONS } from "./icons";
-import { piece, type Piece } from "./pieces";
+import { buttonPiece } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, type Piece } from "../dom/pieces";
 
 const SAME_PLANE_MM = 0.01;
 

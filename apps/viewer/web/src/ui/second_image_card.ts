@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { SecondImage, Shown } from "../model/second_image";
 import type { Identity, Session } from "../net/protocol";
-import { COLOR_MAPS, gradientOf, type ColorMapName } from "../view/color_maps";
-import { button, el } from "./dom";
-import { ICONS } from "./icons";
+import { COLOR_MAPS, gradientOf, type ColorMapName } from "../model/color_maps";
+import { button, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
 import { sizeLine } from "./identity";
-import { piece, render, setValue } from "./pieces";
+import { piece, render, setValue } from "../dom/pieces";
 import { presetOptions, windowField } from "./window_field";
 
 /** What an image is called where there are two: its modality, or else its place. */

@@ -2,9 +2,9 @@
 import { POINT_KINDS, type PointKind, type Structure } from "../net/protocol";
 import { pointsOf } from "../tools/single_points";
 import type { RowServices } from "./contour_rows";
-import { buttonPiece } from "./dom";
-import { ICONS } from "./icons";
-import { piece, type Piece } from "./pieces";
+import { buttonPiece } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { piece, type Piece } from "../dom/pieces";
 import { placeText } from "./values";
 
 const LABELS: Record<PointKind, string> = { surface: "surface", interior: "inside", exterior: "outside" };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Maker } from "../net/calls";
 import type { Project } from "../model/project";
-import { el } from "./dom";
+import { el } from "../dom/dom";
 
 /** The library's smoothing, on unit coordinates; null: what it chooses by itself, 1e-5. */
 export const SMOOTHINGS: readonly (number | null)[] = [0, 1e-6, null, 1e-4, 1e-3, 1e-2];

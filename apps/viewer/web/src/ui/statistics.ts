@@ -4,7 +4,7 @@ import type { Http } from "../net/http";
 import type { SecondStatistics, Statistics, StructureStatistics } from "../net/protocol";
 import { comparison } from "./comparison";
 import { openDialog } from "./dialogs";
-import { button, el } from "./dom";
+import { button, el } from "../dom/dom";
 import { download } from "./download";
 
 const rounded = (value: number, digits = 3): string => (Math.abs(value) >= 10 ** digits ? value.toFixed(0) : String(Number(value.toPrecision(digits))));

@@ -2,7 +2,7 @@
 import type { ConnectionState } from "../net/socket";
 import type { Notice } from "../net/protocol";
 import type { Remedy } from "../tools/services";
-import { button, el } from "./dom";
+import { button, el } from "../dom/dom";
 
 /** The line at the bottom: cursor, what to do next, what is computed, whether all is saved. */
 export class StatusBar {

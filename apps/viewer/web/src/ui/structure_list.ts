@@ -3,10 +3,10 @@ import { isOpenByItself } from "../model/contour_list";
 import type { Contour, Structure } from "../net/protocol";
 import { contourName } from "./contour_names";
 import { ContourRows, type RowServices } from "./contour_rows";
-import { buttonPiece, el, eye } from "./dom";
+import { buttonPiece, el, eye } from "../dom/dom";
 import { emptyPlaneRows } from "./empty_planes";
-import { ICONS } from "./icons";
-import { piece, render, type Piece } from "./pieces";
+import { ICONS } from "../dom/icons";
+import { piece, render, type Piece } from "../dom/pieces";
 import { singlePointRows } from "./single_points";
 
 const MOST_UNFILTERED = 24; // rows that are found by eye

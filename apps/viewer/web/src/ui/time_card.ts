@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Navigation } from "../model/navigation";
-import type { Cine } from "../page/cine";
-import { button, el } from "./dom";
-import { ICONS } from "./icons";
-import { iconPiece, render } from "./pieces";
+import type { Cine } from "../model/cine";
+import { button, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
+import { iconPiece, render } from "../dom/pieces";
 import { keepSliderKeys } from "./second_image_card";
 
 /** Which of the image's volumes in time is seen, below the identity: for images that have several. */

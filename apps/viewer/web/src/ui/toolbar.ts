@@ -7,10 +7,10 @@ import type { Preset, Session } from "../net/protocol";
 import type { Editor } from "../tools/editor";
 import { TOOLS, type ToolName } from "../tools/registry";
 import { appearanceButton } from "./appearance";
-import { button, el } from "./dom";
-import { ICONS } from "./icons";
+import { button, el } from "../dom/dom";
+import { ICONS } from "../dom/icons";
 import { Overflow } from "./overflow";
-import { render, setValue } from "./pieces";
+import { render, setValue } from "../dom/pieces";
 import { presetOptions, windowField } from "./window_field";
 
 export interface ToolbarServices {

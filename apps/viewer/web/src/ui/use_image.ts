@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Maker } from "../net/calls";
 import type { Project } from "../model/project";
-import { el } from "./dom";
+import { el } from "../dom/dom";
 
 export interface UseImageServices {
   project: Project;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Preset } from "../net/protocol";
-import { el } from "./dom";
-import { piece, type Piece } from "./pieces";
+import { el } from "../dom/dom";
+import { piece, type Piece } from "../dom/pieces";
 
 /** A number of a window that can be typed. `update` shows again what counts: what is no window is not kept. */
 export function windowField(title: string, typed: () => void, update: () => void): HTMLInputElement {

@@ -9,7 +9,7 @@ import type { Contour, Hand, LineRun, PointKind, SliceHeader } from "../net/prot
 import { hasHandles, type PlaneLine } from "../tools/hit";
 import type { SinglePoint } from "../tools/single_points";
 import type { Outline } from "./outlines";
-import { PLANE_COLORS, tinted, withAlpha } from "./palette";
+import { PLANE_COLORS, tinted, withAlpha } from "../model/palette";
 
 const SHADE = "rgba(8, 10, 13, 0.8)";
 const INK = "#e8edf2";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { areParallel, type PixelPlane } from "../geometry/plane";
 import { sliceOnScreen, type Screen } from "../geometry/screen";
-import { el } from "../ui/dom";
+import { el } from "../dom/dom";
 
 /** A picture of a plane, laid on a canvas where that plane is seen. */
 export class PlaneBitmap {

@@ -5,7 +5,7 @@ import type { Navigation } from "../model/navigation";
 import type { SecondImage } from "../model/second_image";
 import { ServerError, type Http } from "../net/http";
 import type { ViewName } from "../net/protocol";
-import { colorTable } from "./color_maps";
+import { colorTable } from "../model/color_maps";
 import { PlaneBitmap } from "./plane_bitmap";
 import { spread, type SampledSlice } from "./samples";
 import { colorsOfCodes } from "./windowing";

@@ -3,8 +3,8 @@ import { drawnSlices } from "../model/drawn_slices";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { ViewName } from "../net/protocol";
-import { el } from "../ui/dom";
-import { piece, render, type Piece } from "../ui/pieces";
+import { el } from "../dom/dom";
+import { piece, render, type Piece } from "../dom/pieces";
 
 /** Which slice a view shows, beside it: to drag, with a tick at each slice on which something is drawn. */
 export class SliceSlider {

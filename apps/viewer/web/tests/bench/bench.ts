@@ -51,7 +51,7 @@ interface Waits {
   /** What the contours make, everywhere. */
   fitted: number;
   /** And the image has been asked. */
-  refined: number;
+  finished: number;
 }
 
 /** What `watchEdit` sees. */
@@ -59,7 +59,7 @@ interface Seen {
   start: number;
   shown: Record<string, number>;
   fitted: number;
-  refined: number;
+  finished: number;
   /** Settle when something new is shown everywhere, and when the image has been asked. */
   everywhere: Promise<void>;
   done: Promise<void>;
@@ -74,7 +74,7 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
       start: 0,
       shown: {},
       fitted: 0,
-      refined: 0,
+      finished: 0,
       everywhere: new Promise((resolve) => (is.everywhere = resolve)),
       done: new Promise((resolve) => (is.done = resolve)),
     };
@@ -88,10 +88,10 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
       const last = `:${panel.dataset["revision"]}`;
       const { stage } = panel.dataset;
       const isEverywhere = Object.keys(state.shown).length === panes.length && panes.every((pane) => pane.dataset["revisions"]?.endsWith(last));
-      if (!isEverywhere || (stage !== "asking" && stage !== "refined")) return;
+      if (!isEverywhere || (stage !== "asking" && stage !== "finished")) return;
       state.fitted ||= performance.now() - state.start;
-      if (stage !== "refined") return;
-      state.refined ||= performance.now() - state.start;
+      if (stage !== "finished") return;
+      state.finished ||= performance.now() - state.start;
       is.done();
     });
     for (const element of [...panes, panel]) observer.observe(element, { attributes: true });
@@ -101,14 +101,14 @@ async function watchEdit(page: Page, from: "pointermove" | "pointerup"): Promise
 }
 
 /** Asks nothing meanwhile: a page that is asked in every frame draws every frame. */
-async function editWaits(page: Page, untilRefined: boolean): Promise<Waits> {
-  const { shown, fitted, refined } = await page.evaluate(async (isAll) => {
+async function editWaits(page: Page, untilFinished: boolean): Promise<Waits> {
+  const { shown, fitted, finished } = await page.evaluate(async (isAll) => {
     const { edit } = window as unknown as Watched;
     await (isAll ? edit.done : edit.everywhere);
-    return { shown: edit.shown, fitted: edit.fitted, refined: edit.refined };
-  }, untilRefined);
+    return { shown: edit.shown, fitted: edit.fitted, finished: edit.finished };
+  }, untilFinished);
   const { surface, ...slices } = shown;
-  return { outlines: Math.max(...Object.values(slices)), surface: surface!, fitted, refined };
+  return { outlines: Math.max(...Object.values(slices)), surface: surface!, fitted, finished };
 }
 
 /** Seconds of all processors that the server has used. */
@@ -165,7 +165,7 @@ async function measureEdits(viewer: Viewer, server: Server): Promise<void> {
   );
   line(
     "pointer up -> the image asked, too",
-    releases.map((wait) => wait.refined),
+    releases.map((wait) => wait.finished),
   );
   const spent = (processorSeconds(server) - before) / EDITS;
   console.log(`processor time of the server: ${spent.toFixed(2)} s for each edit and its undoing`);

@@ -60,7 +60,7 @@ async function crossingsOf(structure: number, down: number): Promise<number[]> {
   return found.sort((a, b) => a - b);
 }
 
-const refined = () => viewer.page.waitForFunction(() => document.querySelector<HTMLElement>(".panel")!.dataset["stage"] === "refined");
+const finished = () => viewer.page.waitForFunction(() => document.querySelector<HTMLElement>(".panel")!.dataset["stage"] === "finished");
 
 async function until(isTrue: () => Promise<boolean>, what: string): Promise<void> {
   for (let i = 0; i < 300; ++i) {
@@ -111,7 +111,7 @@ beforeEach(async () => {
   second = Math.max(
     ...(await page.locator(".structures > .structure").evaluateAll((rows) => rows.map((row) => Number((row as HTMLElement).dataset["structure"])))),
   );
-  await refined();
+  await finished();
   await until(async () => {
     const [left, right] = await border(0);
     return Math.abs(left - right) < 0.05;
@@ -158,7 +158,7 @@ describe("structures that share borders", () => {
     await page.mouse.up();
     await viewer.waitForStep("undo", "Bend a contour");
     await viewer.saved();
-    await refined();
+    await finished();
     await until(async () => {
       const [left, right] = await border(0);
       return Math.abs(left - by) < 1.5 * scale && Math.abs(left - right) < 0.05;

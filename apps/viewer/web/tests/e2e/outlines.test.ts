@@ -103,7 +103,7 @@ describe("a computed outline", () => {
   test("that is being pulled is let go by Esc, and all is as it was", async () => {
     const volume = await viewer.volume();
     await pull(8);
-    await viewer.page.waitForSelector(".panel[data-stage=preview], .panel[data-stage=refined]");
+    await viewer.page.waitForSelector(".panel[data-stage=preview], .panel[data-stage=finished]");
     await viewer.page.keyboard.press("Escape");
     await viewer.page.mouse.up();
     await viewer.surfaceShown();

@@ -300,11 +300,11 @@ export class Viewer {
     await this.page.waitForFunction((wanted) => document.querySelectorAll(".contour-row").length === wanted, count);
   }
 
-  /** The surface is refined, and every slice and the 3D view show it. */
+  /** The surface is finished, and every slice and the 3D view show it. */
   async surfaceShown(): Promise<void> {
     const isShown = () => {
       const panel = document.querySelector<HTMLElement>(".panel")!.dataset;
-      if (panel["stage"] !== "refined") return false;
+      if (panel["stage"] !== "finished") return false;
       const revision = `:${panel["revision"]}`;
       const panes = [...document.querySelectorAll<HTMLElement>(".pane")].filter((pane) => pane.dataset["webgl"] !== "no");
       return panes.every((pane) => pane.dataset["revisions"]?.endsWith(revision));

@@ -26,7 +26,7 @@ async function imageIs(verdict: string): Promise<void> {
   const { page } = viewer;
   await page.waitForFunction((wanted) => {
     const { stage, image } = document.querySelector<HTMLElement>(".panel")!.dataset;
-    return stage === "refined" && image === wanted;
+    return stage === "finished" && image === wanted;
   }, verdict);
   await viewer.surfaceShown();
 }

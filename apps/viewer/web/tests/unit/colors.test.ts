@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { PLANE_COLORS } from "../../src/view/palette";
+import { PLANE_COLORS } from "../../src/model/palette";
 import { least, VISION } from "./colors";
 
 test("the planes' colours differ for readers of any colour vision", () => {

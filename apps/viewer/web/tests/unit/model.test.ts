@@ -164,10 +164,10 @@ test("contours of hidden structures are not shown", () => {
   assert.deepEqual(project.shownContours(), []);
 });
 
-test("a preview keeps the figures of the last refined surface; no surface has none", () => {
+test("a preview keeps the figures of the last finished surface; no surface has none", () => {
   const project = new Project();
   project.start(session());
-  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 9, volume_ml: 12 });
+  project.setSurface({ structure: 1, revision: 1, stage: "finished", triangles: 9, volume_ml: 12 });
   const heard: string[] = [];
   for (const topic of ["surfaces", "stages"] as const) project.on([topic], () => heard.push(topic));
   project.setSurface({ structure: 1, revision: 1, stage: "outdated", triangles: 9 });
@@ -187,7 +187,7 @@ test("what is found while the image is asked counts until the image has answered
   const heard: string[] = [];
   for (const topic of ["surfaces", "stages"] as const) project.on([topic], () => heard.push(topic));
   project.setSurface({ structure: 1, revision: 1, stage: "asking", triangles: 9, volume_ml: 12 });
-  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 9, volume_ml: 12, image: { verdict: "no_help", text: "" } });
+  project.setSurface({ structure: 1, revision: 1, stage: "finished", triangles: 9, volume_ml: 12, image: { verdict: "no_help", text: "" } });
   assert.deepEqual(heard, ["surfaces", "stages"], "the surface is the same, and no mesh is asked for");
   project.setSurface({ structure: 1, revision: 2, stage: "asking", triangles: 9, volume_ml: 14 });
   assert.equal(project.surfaces.get(1)!.image, undefined, "of the contours before");

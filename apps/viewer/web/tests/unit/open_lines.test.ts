@@ -115,7 +115,7 @@ test("no pointer hits the edge that an open line does not have", () => {
 
 test("the side is turned from where it was found, or told", () => {
   const { editor, project, edits } = editing("edit", [line(6)]);
-  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 0, sides: [{ contour: 6, inside: "left", sure: true }] });
+  project.setSurface({ structure: 1, revision: 1, stage: "finished", triangles: 0, sides: [{ contour: 6, inside: "left", sure: true }] });
   assert.equal(project.sideOf(project.contour(6)!), "left");
   editor.edits.turnSide(project.contour(6)!, "other");
   assert.equal(edits().at(-1)!.args["inside"], "right");

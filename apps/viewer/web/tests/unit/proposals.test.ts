@@ -152,7 +152,7 @@ test("where to draw next is shown on the oblique view with the expected outline;
   const { editor, server, calls, navigation, project, proposals, complaints } = proposing(() => []);
   assert.equal(await proposals.suggest(), null);
   assert.match(complaints.at(-1)!, /before the surface of Liver is finished/);
-  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 10, uncertainty: { known: true, planes: 3, text: "" } });
+  project.setSurface({ structure: 1, revision: 1, stage: "finished", triangles: 10, uncertainty: { known: true, planes: 3, text: "" } });
   const steep: Plane = { ...SKEW, origin: [5, 0, 0] };
   server.planes = [{ plane: steep, gain: 0.3, lines: [ring(4, 0)] }];
   assert.equal(await proposals.suggest(), "oblique");
@@ -174,7 +174,7 @@ test("where to draw next is shown on the oblique view with the expected outline;
 
 test("a suggestion that was asked of contours that have changed since is not shown", async () => {
   const { proposals, project, server } = proposing((z) => [ring(5, z)]);
-  project.setSurface({ structure: 1, revision: 1, stage: "refined", triangles: 10, uncertainty: { known: true, planes: 3, text: "" } });
+  project.setSurface({ structure: 1, revision: 1, stage: "finished", triangles: 10, uncertainty: { known: true, planes: 3, text: "" } });
   server.planes = [{ plane: { ...AXIAL, origin: [0, 0, 4] }, gain: 1, lines: [ring(5, 4)] }];
   const asked = proposals.suggest();
   project.apply({ event: "changed", structures: { removed: [1] }, contours: { removed: [5] }, history: { undo: null, redo: null } });

@@ -5,7 +5,7 @@ import { SecondImage } from "../../src/model/second_image";
 import type { FurtherImage } from "../../src/net/protocol";
 import { Sketch } from "../../src/tools/sketch";
 import { valuesText } from "../../src/ui/values";
-import { COLOR_MAPS, colorTable } from "../../src/view/color_maps";
+import { COLOR_MAPS, colorTable } from "../../src/model/color_maps";
 import { colorsOfCodes } from "../../src/view/windowing";
 import { AXIAL, session } from "./support";
 

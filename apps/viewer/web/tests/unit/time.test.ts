@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Navigation } from "../../src/model/navigation";
-import { Cine } from "../../src/page/cine";
+import { Cine } from "../../src/model/cine";
 import { editing } from "./editing";
 import { session } from "./support";
 

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/files/import_reading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "kontur/base/error.h"
+#include "kontur/extract/trace.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/image.h"
+#include "kontur/io/images/nrrd.h"
+#include "kontur/io/images/segment_tags.h"
+#include "kontur/shape/repeated_contours.h"
+#include "viewer/images/views.h"
+
+namespace kontur::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostImportedLabels = 64;
+
+/// Traced contours keep what matters of a mask at a tenth of a millimetre; smaller sections are specks.
+constexpr TraceOptions kTraceOptions{.step_mm = 0, .tolerance_mm = 0.1, .min_area_mm2 = 4};
+
+/// Planes across `kind`, spread evenly over the mask's extent; a mask has half a step of room beyond the outermost ones.
+std::vector<Plane> planes_across(const Mask& mask, SliceKind kind, int count) {
+    View view = view_of(mask.grid, kind);
+    double from = std::numeric_limits<double>::infinity(), to = -from;
+    const Index3& n = mask.grid.size;
+    for (std::int64_t k = 0; k < n.k; ++k)
+        for (std::int64_t j = 0; j < n.j; ++j)
+            for (std::int64_t i = 0; i < n.i; ++i)
+                if (mask.values[mask.grid.offset(i, j, k)]) {
+                    const double at = view.plane.distance_to(mask.grid.center_mm(i, j, k));
+                    from = std::min(from, at), to = std::max(to, at);
+                }
+    std::vector<Plane> planes;
+    for (int i = 0; i < count; ++i) {
+        // On the mask's own slices, where its border is not interpolated, and each of them once.
+        const double at = from + (to - from) * (i + 0.5) / count;
+        Plane plane = view.plane;
+        plane.origin += std::round(at / view.step_mm) * view.step_mm * plane.normal;
+        if (planes.empty() || distance(planes.back().origin, plane.origin) > 0.5 * view.step_mm) planes.push_back(plane);
+    }
+    return planes;
+}
+
+ContourSet traced(const Mask& mask, const TraceRequest& request) {
+    std::vector<Plane> planes;
+    const auto add = [&](bool wanted, SliceKind kind) {
+        if (!wanted) return;
+        const std::vector<Plane> more = planes_across(mask, kind, request.planes);
+        planes.insert(planes.end(), more.begin(), more.end());
+    };
+    add(request.axial, SliceKind::axial);
+    add(request.sagittal, SliceKind::sagittal);
+    add(request.coronal, SliceKind::coronal);
+    return trace(mask, planes, kTraceOptions);
+}
+
+/// Every region that has contours.
+Imported read_rtstruct_of(const fs::path& path) {
+    Imported imported;
+    StructureSet set = read_rtstruct(path);
+    imported.notes = std::move(set.notes);
+    for (Roi& roi : set.rois) {
+        if (!roi.damage.empty()) imported.notes.push_back("left out: " + roi.damage);
+        for (const std::string& note : roi.notes) imported.notes.push_back(roi.name + ": " + note);
+        if (roi.contours.contours.empty()) {
+            if (!roi.contours.surface.empty()) imported.notes.push_back(roi.name + ": left out: points without a contour");
+            continue;
+        }
+        if (imported.frame_of_reference_uid.empty()) imported.frame_of_reference_uid = roi.frame_of_reference_uid;
+        check_contours(roi.contours);
+        imported.sets.push_back(std::move(roi.contours));
+    }
+    if (imported.sets.empty()) throw Error(ErrorKind::invalid_input, "no region of this structure set has contours");
+    return imported;
+}
+
+/// Of what is traced: who it is of, and what is said of it.
+struct Traced {
+    std::string name;  ///< "" where the file has none
+    StructureAttributes attributes{};
+};
+
+/// Adds what a mask becomes, or why it becomes nothing.
+void add_traced(Imported& imported, const Mask& mask, Traced of, const TraceRequest& request) {
+    ContourSet set = traced(mask, request);
+    if (set.contours.empty()) {
+        imported.notes.push_back(fmt::format("{} is too small to be traced", of.name.empty() ? "The mask" : of.name));
+        return;
+    }
+    set.name = std::move(of.name);
+    set.attributes = std::move(of.attributes);
+    imported.sets.push_back(std::move(set));
+}
+
+/// Every segment of a DICOM segmentation, they may overlap.
+Imported read_segments_of(const fs::path& path, const TraceRequest& request) {
+    const auto [about, masks] = read_dicom_segments(path);
+    if (about.segments.size() > kMostImportedLabels)
+        throw Error(ErrorKind::too_large, fmt::format("the segmentation has {} segments; the limit is {}",
+                                                      about.segments.size(), kMostImportedLabels));
+    Imported imported{{}, about.notes, about.frame_of_reference_uid};
+    for (std::size_t n = 0; n < masks.size(); ++n) {
+        const DicomSegment& segment = about.segments[n];
+        const std::string name = segment.label.empty() ? fmt::format("Segment {}", segment.number) : segment.label;
+        add_traced(imported, masks[n], {name, attributes_of(segment)}, request);
+    }
+    if (imported.sets.empty())
+        throw Error(ErrorKind::invalid_input, "the segmentation has nothing that is large enough to trace");
+    return imported;
+}
+
+Imported read_contours_of(const fs::path& path, const TraceRequest& request) {
+    if (path.extension() == ".dcm" && is_rtstruct(path)) return read_rtstruct_of(path);
+    if (path.extension() == ".dcm" && is_dicom_seg(path)) return read_segments_of(path, request);
+    ReadContours read = read_contours(path);
+    for (std::string& note : check_and_tidy(read.contours)) read.notes.push_back(std::move(note));
+    return {{std::move(read.contours)}, std::move(read.notes), std::move(read.frame_of_reference_uid)};
+}
+
+/// What 3D Slicer's segmentations say of the labels of each of their layers; one layer without names of other files.
+std::map<std::int64_t, std::map<std::int64_t, Traced>> named_layers(const fs::path& path) {
+    std::map<std::int64_t, std::map<std::int64_t, Traced>> layers;
+    if (path.extension() == ".nrrd")
+        for (const NrrdSegment& segment : read_nrrd_segments(path)) {
+            const SegmentTerms terms = terms_in_tags(segment.tags);
+            layers[segment.layer][segment.label_value] = {
+                segment.name,
+                StructureAttributes{.color = to_rgb8(segment.color), .category = terms.category, .code = terms.code}};
+        }
+    if (layers.empty()) layers[0];
+    return layers;
+}
+
+/// Adds each label; false where there is none.
+bool add_labels(Imported& imported, const Image& labels, const std::map<std::int64_t, Traced>& named,
+                const TraceRequest& request) {
+    const auto counts = count_labels(labels, kMostImportedLabels);
+    for (const auto& [label, voxels] : counts) {
+        const auto known = named.find(label);
+        const Traced unnamed{counts.size() == 1 ? "" : fmt::format("Label {}", label)};
+        add_traced(imported, select_label(labels, static_cast<double>(label)),
+                   known == named.end() ? unnamed : known->second, request);
+    }
+    return !counts.empty();
+}
+
+Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
+    Imported imported;
+    bool has_labels = false;
+    const auto layers = named_layers(path);
+    for (const auto& [layer, named] : layers) {
+        ReadImageOptions options;
+        if (layers.size() > 1) options.frame = layer;
+        has_labels |= add_labels(imported, read_image(path, options), named, request);
+    }
+    if (!has_labels) throw Error(ErrorKind::invalid_input, "the mask is empty");
+    if (imported.sets.empty()) throw Error(ErrorKind::invalid_input, "the mask has nothing that is large enough to trace");
+    return imported;
+}
+
+}  // namespace
+
+Imported read_import(const fs::path& path, const Upload& upload) {
+    return upload.content == Upload::Content::mask ? read_mask_of(path, upload.trace) : read_contours_of(path, upload.trace);
+}
+
+}  // namespace kontur::viewer

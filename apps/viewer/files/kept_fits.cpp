@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/files/kept_fits.h"
+
+#include <algorithm>
+#include <set>
+
+namespace kontur::viewer {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{512} << 20;
+constexpr std::size_t kMostKept = 8;
+
+bool is_same(const State& a, const State& b) {
+    return a.structures == b.structures && a.borders == b.borders && a.use_image == b.use_image &&
+           std::ranges::equal(a.contours, b.contours, [](const auto& x, const auto& y) {
+               return x.first == y.first && (x.second == y.second || *x.second == *y.second);
+           });
+}
+
+std::set<Id> drawn_in(const State& state) {
+    std::set<Id> drawn;
+    for (const auto& [id, contour] : state.contours) drawn.insert(contour->structure);
+    return drawn;
+}
+
+/// What of the state says how this structure runs where it shares no border.
+State only(const State& state, Id structure) {
+    State own = state;
+    own.borders = {};
+    std::erase_if(own.structures, [&](const auto& item) { return item.first != structure; });
+    std::erase_if(own.contours, [&](const auto& item) { return item.second->structure != structure; });
+    return own;
+}
+
+std::size_t bytes_of(const KeptFits::Fits& fits) {
+    std::size_t bytes = 0;
+    for (const FittedStructure& one : *fits) {
+        bytes += one.made.mask.values.size();
+        if (one.made.mesh)
+            bytes += one.made.mesh->points.size() * sizeof(Vec3) +
+                     one.made.mesh->triangles.size() * sizeof(one.made.mesh->triangles.front());
+    }
+    return bytes;
+}
+
+}  // namespace
+
+KeptFits::Fits KeptFits::all(const State& state, const Work& work) {
+    const std::set<Id> drawn = drawn_in(state);
+    const State asked = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
+    return kept(asked, [&] { return fit_structures(asked, *image_, true, work); });
+}
+
+std::shared_ptr<const FittedStructure> KeptFits::one(const State& state, Id structure, const Work& work) {
+    const std::set<Id> drawn = drawn_in(state);
+    const bool is_alone = drawn.size() == 1 || !drawn.contains(structure);
+    if (state.borders.shared && !is_alone) {
+        const Fits fits = all(state, work);
+        const auto chosen = std::ranges::find(*fits, structure, [](const FittedStructure& one) { return one.structure.id; });
+        return {fits, &*chosen};
+    }
+    const State own = only(state, structure);
+    const Fits fits = kept(own, [&] { return std::vector{fit_structure(own, structure, *image_, true, work)}; });
+    return {fits, &fits->front()};
+}
+
+KeptFits::Fits KeptFits::kept(const State& state, const std::function<std::vector<FittedStructure>()>& fit) {
+    {
+        const std::scoped_lock lock(mutex_);
+        const auto known = std::ranges::find_if(kept_, [&](const Kept& one) { return is_same(one.state, state); });
+        if (known != kept_.end()) {
+            kept_.splice(kept_.begin(), kept_, known);
+            return known->fits;
+        }
+    }
+    const Fits made = std::make_shared<const std::vector<FittedStructure>>(fit());
+    const std::scoped_lock lock(mutex_);
+    kept_.push_front({state, made});
+    std::size_t bytes = 0, count = 0;
+    std::erase_if(kept_, [&](const Kept& one) { return (bytes += bytes_of(one.fits)) > kMostBytes || ++count > kMostKept; });
+    return made;
+}
+
+}  // namespace kontur::viewer

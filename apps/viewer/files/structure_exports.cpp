@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/files/structure_exports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "kontur/base/counted.h"
+#include "kontur/base/error.h"
+#include "kontur/extract/slice_contours.h"
+#include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/dicom/dicom_seg.h"
+#include "kontur/io/dicom/rtstruct.h"
+#include "kontur/io/image.h"
+#include "kontur/io/images/nrrd.h"
+#include "kontur/io/images/segment_tags.h"
+#include "kontur/io/meshes/mesh.h"
+#include "kontur/labels/section_contours.h"
+#include "kontur/segment_together.h"
+#include "viewer/files/zip.h"
+#include "viewer/model/file_names.h"
+#include "viewer/model/temporary_files.h"
+#include "viewer/surfaces/border_sharing.h"
+
+namespace kontur::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using All = std::vector<FittedStructure>;
+
+std::int64_t voxels_of(const Mask& mask) { return std::accumulate(mask.values.begin(), mask.values.end(), std::int64_t{0}); }
+
+/// From the largest to the smallest, by place in the list.
+std::vector<std::size_t> by_size(const All& all) {
+    std::vector<std::int64_t> voxels;
+    for (const FittedStructure& one : all) voxels.push_back(voxels_of(one.made.mask));
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return voxels[a] > voxels[b]; });
+    return order;
+}
+
+/// How the structures were made; what differs has the label's number behind its name.
+Provenance together(const All& all) {
+    Provenance made;
+    for (std::size_t n = 0; n < all.size(); ++n)
+        for (const auto& [name, value] : provenance(all[n].set, all[n].made.mask.grid, all[n].made.report)) {
+            const std::pair entry{name, value};
+            if (n == 0 && std::all_of(all.begin(), all.end(), [&](const FittedStructure& one) {
+                    const Provenance its = provenance(one.set, one.made.mask.grid, one.made.report);
+                    return std::find(its.begin(), its.end(), entry) != its.end();
+                }))
+                made.push_back(entry);
+            else if (std::find(made.begin(), made.end(), entry) == made.end())
+                made.emplace_back(fmt::format("{}_{}", name, n + 1), value);
+        }
+    return made;
+}
+
+std::vector<std::string> write_labels(const fs::path& path, const All& all) {
+    std::vector<std::uint16_t> labels(all.front().made.mask.values.size());
+    std::map<std::pair<std::size_t, std::size_t>, std::int64_t> shared;  // of the larger and the smaller structure
+    for (const std::size_t n : by_size(all)) {
+        const std::vector<std::uint8_t>& inside = all[n].made.mask.values;
+        for (std::size_t v = 0; v < labels.size(); ++v) {
+            if (inside[v] == 0) continue;
+            if (labels[v] != 0) ++shared[{labels[v] - 1u, n}];
+            labels[v] = static_cast<std::uint16_t>(n + 1);
+        }
+    }
+    WriteImageOptions options;
+    options.provenance = together(all);
+    Image image{all.front().made.mask.grid, labels};
+    if (all.size() <= 255) image.samples = std::vector<std::uint8_t>(labels.begin(), labels.end());
+    write_image(path, image, options);
+    std::vector<std::string> notes;
+    for (const auto& [pair, voxels] : shared)
+        notes.push_back(fmt::format("{} in {} and in {}: in the label map {} to {}, the smaller one",
+                                    voxels == 1 ? "1 voxel lies" : counted(voxels, "voxel") + " lie",
+                                    all[pair.first].structure.name, all[pair.second].structure.name,
+                                    voxels == 1 ? "it belongs" : "they belong", all[pair.second].structure.name));
+    return notes;
+}
+
+/// On layers, where voxels lie in several.
+void write_layers(const fs::path& path, const All& all) {
+    std::vector<Mask> masks;
+    std::vector<NrrdSegment> segments;
+    for (const FittedStructure& one : all) {
+        masks.push_back(one.made.mask);
+        segments.push_back({.name = one.structure.name, .color = rgb(one.structure.color)});
+        segments.back().tags = tags_of_terms(one.set.attributes);
+    }
+    write_seg_nrrd_masks(path, masks, segments, together(all));
+}
+
+std::vector<std::string> write_seg(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
+    std::vector<Mask> masks;
+    std::vector<DicomSegment> segments;
+    for (const FittedStructure& one : all) {
+        masks.push_back(one.made.mask);
+        segments.push_back(fitted_segment(one.set.attributes));
+        segments.back().number = static_cast<std::int64_t>(segments.size());
+        segments.back().label = one.structure.name;
+    }
+    return write_dicom_seg_masks(
+        path, masks, segments, images,
+        {.algorithm = {"kontur variational interpolation", KONTUR_VERSION, ""}, .provenance = together(all)}, work);
+}
+
+std::vector<std::string> write_regions(const fs::path& path, const All& all, const DicomSeries& images, const Work& work) {
+    StructureSet set{"kontur", {}};
+    for (const FittedStructure& one : all) {
+        Roi roi;
+        roi.name = one.structure.name;
+        roi.contours =
+            one.shares_border ? slice_outlines(one.made.mask) : slice_contours(one.made.mask, one.made.function, work);
+        roi.contours.name = one.structure.name;
+        roi.contours.attributes = fitted_attributes(one.set.attributes);
+        set.rois.push_back(std::move(roi));
+    }
+    WriteRtstructOptions options;
+    options.provenance = together(all);
+    return write_rtstruct(path, set, images, options);
+}
+
+/// "meshes.stl.zip": one .stl for each structure, by its name; those of one name get a number.
+void write_meshes(const fs::path& path, std::string_view name, const All& all) {
+    const std::string ending(name.substr(name.find('.'), name.rfind('.') - name.find('.')));
+    const TemporaryFolder folder;
+    std::vector<ZipEntry> entries;
+    for (const FittedStructure& one : all) {
+        std::string stem = plain_name(one.structure.name);
+        const auto is_taken = [&](const std::string& file) {
+            return std::any_of(entries.begin(), entries.end(), [&](const ZipEntry& e) { return e.name == file; });
+        };
+        for (int number = 2; is_taken(stem + ending); ++number)
+            stem = fmt::format("{}_{}", plain_name(one.structure.name), number);
+        const fs::path file = folder.path() / (stem + ending);
+        write_mesh(file, *one.made.mesh, provenance(one.set, one.made.mask.grid, one.made.report));
+        entries.push_back({stem + ending, read_bytes(file)});
+    }
+    write_file_atomically(path, zip(entries));
+}
+
+const DicomSeries& series_of(const std::optional<DicomSeries>& images, std::string_view name) {
+    if (images) return *images;
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("{} would refer to the DICOM images it was made on, and this image is none", name));
+}
+
+/// The surfaces with their borders, on a lattice that does not depend on the image's slices; `pairs` as the masks have them.
+/// The functions have borrowed their neighbours' borders already.
+void share_surfaces(std::vector<FittedStructure>& all, const std::vector<StructurePair>& pairs, const Work& work) {
+    std::vector<LoneSurface> alone;
+    for (const FittedStructure& one : all)
+        if (!one.made.mesh->triangles.empty())
+            alone.push_back({one.structure.id, std::make_shared<const ContourSet>(one.set), one.made.function,
+                             std::make_shared<const TriangleMesh>(*one.made.mesh)});
+    Borders borders{.shared = true};
+    for (const StructurePair& pair : pairs)
+        if (pair.is_given || pair.relation != Relation::inside)
+            borders.set({all[pair.first].structure.id, all[pair.second].structure.id, pair.relation});
+    const SharedBorders found = BorderSharing().share(alone, borders, work);
+    for (FittedStructure& one : all)
+        if (const auto mesh = found.meshes.find(one.structure.id); mesh != found.meshes.end()) one.made.mesh = *mesh->second;
+}
+
+/// Null where the image is not to be asked.
+const Image* asked(const State& state, const Image& image) { return state.use_image ? &image : nullptr; }
+
+/// Whether `segment` makes a mask of the contours on this grid.
+bool reaches_into(const Grid& grid, const ContourSet& set) {
+    try {
+        check_contours_inside(set, grid);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+std::vector<FittedStructure> fit_together(const State& state, const Image& image, const Grid& grid, bool with_mesh,
+                                          const Work& work) {
+    std::vector<FittedStructure> all;
+    std::vector<ContourSet> sets;
+    std::vector<Id> ids;
+    for (const auto& [id, structure] : state.structures) {
+        ContourSet set = contour_set(state, id);
+        if (set.contours.empty()) continue;
+        sets.push_back(set);
+        ids.push_back(id);
+        all.push_back({structure, std::move(set), {}});
+    }
+    if (all.empty()) return all;
+    TogetherOptions options;
+    options.segment.mesh = with_mesh;
+    for (const FittedStructure& one : all) options.smoothing.push_back(one.structure.smoothing);
+    options.rules = rules_among(state.borders, ids);
+    Together together = segment_together(sets, grid, asked(state, image), options, work);
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        Mask whole = whole_mask(together, n);
+        all[n].made = std::move(together.structures[n]);
+        all[n].made.mask = std::move(whole);
+    }
+    for (const StructurePair& pair : together.pairs)
+        if (pair.relation == Relation::exclusive || (pair.relation == Relation::inside && pair.is_given))
+            all[pair.first].shares_border = all[pair.second].shares_border = true;
+    if (with_mesh) share_surfaces(all, together.pairs, work);
+    return all;
+}
+
+std::vector<FittedStructure> fit_each(const State& state, const Image& image, const Grid& grid, bool with_mesh,
+                                      const Work& work) {
+    std::vector<FittedStructure> all;
+    for (const auto& [id, structure] : state.structures) {
+        ContourSet set = contour_set(state, id);
+        if (set.contours.empty()) continue;
+        const SegmentOptions options{.smoothing = structure.smoothing, .mesh = with_mesh};
+        try {
+            Segmentation made = segment(set, grid, asked(state, image), options, work);
+            all.push_back({structure, std::move(set), std::move(made)});
+        } catch (const Error& error) {
+            throw Error(error.kind(), fmt::format("{}: {}", structure.name, error.what()));
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<FittedStructure> fit_structures(const State& state, const Image& image, bool with_mesh, const Work& work) {
+    auto all = (state.borders.shared ? fit_together : fit_each)(state, image, image.grid, with_mesh, work);
+    if (all.empty()) throw Error(ErrorKind::invalid_input, "no structure has contours");
+    return all;
+}
+
+std::vector<FittedStructure> fit_structures_on(const Grid& grid, const State& state, const Image& image, const Work& work) {
+    State within = state;
+    for (const auto& found : state.structures)
+        if (!reaches_into(grid, contour_set(state, found.first)))
+            std::erase_if(within.contours, [&](const auto& item) { return item.second->structure == found.first; });
+    return (state.borders.shared ? fit_together : fit_each)(within, image, grid, false, work);
+}
+
+FittedStructure fit_structure(const State& state, Id structure, const Image& image, bool with_mesh, const Work& work) {
+    ContourSet set = contour_set(state, structure);
+    const bool is_alone = std::all_of(state.contours.begin(), state.contours.end(),
+                                      [&](const auto& item) { return item.second->structure == structure; });
+    if (!state.borders.shared || is_alone || set.contours.empty()) {
+        const SegmentOptions options{.smoothing = structure_of(state, structure).smoothing, .mesh = with_mesh};
+        Segmentation made = segment(set, image.grid, asked(state, image), options, work);
+        return {structure_of(state, structure), std::move(set), std::move(made)};
+    }
+    std::vector<FittedStructure> all = fit_structures(state, image, with_mesh, work);
+    const auto chosen =
+        std::find_if(all.begin(), all.end(), [&](const FittedStructure& one) { return one.structure.id == structure; });
+    return std::move(*chosen);
+}
+
+bool is_export_of_all(std::string_view name) {
+    return std::find(kExportsOfAll.begin(), kExportsOfAll.end(), name) != kExportsOfAll.end();
+}
+
+std::vector<std::string> write_structures(const fs::path& path, std::string_view name, const All& all,
+                                          const std::optional<DicomSeries>& images, const Work& work) {
+    if (name == "seg.dcm") return write_seg(path, all, series_of(images, name), work);
+    if (name == "rtstruct.dcm") return write_regions(path, all, series_of(images, name), work);
+    if (name.ends_with(".zip")) return write_meshes(path, name, all), std::vector<std::string>{};
+    if (name.ends_with(".seg.nrrd")) return write_layers(path, all), std::vector<std::string>{};
+    return write_labels(path, all);
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/model/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/base/error.h"
+#include "viewer/model/file_names.h"
+
+namespace kontur::viewer {
+namespace {
+
+bool all_of_kind(const DrawnContour& contour, Stretch kind) {
+    const bool ends_there = !contour.closed && contour.control.size() > 1;  // no stretch leads on from an open line's end
+    return std::all_of(contour.control.begin(), contour.control.end() - (ends_there ? 1 : 0),
+                       [&](const ControlPoint& c) { return c.kind == kind; });
+}
+
+}  // namespace
+
+std::string_view name(Stretch kind) noexcept {
+    switch (kind) {
+        case Stretch::line:
+            return "line";
+        case Stretch::spline:
+            return "spline";
+        case Stretch::wire:
+            return "wire";
+        case Stretch::free:
+            break;
+    }
+    return "free";
+}
+
+std::string_view kind_name(const DrawnContour& contour) noexcept {
+    if (all_of_kind(contour, Stretch::free)) return "freehand";
+    if (all_of_kind(contour, Stretch::spline)) return "spline";
+    if (all_of_kind(contour, Stretch::wire)) return "livewire";
+    return "mixed";
+}
+
+DrawnContour as_drawn(const Contour& contour) {
+    DrawnContour drawn;
+    drawn.plane = contour.plane;
+    drawn.points = contour.points;
+    drawn.hole = contour.hole;
+    drawn.closed = contour.closed;
+    drawn.inside = contour.inside;
+    drawn.end = contour.end;
+    drawn.weight = contour.weight;
+    if (!drawn.points.empty()) drawn.control.push_back({drawn.points.front(), Stretch::free, 0});
+    if (!drawn.closed && drawn.points.size() > 1)
+        drawn.control.push_back({drawn.points.back(), Stretch::free, drawn.points.size() - 1});
+    return drawn;
+}
+
+Contour as_contour(const DrawnContour& contour) {
+    return {.plane = contour.plane,
+            .points = contour.points,
+            .closed = contour.closed,
+            .hole = contour.hole,
+            .end = contour.end,
+            .inside = contour.inside,
+            .weight = contour.weight};
+}
+
+StructureAttributes attributes_of(const Structure& structure) {
+    StructureAttributes attributes = structure.attributes;
+    attributes.color = rgb8(structure.color);
+    return attributes;
+}
+
+ContourSet without_contours(const Structure& s) {
+    return {s.name, {}, s.interior, s.exterior, s.surface_points, s.empty_planes, attributes_of(s)};
+}
+
+ContourSet contour_set(const State& state, Id structure) {
+    ContourSet set = without_contours(structure_of(state, structure));
+    for (const auto& [id, contour] : state.contours)
+        if (contour->structure == structure) set.contours.push_back(as_contour(*contour));
+    return set;
+}
+
+bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm) {
+    constexpr double kParallelCosine = 0.99985;
+    return std::abs(dot(contour.plane.normal, plane.normal)) >= kParallelCosine &&
+           std::all_of(contour.points.begin(), contour.points.end(),
+                       [&](const Vec3& p) { return std::abs(plane.distance_to(p)) <= 0.5 * thickness_mm; });
+}
+
+const Structure& structure_of(const State& state, Id id) {
+    const auto found = state.structures.find(id);
+    if (found == state.structures.end())
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no structure with the id {}", id));
+    return found->second;
+}
+
+const DrawnContour& contour_of(const State& state, Id id) {
+    const auto found = state.contours.find(id);
+    if (found == state.contours.end())
+        throw Error(ErrorKind::invalid_input, fmt::format("there is no contour with the id {}", id));
+    return *found->second;
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kontur/shape/contour.h"
+#include "viewer/model/border_rules.h"
+
+// What a project holds: structures and the contours drawn for them.
+
+namespace kontur::viewer {
+
+/// How the line from one control point to the next was made.
+enum class Stretch { free, line, spline, wire };
+std::string_view name(Stretch kind) noexcept;
+
+/// A point to drag.
+struct ControlPoint {
+    Vec3 at;
+    Stretch kind = Stretch::free;  ///< of the line to the next control point; the last one's leads to the first, or would
+    std::size_t index = 0;         ///< where that line starts in the contour's points; `points[index] == at`
+    int image = 0;                 ///< number of the image whose edges it follows, where it is a wire
+
+    friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
+};
+
+struct DrawnContour {
+    Id id = 0;
+    Id structure = 0;
+    Plane plane;
+    std::vector<ControlPoint> control;  ///< at least one, by growing index, the first at index 0
+    std::vector<Vec3> points;           ///< the closed polygon, or the open line, in mm, on the plane
+    bool hole = false;
+    bool visible = true;
+    bool closed = true;                      ///< false: a stretch of the border; its last control point is its last point
+    std::optional<Hand> inside{};            ///< of an open line: where the structure lies; unset: to be found out
+    ContourEnd end = ContourEnd::automatic;  ///< of a closed line that is no hole
+    double weight = 1;                       ///< how far it is trusted
+
+    friend bool operator==(const DrawnContour&, const DrawnContour&) = default;
+};
+
+/// "freehand", "spline", "livewire" when all stretches are of that kind, else "mixed".
+std::string_view kind_name(const DrawnContour& contour) noexcept;
+
+/// A contour of a file, or drawn by others: one free stretch.
+DrawnContour as_drawn(const Contour& contour);
+
+/// As the library takes it.
+Contour as_contour(const DrawnContour& contour);
+
+struct Structure {
+    Id id = 0;
+    std::string name;
+    std::string color = "#e8b04a";  ///< "#rrggbb"
+    bool visible = true;
+    std::vector<Plane> empty_planes{};           ///< in which nothing of it is seen
+    std::optional<double> smoothing{};           ///< of the fit (SegmentOptions); unset: the usual one
+    std::vector<SurfacePoint> surface_points{};  ///< that its surface passes
+    std::vector<Vec3> interior{}, exterior{};    ///< points that lie inside, outside of it
+    StructureAttributes attributes{};            ///< what its file said of it, for exports; without the colour, see above
+
+    friend bool operator==(const Structure&, const Structure&) = default;
+};
+
+/// All of a project at one moment. Contours are shared between moments, so a copy is cheap.
+struct State {
+    std::map<Id, Structure> structures;
+    std::map<Id, std::shared_ptr<const DrawnContour>> contours;
+    Borders borders;
+    bool use_image = true;  ///< between the contours, where it helps
+};
+
+/// What files say of the structure, its colour among it.
+StructureAttributes attributes_of(const Structure& structure);
+
+/// What is known of the structure beside its contours, as the library takes it.
+ContourSet without_contours(const Structure& structure);
+
+/// The structure's contours as the library takes them, in the order they were made.
+ContourSet contour_set(const State& state, Id structure);
+
+/// Whether the contour is drawn in this plane: parallel to it within a degree, and all of it within half of the thickness.
+bool lies_in(const DrawnContour& contour, const Plane& plane, double thickness_mm);
+
+/// Throws Error(invalid_input) naming the id when there is none.
+const Structure& structure_of(const State& state, Id id);
+const DrawnContour& contour_of(const State& state, Id id);
+
+}  // namespace kontur::viewer

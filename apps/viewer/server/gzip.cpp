@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/server/gzip.h"
+
+#include "kontur/io/bytes/deflate.h"
+
+namespace kontur::viewer {
+
+std::string gzipped(std::string_view bytes) {
+    constexpr int kQuickest = 1;
+    std::string packed;
+    Deflater deflater(
+        DeflateFormat::gzip,
+        [&](const void* data, std::size_t count) { packed.append(static_cast<const char*>(data), count); }, kQuickest);
+    deflater.write(std::as_bytes(std::span(bytes)));
+    deflater.finish();
+    return packed;
+}
+
+}  // namespace kontur::viewer

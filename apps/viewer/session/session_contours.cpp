@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "kontur/base/counted.h"
+#include "kontur/base/error.h"
+#include "viewer/edits/contour_edits.h"
+#include "viewer/model/model_json.h"
+#include "viewer/session/session.h"
+#include "viewer/session/told.h"
+
+// Calls that draw contours and change them.
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+double snap_radius_mm(const Members& m) {
+    // Eight screen pixels are what a hand aims with.
+    return m.has("mm_per_pixel") ? 8 * std::clamp(m.number("mm_per_pixel"), 1e-3, 100.0) : SketchOptions{}.snap_radius_mm;
+}
+
+SketchPoint sketch_point(const json& item) {
+    const Members m(item);
+    SketchPoint point{m.point("at"), m.stretch("kind"), {}, m.image("image")};
+    if (!m.has("path")) return point;
+    std::vector<Vec3> line = m.points("path");
+    line.insert(line.begin(), point.at);
+    line = thinned(line);
+    point.path.emplace(line.begin() + 1, line.end());
+    return point;
+}
+
+std::vector<SketchPoint> sketch_from(const Members& m) {
+    std::vector<SketchPoint> sketch;
+    for (const json& item : m.at("control")) sketch.push_back(sketch_point(item));
+    return sketch;
+}
+
+std::vector<Id> ids_from(const Members& m) {
+    std::set<Id> ids;
+    for (const json& item : m.at("ids")) ids.insert(item.get<Id>());
+    return {ids.begin(), ids.end()};
+}
+
+/// What the history calls a new contour.
+std::string label_of(std::string_view origin) {
+    static constexpr std::array<std::pair<std::string_view, const char*>, 4> kOrigins{{{"drawn", "Draw a contour"},
+                                                                                       {"pulled", "Pull the outline"},
+                                                                                       {"adopted", "Keep the outline"},
+                                                                                       {"proposed", "Accept the proposal"}}};
+    return std::ranges::find(kOrigins, origin, &std::pair<std::string_view, const char*>::first)->second;
+}
+
+/// What the message says of the contour beside its line. `structure` has been checked.
+void set_marks(DrawnContour& contour, const Members& m) {
+    if (m.has("structure")) contour.structure = m.id("structure");
+    contour.hole = m.flag_or("hole", contour.hole);
+    contour.visible = m.flag_or("visible", contour.visible);
+    if (contour.hole && !contour.closed)
+        throw Error(ErrorKind::invalid_input, "an open line encloses nothing, so it can be no hole");
+    if (m.has("weight")) contour.weight = m.weight("weight");
+    if (m.has("end")) contour.end = m.end("end");
+    if (contour.hole || !contour.closed) {
+        if (m.has("end") && contour.end != ContourEnd::automatic)
+            throw Error(ErrorKind::invalid_input, "a structure ends at closed contours that are no holes");
+        contour.end = ContourEnd::automatic;
+    }
+    if (!m.has("inside")) return;
+    if (contour.closed)
+        throw Error(ErrorKind::invalid_input,
+                    "the structure lies inside of a closed contour; of open lines alone the side is told");
+    contour.inside.reset();
+    if (m.text("inside", 16) != "auto") contour.inside = m.hand("inside");
+}
+
+/// The line closed or opened, if the message says so, and its marks set.
+DrawnContour as_told(const DrawnContour& before, const Members& m, SliceEdges& edges) {
+    std::optional<Vec3> at;
+    if (m.has("at")) at = m.point("at");
+    DrawnContour after = before;
+    if (m.has("closed")) after = m.flag("closed") ? closed(before, edges) : opened(before, at, edges);
+    set_marks(after, m);
+    return after;
+}
+
+/// What the history calls such a change of one contour.
+const char* label_of_marks(const Members& m) {
+    if (m.has("closed")) return m.flag("closed") ? "Close a line" : "Open a contour";
+    if (m.has("inside")) return "Tell the side of a line";
+    if (m.has("end")) return "End at a contour";
+    if (m.has("weight")) return "Weight of a contour";
+    return m.has("visible") ? "Show or hide a contour" : "Change a contour";
+}
+
+Commit one_contour(const std::string& label, const State& state, const DrawnContour& after) {
+    Change<DrawnContour> change{after.id, {}, after};
+    if (const auto before = state.contours.find(after.id); before != state.contours.end()) change.before = *before->second;
+    return {label, {}, {change}};
+}
+
+}  // namespace
+
+json Session::path(const Members& m) {
+    const Members plane(m.at("plane"));
+    SketchOptions options;
+    options.closed = m.flag_or("closed", false);
+    options.snap = m.flag_or("snap", true);
+    options.snap_radius_mm = snap_radius_mm(plane);
+    const Drawing drawing = draw(sketch_from(m), m.plane("plane"), edges_, options);
+    json control = json::array();
+    for (const ControlPoint& c : drawing.control) control.push_back(to_json(c));
+    return {{"points", to_json(drawing.points)}, {"control", std::move(control)}};
+}
+
+json Session::put(const std::string& label, DrawnContour contour, const Members& m) {
+    std::vector<DrawnContour> carried = carried_with(contour);
+    json result{{"contour", Told()(contour)}, {"carried", json::array()}};
+    for (const DrawnContour& other : carried) result["carried"].push_back(Told()(other));
+    if (m.flag_or("draft", false)) {
+        std::set<Id> touched = drafted();
+        draft_ = std::move(contour);
+        carried_ = std::move(carried);
+        draft_owner_ = caller_;
+        touched.merge(drafted());
+        for (const Id id : touched) follow(id);
+        return result;
+    }
+    if (contour.id == 0) result["contour"]["id"] = contour.id = project_.new_id();
+    Commit step = one_contour(label, project_.state(), contour);
+    for (DrawnContour& other : carried)
+        step.contours.push_back({other.id, contour_of(project_.state(), other.id), std::move(other)});
+    commit_ahead(step);
+    return result;
+}
+
+json Session::add_contour(const Members& m) {
+    SketchOptions options;
+    // The page sends control points that `path` has snapped already.
+    options.snap = false;
+    options.closed = m.flag_or("closed", true);
+    const Plane plane = m.plane("plane");  // of two wrong members every compiler's program names the same
+    DrawnContour contour = draw_contour(sketch_from(m), plane, edges_, options);
+    contour.structure = structure_of(project_.state(), m.id("structure")).id;
+    set_marks(contour, m);
+    return put(label_of(m.has("origin") ? m.text("origin", 16) : "drawn"), std::move(contour), m);
+}
+
+json Session::move_control_point(const Members& m) {
+    SketchOptions options;
+    options.snap_radius_mm = snap_radius_mm(m);
+    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
+    return put("Move a point", move_point(contour, index, m.point("to"), edges_, options), m);
+}
+
+json Session::insert_control_point(const Members& m) {
+    return put("Insert a point", insert_point(contour_of(project_.state(), m.id("id")), m.point("at"), edges_), m);
+}
+
+json Session::delete_control_point(const Members& m) {
+    const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
+    return put("Delete a point", delete_point(contour_of(project_.state(), m.id("id")), index, edges_), m);
+}
+
+json Session::pull_contour(const Members& m) {
+    std::optional<double> radius;
+    if (m.has("radius_mm")) radius = m.number("radius_mm");
+    return put("Bend a contour",
+               pull(contour_of(project_.state(), m.id("id")), m.point("from"), m.point("to"), radius, edges_), m);
+}
+
+json Session::redraw_contour(const Members& m) {
+    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    const std::vector<Vec3> path = m.points("path");
+    const bool whole = m.flag_or("whole", false);
+    return put("Redraw a part", whole ? redraw_whole(contour, path, edges_) : redraw(contour, path, edges_), m);
+}
+
+json Session::translate_contour(const Members& m) {
+    return put("Move a contour", translate(contour_of(project_.state(), m.id("id")), m.point("by")), m);
+}
+
+json Session::copy_contour(const Members& m) {
+    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    double offset_mm = 0;
+    if (m.has("plane")) {
+        const Plane target = m.plane("plane");
+        if (std::abs(dot(target.normal, contour.plane.normal)) < 1 - 1e-6)
+            throw Error(ErrorKind::invalid_input, "a contour can only be copied to a parallel slice");
+        offset_mm = contour.plane.distance_to(target.origin);
+    } else {
+        offset_mm = m.number("offset_mm");
+    }
+    DrawnContour copy = offset(contour, offset_mm);
+    copy.id = 0;
+    return put("Copy a contour", std::move(copy), m);
+}
+
+/// One contour, or several as one step.
+json Session::set_contour(const Members& m) {
+    if (m.has("ids")) return set_contours(m);
+    if (m.has("structure")) structure_of(project_.state(), m.id("structure"));
+    return put(label_of_marks(m), as_told(contour_of(project_.state(), m.id("id")), m, edges_), m);
+}
+
+json Session::set_contours(const Members& m) {
+    Commit changed;
+    if (m.has("structure")) structure_of(project_.state(), m.id("structure"));
+    for (const Id id : ids_from(m)) {
+        const DrawnContour& before = contour_of(project_.state(), id);
+        changed.contours.push_back({id, before, as_told(before, m, edges_)});
+    }
+    changed.label =
+        fmt::format("{} {}", m.has("visible") ? "Show or hide" : "Change", counted(changed.contours.size(), "contour"));
+    commit(changed);
+    return json::object();
+}
+
+json Session::remove_contours(const Members& m) {
+    Commit removed;
+    for (const Id id : ids_from(m)) removed.contours.push_back({id, contour_of(project_.state(), id), {}});
+    removed.label =
+        removed.contours.size() == 1 ? "Delete a contour" : fmt::format("Delete {} contours", removed.contours.size());
+    commit(removed);
+    return json::object();
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kontur/base/error.h"
+#include "kontur/base/printable.h"
+#include "kontur/io/bytes/atomic_file.h"
+#include "kontur/io/bytes/png.h"
+#include "kontur/io/contours.h"
+#include "kontur/io/image.h"
+#include "kontur/io/images/segment_tags.h"
+#include "kontur/io/meshes/mesh.h"
+#include "kontur/segment.h"
+#include "kontur/view/picture.h"
+#include "viewer/files/import_doubts.h"
+#include "viewer/files/structure_exports.h"
+#include "viewer/model/file_names.h"
+#include "viewer/model/model_json.h"
+#include "viewer/model/status_line.h"
+#include "viewer/model/temporary_files.h"
+#include "viewer/session/session.h"
+
+// What leaves the session as files and comes in as files.
+
+namespace kontur::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kMasks{"mask.nii.gz", "mask.nii", "mask.nrrd", "mask.seg.nrrd", "mask.mha"};
+constexpr std::array kMeshes{"mesh.stl", "mesh.ply", "mesh.obj"};
+constexpr std::array kContours{"contours.json", "contours.mrk.json"};
+
+template <class Names>
+bool is_one_of(const std::string& name, const Names& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// "liver.nii.gz" for a mask of the liver.
+std::string file_name(const std::string& structure, const std::string& kind) {
+    return plain_name(structure) + kind.substr(kind.find('.'));
+}
+
+void write_mask_file(const fs::path& path, const FittedStructure& one) {
+    WriteMaskOptions options;
+    options.segment_name = one.structure.name;
+    options.segment_color = rgb(one.structure.color);
+    options.segment_tags = tags_of_terms(one.set.attributes);
+    options.provenance = provenance(one.set, one.made.mask.grid, one.made.report);
+    write_mask(path, one.made.mask, options);
+}
+
+void write_mesh_file(const fs::path& path, const FittedStructure& one) {
+    write_mesh(path, *one.made.mesh, provenance(one.set, one.made.mask.grid, one.made.report));
+}
+
+void write_picture(const fs::path& path, const FittedStructure& one, const Image& image) {
+    const auto& [structure, set, made, shares_border] = one;
+    PictureOptions options;
+    options.facts = {{"Volume (mask)", in_ml(made.report.mask_volume_ml)},
+                     {"Residual (max)", fmt::format("{:.2g} mm", made.report.residual.max_mm)},
+                     {"Residual (rms)", fmt::format("{:.2g} mm", made.report.residual.rms_mm)}};
+    write_png(path, make_picture(*made.mesh, set, &image, options), provenance(set, image.grid, made.report));
+}
+
+/// Drawn by hand: what they were made of is the image alone.
+Provenance provenance_of_drawing(const ContourSet& set, const ImageReference& image) {
+    return {{"made_by", "kontur open"},
+            {"image_fingerprint", image.fingerprint},
+            {"contours_sha256", contours_sha256(set)},
+            {"version", KONTUR_VERSION}};
+}
+
+/// Endings are known in small letters, and a DICOM file may have none.
+std::string without_ending(const std::string& file, const std::string& ending) {
+    return lower_case(file).ends_with(ending) ? file.substr(0, file.size() - ending.size()) : file;
+}
+
+}  // namespace
+
+Download Session::exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
+    const StatusLine line(status_teller(), "Exporting " + name);
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / name;
+    Download download{name, "application/octet-stream", {}};
+    if (name == "project.kontur") {
+        const std::scoped_lock lock(mutex_);
+        project_.copy_to(path);
+        download.file_name = file_name(project_.path().stem().string(), name);
+    } else if (is_export_of_all(name)) {
+        const KeptFits::Fits all = fits_.all(state(), line.work(stop));
+        for (const std::string& note : write_structures(path, name, *all, series_, line.work(stop))) notice("info", note);
+        download.file_name = plain_name(project_path().stem().string()) + "_" + name;
+    } else {
+        if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
+        const auto [now, image] = [&] {
+            const std::scoped_lock lock(mutex_);
+            return std::pair(project_.state(), project_.image());
+        }();
+        const Structure& chosen = structure_asked_for(now, *structure);
+        const ContourSet set = contour_set(now, *structure);
+        const auto made = [&, &now = now] { return fits_.one(now, *structure, line.work(stop)); };
+        if (is_one_of(name, kMasks)) write_mask_file(path, *made());
+        else if (is_one_of(name, kMeshes)) write_mesh_file(path, *made());
+        else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
+        else if (name == "picture.png") write_picture(path, *made(), *image_);
+        else throw Error(ErrorKind::unsupported, "there is no export of this name");
+        download.file_name = file_name(chosen.name, name);
+    }
+    download.bytes = read_bytes(path);
+    return download;
+}
+
+ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
+    const StatusLine line(status_teller(), "Importing");
+    const Work work{.stop = stop};
+    Imported imported = import_apart(bytes, upload, work);
+    work.check();
+    for (ContourSet& set : imported.sets)
+        if (set.name.empty()) set.name = without_ending(upload.file, upload.extension);
+    if (!upload.anyway) {
+        auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
+        if (!doubts.empty()) return {{}, std::move(doubts), {}};
+    }
+    const bool is_mask = upload.content == Upload::Content::mask;
+    return {add_structures(is_mask ? "Import a mask" : "Import contours", imported.sets), {}, imported.notes};
+}
+
+}  // namespace kontur::viewer

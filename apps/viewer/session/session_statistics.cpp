@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/surfaces/statistics.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "viewer/files/structure_exports.h"
+#include "viewer/model/model_json.h"
+#include "viewer/model/status_line.h"
+#include "viewer/session/session.h"
+
+// What is measured of all structures, in both images where there are two.
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+json values_json(const ValueStatistics& found) {
+    return {{"voxels", found.voxels},
+            {"mean", found.mean},
+            {"deviation", found.deviation},
+            {"range", {found.least, found.most}}};
+}
+
+json row_json(const FittedStructure& one, const Image& image) {
+    const Statistics found = statistics(*one.made.mesh);
+    json row = values_json(value_statistics(one.made.mask, image));
+    row.update({{"structure", one.structure.id},
+                {"name", one.structure.name},
+                {"contours", one.set.contours.size()},
+                {"volume_ml", found.volume_ml},
+                {"surface_cm2", found.surface_cm2},
+                {"diameter_mm", found.diameter_mm},
+                {"diameter", {to_json(found.from), to_json(found.to)}},
+                {"extent_mm", to_json(found.extent_mm)}});
+    if (const SurfaceUncertainty& sure = one.made.report.uncertainty; sure.is_known)
+        row["volume_90_ml"] = {sure.volume_low_ml, sure.volume_high_ml};
+    return row;
+}
+
+}  // namespace
+
+std::string Session::statistics(const std::stop_token& stop) {
+    const StatusLine line(status_teller(), "Measuring");
+    const State now = state();
+    const std::shared_ptr<const FurtherImage> second = second_image();
+    const KeptFits::Fits fits = fits_.all(now, line.work(stop));
+    const std::vector<FittedStructure>& all = *fits;
+    json rows = json::array();
+    for (const FittedStructure& one : all) rows.push_back(row_json(one, *image_));
+    json told{{"unit", unit()}};
+    if (second) {
+        const Image& other = *second->opened.image;
+        const bool is_same_grid = other.grid == image_->grid;
+        const auto refitted =
+            is_same_grid ? std::vector<FittedStructure>{} : fit_structures_on(other.grid, now, *image_, line.work(stop));
+        const std::vector<FittedStructure>& on_other = is_same_grid ? all : refitted;
+        for (json& row : rows) row["second"] = {{"voxels", 0}};
+        for (std::size_t n = 0, row = 0; n < on_other.size(); ++n, ++row) {
+            while (all[row].structure.id != on_other[n].structure.id) ++row;  // it lies beyond the second image
+            rows[row]["second"] = values_json(value_statistics(on_other[n].made.mask, other));
+            rows[row]["second"]["points_beyond"] = points_outside(on_other[n].set, other.grid);
+        }
+        told["second"] = {{"modality", second->opened.identity.modality}, {"unit", second->unit}};
+    }
+    told["structures"] = std::move(rows);
+    return to_text(told);
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "kontur/base/error.h"
+#include "kontur/sureness/suggest_plane.h"
+#include "viewer/edits/proposed_lines.h"
+#include "viewer/edits/snapped_line.h"
+#include "viewer/model/model_json.h"
+#include "viewer/session/session.h"
+
+// Where to draw next, and what is proposed there.
+
+namespace kontur::viewer {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMostSlicesApart = 4;  ///< beyond, an image looks no more like itself
+
+double apart_mm(const DrawnContour& contour, const Plane& plane) {
+    return std::abs(plane.distance_to(contour.plane.origin));
+}
+
+/// On average from the line's points to the contour's next ones, seen along the plane's normal.
+double mean_distance_mm(const std::vector<Vec3>& line, const DrawnContour& contour, const Plane& plane) {
+    double sum = 0;
+    for (const Vec3& p : line) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Vec3& q : contour.points) {
+            const Vec3 away = q - p;
+            nearest = std::min(nearest, norm(away - dot(away, plane.normal) * plane.normal));
+        }
+        sum += nearest;
+    }
+    return sum / static_cast<double>(line.size());
+}
+
+/// Of the structure's contours on the nearest parallel slice with any the one that runs along the line; null: there is none.
+const DrawnContour* neighbour_of(const std::vector<Vec3>& line, Id structure, const Plane& plane, const State& state,
+                                 double most_mm) {
+    std::vector<const DrawnContour*> near;
+    double least_mm = most_mm;
+    for (const auto& [id, contour] : state.contours) {
+        if (contour->structure != structure || !contour->closed || !contour->visible) continue;
+        if (std::abs(dot(contour->plane.normal, plane.normal)) < 1 - 1e-6) continue;
+        const double mm = apart_mm(*contour, plane);
+        if (mm > least_mm + 1e-3 || mm < 1e-3) continue;
+        if (mm < least_mm - 1e-3) near.clear(), least_mm = mm;
+        near.push_back(contour.get());
+    }
+    const auto nearest = std::ranges::min_element(
+        near, {}, [&](const DrawnContour* contour) { return mean_distance_mm(line, *contour, plane); });
+    return nearest == near.end() ? nullptr : *nearest;
+}
+
+}  // namespace
+
+/// What is fitted on a slice that no view shows yet.
+json Session::outline_of(const Members& m) {
+    const Id structure = m.id("structure");
+    const Plane plane = m.plane("plane");
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    json lines = json::array();
+    if (found == surfaces.end() || !found->second->mesh) return {{"lines", std::move(lines)}};
+    const State now = state();
+    const bool snaps = m.flag_or("snap", false) && shows_borders_ && now.use_image;
+    const Vec3 spacing = image_->grid.spacing_mm();
+    const double most_mm = kMostSlicesApart * std::max({spacing.x, spacing.y, spacing.z});
+    for (Polyline& line : proposed_lines(*found->second->mesh, plane)) {
+        const DrawnContour* beside = snaps ? neighbour_of(line.points, structure, plane, now, most_mm) : nullptr;
+        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *image_));
+        lines.push_back(to_json(line.points));
+    }
+    return {{"lines", std::move(lines)}};
+}
+
+SurfaceEvidence Session::evidence_of(const Surface& surface) const {
+    SurfaceEvidence evidence = *surface.evidence;
+    const Vec3 spacing = image_->grid.spacing_mm();
+    evidence.voxel_mm = std::min({spacing.x, spacing.y, spacing.z});
+    return evidence;
+}
+
+json Session::suggest(const Members& m) {
+    const Id structure = m.id("structure");
+    SuggestPlaneOptions options{.planes = m.flag_or("slices", false) ? PlaneChoice::image_slices : PlaneChoice::any};
+    if (m.has("skip")) options.avoid = m.planes("skip");
+    options.grid = image_->grid;
+    const auto surfaces = surfaces_.all();
+    const auto found = surfaces.find(structure);
+    json planes = json::array();
+    // While contours change there is no surface of them yet, and none to suggest a plane for.
+    if (found == surfaces.end() || !found->second->evidence || !has_full_resolution(found->second->stage))
+        return {{"planes", planes}};
+    const Surface& surface = *found->second;
+    for (const SuggestedPlane& one : suggest_planes(evidence_of(surface), *surface.drawn, 1, options).planes) {
+        json lines = json::array();
+        for (const Polyline& line : proposed_lines(*surface.mesh, one.plane)) lines.push_back(to_json(line.points));
+        json told{{"plane", to_json(one.plane)}, {"gain", one.gain}, {"lines", std::move(lines)}};
+        if (one.slice) told["slice"] = {{"axis", one.slice->axis}, {"index", one.slice->index}};
+        if (one.after.value > 0) told["expected_dice"] = to_json(one.after);
+        planes.push_back(std::move(told));
+    }
+    return {{"planes", std::move(planes)}};
+}
+
+}  // namespace kontur::viewer

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "kontur/live_editor.h"
+#include "kontur/sureness/surface_evidence.h"
+#include "viewer/model/model.h"
+#include "viewer/surfaces/border_sharing.h"
+
+namespace kontur::viewer {
+
+enum class SurfaceStage {
+    none,
+    outdated,  ///< the contours have changed since; the next one is on its way
+    preview,
+    asking,  ///< what the contours make of themselves; the image is asked now whether it knows better
+    finished,
+};
+std::string_view name(SurfaceStage stage) noexcept;
+/// Whether all is known of the surface that there is to know.
+constexpr bool has_full_resolution(SurfaceStage stage) {
+    return stage == SurfaceStage::asking || stage == SurfaceStage::finished;
+}
+
+/// Two contours that contradict each other at a place.
+struct Conflict {
+    Id contour = 0, other = 0;
+    Vec3 at;
+    double disagreement_mm = 0;
+};
+
+/// On which hand of an open line that does not tell the structure was taken to lie.
+struct LineSide {
+    Id contour = 0;
+    Hand inside = Hand::left;
+    bool is_sure = true;
+};
+
+/// Two lines of one plane that were taken for one, or leave a thin wall, the first of them a hole in the other.
+struct LinePair {
+    Id contour = 0, other = 0;
+    double apart_mm = 0;
+    bool is_one = false;
+};
+
+/// What is shown of a structure's surface.
+struct Surface {
+    Id structure = 0;
+    std::int64_t revision = 0;
+    SurfaceStage stage = SurfaceStage::none;
+    std::shared_ptr<const TriangleMesh> mesh;  ///< null for `none`
+    std::vector<std::string> warnings;
+    std::vector<LineSide> sides;
+    std::vector<LinePair> near_lines;
+    std::vector<Conflict> conflicts;  ///< the largest first; known when finished, and when there is no surface
+    // Known when finished:
+    double volume_ml = 0;
+    Residual residual;
+    Id worst_contour = 0;  ///< where the residual is largest
+    Vec3 worst_at;
+    std::shared_ptr<const SurfaceEvidence> evidence;    ///< how sure it is
+    std::shared_ptr<const ContourSet> drawn;            ///< what it was made from
+    ImageReport image;                                  ///< what became of the image, when finished
+    std::shared_ptr<const TriangleMesh> without_image;  ///< what the contours alone make; null where no image was used
+};
+
+/// The contours a surface is made of; `ids[i]` names `set.contours[i]`.
+struct SurfaceTask {
+    Id structure = 0;
+    ContourSet set;
+    std::vector<Id> ids;
+    std::optional<double> smoothing{};  ///< of the fit; unset: the usual one
+};
+
+/// The closed lines, in mm, where a surface meets a plane.
+using PlaneCutter = std::function<std::vector<std::vector<Vec3>>(const Plane& plane)>;
+
+struct PlaneCutters {
+    PlaneCutter surface;
+    PlaneCutter without_image{};  ///< what the contours alone make; none where no image was used
+};
+PlaneCutters cutters(const Surface& surface);
+
+/// Called from the threads that compute, and from those that change contours. Must not call Surfaces.
+struct SurfaceListener {
+    /// Told before the surface with this revision, which of previews takes as long again.
+    std::function<void(Id structure, std::int64_t revision, const PlaneCutters& cut)> outlines;
+    std::function<void(std::shared_ptr<const Surface>)> surface;
+    /// What is being computed, and how much of it is done; an empty text when nothing is.
+    std::function<void(const std::string& text, std::optional<double> fraction)> status;
+    /// How structures that touch lie to each other, as soon as that is found, or why it could not be.
+    std::function<void(const std::vector<BorderPair>& pairs, const std::string& problem)> borders{};
+};
+
+/// A LiveEditor for each structure that has contours: surfaces follow the contours, previews at once, the finished ones when
+/// the hand rests, and then those that the image helps to make. Where structures share borders a finished surface waits
+/// until these are found, and then the surfaces of its neighbours change, too: on a thread of its own, from the functions
+/// that there are.
+class Surfaces {
+public:
+    explicit Surfaces(SurfaceListener listener) : listener_(std::move(listener)) {}
+    ~Surfaces();
+    Surfaces(const Surfaces&) = delete;
+    Surfaces& operator=(const Surfaces&) = delete;
+
+    /// The structures' contours change, and `follow` will say how: whoever is told of the change after this knows already
+    /// that the surfaces are those of before.
+    void outdate(const std::set<Id>& structures);
+    /// The structure's contours are now these. Does not wait.
+    void follow(SurfaceTask task);
+    /// The same for a structure that nobody waits for: such ones come one after the other, when nothing else is computed,
+    /// or in place of what is computed for them already.
+    void follow_later(SurfaceTask task);
+    /// Contours that are followed from now on were drawn on this image, and it is asked; null: none is.
+    void use_image(std::shared_ptr<const Image> image);
+    /// From now on these hold. Does not wait.
+    void share_borders(const Borders& borders);
+    /// How structures lie to each other as far as it has been found.
+    std::vector<BorderPair> border_pairs() const;
+    /// Waits until every surface is finished, with its borders.
+    void wait();
+
+    /// The last surface of every structure that has had one.
+    std::map<Id, std::shared_ptr<const Surface>> all() const;
+
+private:
+    /// A finished surface as it was fitted, before borders are shared.
+    struct Alone {
+        Surface surface;
+        ImplicitFunction function;
+        std::optional<double> smoothing{};     ///< of its fit
+        std::shared_ptr<const Image> image{};  ///< that was asked, if any was
+    };
+    struct Follower {
+        std::map<std::uint64_t, SurfaceTask> tasks;  ///< by number of the edit, counted through all editors
+        std::uint64_t last_edit = 0;                 ///< its number
+        std::uint64_t edits_before = 0;              ///< of editors that there were before this one
+        bool is_working = false;
+        bool is_outdated = false;            ///< there will be another task
+        Alone without_image;                 ///< of the task for which the image is asked
+        bool shows_image = false;            ///< the preview follows what the image said before: until it has been asked
+                                             ///< again nothing else is shown, which would jump there and back
+        std::int64_t ahead = 0;              ///< revision of the preview whose outlines have been told
+        std::string_view stage;              ///< what the status line was told last ...
+        int tenths = 0;                      ///< ... and how far it was
+        std::shared_ptr<LiveEditor> editor;  ///< null without contours: each one is a thread
+        std::optional<double> smoothing{};   ///< with which the editor was made
+    };
+    using Editors = std::vector<std::shared_ptr<LiveEditor>>;
+
+    void start(SurfaceTask task);
+    void begin_editor(Follower& follower, const SurfaceTask& task);
+    void start_next();
+    void hear(Id structure, std::uint64_t edit, const EditorUpdate& update);
+    void hear_ahead(Id structure, std::uint64_t edit, const SurfaceBand& band);
+    std::int64_t next_revision();
+    void show_progress(Id structure, std::uint64_t edit, const EditorUpdate& update);
+    void outdate_locked(Id structure);
+    void publish_locked(Surface surface);
+    Alone heard(const SurfaceTask& task, const EditorUpdate& update, Alone known);
+    void finish_locked(Follower& follower, const SurfaceTask& task);
+
+    // Sharing borders (surfaces_shared.cpp).
+    bool is_busy_locked() const;
+    bool hand_over(const SurfaceTask& task, const Alone& alone);
+    bool ask_to_share_locked();
+    void keep_sharing(const std::stop_token& closed);
+    void share(const std::map<Id, Alone>& alone, const Borders& borders, const std::stop_token& stop);
+    void publish_shared(const Alone& alone, std::shared_ptr<const TriangleMesh> mesh);
+
+    const SurfaceListener listener_;
+    mutable std::mutex mutex_;
+    std::map<Id, std::shared_ptr<const Surface>> latest_;
+    std::int64_t revision_ = 0;
+    std::shared_ptr<const Image> image_;
+    std::map<Id, Alone> alone_;
+    Borders borders_;
+    std::vector<BorderPair> pairs_;
+    bool is_sharing_wanted_ = false, is_sharing_ = false;
+    std::stop_source sharing_stop_;
+    std::condition_variable_any sharing_changed_;
+    BorderSharing sharing_;  ///< of the thread
+    std::deque<SurfaceTask> later_;
+    Editors retired_;                   ///< not needed any more; an editor's own thread cannot end it
+    std::map<Id, Follower> followers_;  ///< their threads use all above
+    std::jthread sharing_thread_;       ///< last: it does, too
+};
+
+}  // namespace kontur::viewer

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/bounds/drawn_regions.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "kontur/base/parallel.h"
+
+namespace kontur {
+namespace {
+
+constexpr std::size_t kLinePlaces = 24, kFewestLinePlaces = 4;  // per outline
+constexpr std::size_t kAllLinePlaces = 2400;                    // about, of a section with many of them
+
+std::vector<Vec3> places_of(const Section& section, const std::vector<Probe>& inside) {
+    std::vector<Vec3> places;
+    for (const Probe& probe : inside) places.push_back(section.plane.from_uv(probe.at));
+    const std::size_t share = std::clamp(kAllLinePlaces / section.outlines.size(), kFewestLinePlaces, kLinePlaces);
+    for (const Polygon2& outline : section.outlines) {
+        const std::size_t stride = std::max<std::size_t>(1, outline.size() / share);
+        for (std::size_t i = 0; i < outline.size(); i += stride) places.push_back(section.plane.from_uv(outline[i]));
+    }
+    return places;
+}
+
+void append_crossings(const Section& other, DrawnRegion& region) {
+    const Plane& plane = region.section.plane;
+    for (const Polygon2& outline : other.outlines)
+        for_each_edge(outline, [&](const Point2& from, const Point2& to) {
+            const Vec3 a = other.plane.from_uv(from), b = other.plane.from_uv(to);
+            const double before = plane.distance_to(a), after = plane.distance_to(b);
+            if ((before > 0) == (after > 0)) return;
+            const Point2 at = plane.to_uv(a + before / (before - after) * (b - a));
+            if (!region.search.contains(at)) region.crossings.push_back({at, region.search.clearance(at)});
+        });
+}
+
+}  // namespace
+
+GroupedPlaces::GroupedPlaces(std::vector<Vec3> places) : places_(std::move(places)) { group(0, places_.size()); }
+
+/// Halves them across their widest axis until few are left.
+void GroupedPlaces::group(std::size_t begin, std::size_t end) {
+    constexpr std::size_t kMost = 16;
+    constexpr double kRounding = 1 + 1e-9;
+    const auto at = [&](std::size_t i) { return places_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const Box3 box = bounding_box(std::span(at(begin), at(end)));
+    if (end - begin <= kMost) {
+        groups_.push_back({box.center(), kRounding * box.diagonal() / 2, begin, end});
+        return;
+    }
+    const Vec3 size = box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(at(begin), at(middle), at(end), [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+    group(begin, middle);
+    group(middle, end);
+}
+
+std::vector<DrawnRegion> drawn_regions(const DrawnPlanes& planes, const Work& work) {
+    std::vector<std::optional<DrawnRegion>> found(planes.sections.size());
+    parallel_for(static_cast<std::int64_t>(found.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
+            const Section& section = planes.sections[s];
+            std::vector<Probe> inside = probes(section);
+            std::vector<Vec3> places = places_of(section, inside);
+            const Ball3 ball = smallest_ball(places);
+            found[s].emplace(
+                DrawnRegion{section, SectionSearch(section), std::move(inside), GroupedPlaces(std::move(places)), ball, {}});
+            for (const Section& other : planes.sections)
+                if (&other != &section) append_crossings(other, *found[s]);
+        }
+    });
+    std::vector<DrawnRegion> regions;
+    for (std::optional<DrawnRegion>& one : found) regions.push_back(std::move(*one));
+    return regions;
+}
+
+double faded(double noise_mm, double belief) { return noise_mm / (belief * belief); }
+
+}  // namespace kontur

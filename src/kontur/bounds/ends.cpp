@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/bounds/ends.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kontur/bounds/section_probes.h"
+#include "kontur/drawing/drawn_planes.h"
+#include "kontur/drawing/orient.h"
+#include "kontur/drawing/subdivide.h"
+
+namespace kontur {
+namespace {
+
+enum : std::int32_t { kBelowRim = 1, kInsideRim, kLid };  // lines of a contour that ends the object
+
+/// The part of a section that one of its contours encloses, without the holes in it and the islands in those.
+Section region_of(const ContourSet& set, const Section& section, std::size_t contour) {
+    const auto own = std::find(section.contours.begin(), section.contours.end(), contour) - section.contours.begin();
+    const Section outer{section.plane, {section.outlines[static_cast<std::size_t>(own)]}, {contour}, {false}};
+    Section region = outer;
+    for (std::size_t o = 0; o < section.outlines.size(); ++o)
+        if (set.contours[section.contours[o]].hole && outer.contains(section.outlines[o].front())) {
+            region.outlines.push_back(section.outlines[o]);
+            region.contours.push_back(section.contours[o]);
+            region.holes.push_back(true);
+        }
+    return region;
+}
+
+/// How the rest of the drawing continues a region on one side of its plane.
+struct Continuation {
+    bool carried_on = false;
+    std::optional<double> spacing{};  ///< mm to the next parallel plane
+    const Section* next = nullptr;    ///< what is drawn in it
+};
+
+Continuation continuation(const DrawnPlanes& planes, const Section& region, const std::vector<Probe>& inside, double sign) {
+    Continuation result;
+    for (const Section& other : planes.sections) {
+        if (are_parallel(region.plane, other.plane)) continue;
+        for (const Polygon2& outline : other.outlines)
+            for (const Point2& p : outline) {
+                const Vec3 at = other.plane.from_uv(p);
+                if (sign * region.plane.distance_to(at) > planes.tolerance_mm && region.contains(region.plane.to_uv(at)))
+                    result.carried_on = true;
+            }
+    }
+    if (const auto next = planes.next(region.plane, sign)) {
+        result.spacing = next->distance_mm;
+        result.next = next->section;
+        const Section& there = *next->section;
+        for (const Probe& probe : inside) {
+            const Vec3 at = region.plane.from_uv(probe.at) + sign * next->distance_mm * region.plane.normal;
+            result.carried_on = result.carried_on || there.contains(there.plane.to_uv(at));
+        }
+    }
+    return result;
+}
+
+/// By how much a wall at a place of a flat end's rim moves outwards per mm below it: straight to the outline of the next
+/// parallel plane; upright where there is none of its kind (outer or of a hole).
+double flare(const Continuation& below, const Contour& contour, const Vec3& rim) {
+    constexpr double kMostFlare = 1;
+    if (!below.next) return 0;
+    const Point2 at = below.next->plane.to_uv(rim);
+    const Section::Nearest there = below.next->nearest(at);
+    if (below.next->layer(there.outline) != (contour.hole ? -1 : 1)) return 0;
+    return std::clamp((below.next->contains(at) ? 1 : -1) * there.distance / *below.spacing, -kMostFlare, kMostFlare);
+}
+
+/// Two copies of the contour: one below the rim, which says how the wall goes on there, and one inside of it on the lid.
+/// Without them a smooth function, which has no edge, bulges on both sides of the rim.
+void append_rim(const Contour& contour, std::int32_t index, const Section& region, const Continuation& below, const Vec3& up,
+                double distance, const Vec3& beyond, Ends& ends) {
+    constexpr int kLeastSegments = 48;
+    const Contour rim = subdivide(contour, kLeastSegments);
+    const ContourOrientation orientation = orient(rim);
+    // One ring after the other, each a line of its own: points that alternate between them cannot be thinned along their
+    // way.
+    for (std::size_t i = 0; i < rim.points.size(); ++i)
+        ends.lids.push_back(
+            {.position = rim.points[i] + distance * (flare(below, contour, rim.points[i]) * orientation.normals[i] - up),
+             .inplane_normal = orientation.normals[i],
+             .plane_normal = rim.plane.normal,
+             .contour = index,
+             .line = kBelowRim,
+             .on_ring = true});
+    for (std::size_t i = 0; i < rim.points.size(); ++i) {
+        const Vec3 inside = rim.points[i] - distance * orientation.normals[i];
+        const Point2 on_lid = region.plane.to_uv(inside);
+        if (region.contains(on_lid) && region.clearance(on_lid) > 0.9 * distance)
+            ends.lids.push_back(
+                {.position = inside + beyond, .inplane_normal = up, .contour = index, .line = kInsideRim, .on_ring = true});
+    }
+}
+
+void append_flat(const ContourSet& set, const Section& region, const Continuation& below, const std::vector<Probe>& inside,
+                 double sign, Ends& ends) {
+    constexpr double kEdge = 0.1, kBeyond = 0.005;  // of the inscribed radius
+    const Vec3 up = sign * region.plane.normal, beyond = kBeyond * deepest(inside) * up;
+    for (const std::size_t c : region.contours)
+        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond, ends);
+    const auto contour = static_cast<std::int32_t>(region.contours.front());
+    for (const Probe& probe : inside)
+        ends.lids.push_back(
+            {.position = region.plane.from_uv(probe.at) + beyond, .inplane_normal = up, .contour = contour, .line = kLid});
+}
+
+void append_dome(const Section& region, const std::vector<Probe>& inside, double sign, double height, Ends& ends) {
+    const auto contour = static_cast<std::int32_t>(region.contours.front());
+    const double widest = deepest(inside);
+    for (const Probe& probe : inside) {
+        const double rim = 1 - probe.depth / widest;
+        const Vec3 base = region.plane.from_uv(probe.at), up = sign * height * region.plane.normal;
+        ends.lids.push_back({.position = base + std::sqrt(1 - rim * rim) * up, .contour = contour, .line = kLid});
+        ends.guards.push_back({.position = base + 1.5 * up, .most_mm = -height / 4, .noise_mm = 0.05 * height});
+    }
+}
+
+std::string complaint(std::size_t contour, bool both_carried_on) {
+    return fmt::format("contour {} ends the object, but {}; its end was ignored", contour + 1,
+                       both_carried_on ? "contours on both sides carry it on" : "nothing says on which side it goes on");
+}
+
+}  // namespace
+
+Ends find_ends(const DrawnPlanes& planes) {
+    Ends ends;
+    const ContourSet& set = planes.set;
+    for (const Section& section : planes.sections)
+        for (const std::size_t c : section.contours) {
+            if (set.contours[c].end == ContourEnd::automatic) continue;
+            const Section region = region_of(set, section, c);
+            const std::vector<Probe> inside = probes(region);
+            const Continuation above = continuation(planes, region, inside, 1);
+            const Continuation below = continuation(planes, region, inside, -1);
+            if (above.carried_on == below.carried_on) {
+                ends.notes.push_back(complaint(c, above.carried_on));
+                continue;
+            }
+            const double sign = above.carried_on ? -1 : 1;
+            const Continuation& rest = above.carried_on ? above : below;
+            if (set.contours[c].end == ContourEnd::flat) {
+                append_flat(set, region, rest, inside, sign, ends);
+                continue;
+            }
+            const double widest = deepest(inside);
+            append_dome(region, inside, sign, std::min(rest.spacing.value_or(widest) / 2, widest), ends);
+        }
+    return ends;
+}
+
+}  // namespace kontur

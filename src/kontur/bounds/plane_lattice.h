@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/base/smooth_step.h"
+#include "kontur/bounds/bounds.h"
+#include "kontur/bounds/drawn_regions.h"
+
+namespace kontur {
+
+/// The places of a plane that are asked what it says of them: a lattice of an eighth of the radius of the ball around all
+/// that was drawn, in one and a quarter of that ball.
+class PlaneLattice {
+public:
+    /// `off_mm`: of the plane from the ball's centre.
+    PlaneLattice(const Ball3& ball, double off_mm) : step_mm_(ball.radius / 8) {
+        const double reach = 1.25 * ball.radius;
+        extent_mm_ = std::abs(off_mm) < reach ? std::sqrt(reach * reach - off_mm * off_mm) : -1;
+    }
+
+    double step_mm() const { return step_mm_; }
+
+    /// `visit(x_mm, y_mm)` from the foot of the ball's centre, along two axes of the plane.
+    template <class Visit>
+    void for_each_place(Visit visit) const {
+        if (extent_mm_ < 0) return;
+        const auto steps = static_cast<int>(extent_mm_ / step_mm_);
+        for (int row = -steps; row <= steps; ++row)
+            for (int column = -steps; column <= steps; ++column)
+                if (std::hypot(row * step_mm_, column * step_mm_) <= extent_mm_) visit(column * step_mm_, row * step_mm_);
+    }
+
+    /// f at a place that is known to lie so far outside: a quarter of that, since walls that stand oblique to the plane are
+    /// nearer than its lines.
+    Bound outside(const Vec3& place, double outside_mm, double belief) const {
+        return {.position = place,
+                .most_mm = -0.25 * outside_mm,
+                .noise_mm = faded(0.1 * std::max(outside_mm, step_mm_), belief)};
+    }
+
+private:
+    double step_mm_, extent_mm_;
+};
+
+/// How far outside a place of one plane is, for each mm from what another plane shows of the object: beyond a parallel one
+/// the object may go on; from 30 degrees on the distance counts in full.
+inline double outside_per_mm(const Vec3& normal, const Vec3& other) {
+    constexpr double kParallel = 0.1, kSlantedSine2 = 0.25;
+    const double cosine = dot(normal, other);
+    return kParallel + (1 - kParallel) * smooth_step(0, kSlantedSine2, 1 - cosine * cosine);
+}
+
+}  // namespace kontur

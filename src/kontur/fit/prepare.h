@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kontur/base/smallest_ball.h"
+#include "kontur/base/work.h"
+#include "kontur/bounds/bounds.h"
+#include "kontur/drawing/boundary_point.h"
+#include "kontur/drawing/corners.h"
+#include "kontur/drawing/drawing.h"
+
+namespace kontur {
+
+struct PrepareOptions {
+    double quality = 1.0;      ///< fraction of each contour's points to keep (reduce), in (0, 1]
+    int least_segments = 48;   ///< contours of fewer segments, times quality, are subdivided (subdivide); of more than 100
+                               ///< contours each gets less, at least 12; 0: the paper's rule
+    bool bounds = true;        ///< keep f on the drawn planes' sides, and end the object beyond the last of them
+    double copy_shift_mm = 0;  ///< > 0: coplanar contours get a copy of the first one, shifted by this (paper section 3.1)
+    bool gaps = true;          ///< keep normal constraints clear of the opposite wall (find_gaps)
+    double click_margin_mm = 1.0;        ///< how far f must be from 0 at interior and exterior points
+    Corners corners = Corners::rounded;  ///< what becomes of the corners of closed contours
+    double corner_spacing_mm = 0.05;     ///< faithful corners: from a corner to the point beside it
+};
+
+/// The contours as the fit sees them.
+struct PreparedContours {
+    std::vector<BoundaryPoint> points;
+    std::vector<Vec3> crossings;          ///< mm, where contours cross themselves
+    std::vector<Vec3> between_crossings;  ///< mm, on edges of lobes that hold no point of a contour
+    std::vector<Bound> bounds;            ///< beside the lines, beyond the last of them, and at interior and exterior points
+    std::vector<std::string> notes;       ///< choices made for the user and doubts, one sentence each
+    Ball3 ball;                           ///< mm, the smallest one around all that was drawn
+    bool coplanar = false;                ///< all that was drawn lies in one plane, so it alone does not determine a surface
+};
+
+/// Reduces, subdivides and orients every contour and finds what bounds the object. Contours in one plane leave f
+/// free across it and the paper's system singular: either the bounds or the shifted copy must close the surface. Throws
+/// Error(invalid_input) for a contour that encloses nothing, an open one that does not tell on which hand the object lies
+/// (find_sides in fit/sides.h), and options outside of their range.
+PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options = {}, const Work& work = {});
+
+}  // namespace kontur

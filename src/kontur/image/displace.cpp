@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/image/displace.h"
+
+#include <algorithm>
+
+#include "kontur/base/error.h"
+#include "kontur/base/parallel.h"
+#include "kontur/base/point_tree.h"
+#include "kontur/sampling/plane_groups.h"
+#include "kontur/sampling/quantile.h"
+#include "kontur/sampling/spread_points.h"
+
+namespace kontur {
+namespace {
+
+constexpr std::size_t kMostPlanes = 5, kFewestPlanes = 3, kLeastPoints = 10;
+constexpr double kPoints = 500;              // of all planes together, displaced ...
+constexpr double kMostPoints = 4000;         // ... and to measure distances from
+constexpr double kSurfaceSpacing = 0.04;     // of the drawing's diameter
+constexpr double kLeastDisplacement = 0.5;   // voxels
+constexpr double kSupposedImageError = 0.7;  // voxels: how wrong the image is, until that is measured here
+constexpr double kLargest = 3;               // displacements: errors larger than this say no more
+
+/// Of the places between the contours, a voxel and more off.
+std::optional<double> median_distance_mm(const Drawing& drawing, const ImplicitFunction& function, double voxel_mm,
+                                         const Work& work) {
+    const double spacing = kSurfaceSpacing * drawing.diameter_mm();
+    const PointTree contours(
+        along_contours(drawing.contours, std::max(voxel_mm, length_mm(drawing.contours) / kMostPoints)));
+    std::vector<double> distances;
+    for (const Vec3& p : points_of_surface(function, drawing.contours, spacing, work)) {
+        const double far = contours.distance_to(p);
+        if (far > voxel_mm) distances.push_back(far);
+    }
+    if (distances.size() < kLeastPoints) return std::nullopt;
+    return median(std::move(distances));
+}
+
+struct Displaced {
+    const Image& image;
+    const ImplicitFunction& function;
+    double distance_mm, by_mm, voxel_mm, step_mm;
+
+    Beliefs beliefs() const {
+        return {[mm = by_mm](double) { return mm; },
+                [mm = kSupposedImageError * voxel_mm](const MovingPoint&) { return mm; }};
+    }
+};
+
+/// What the image makes of the surface beside the contours of a plane which it has not seen; `side` 1 is outwards.
+PlaneErrors displace(const Displaced& displaced, const DrawnOnImage& others, const std::vector<MovingPoint>& drawn,
+                     double side, const Work& alone) {
+    std::vector<Vec3> beside;
+    for (const MovingPoint& p : drawn) beside.push_back(p.position + side * displaced.by_mm * p.normal);
+    const Movement movement = find_movement(others, displaced.function, beside, displaced.beliefs(), alone);
+    PlaneErrors errors{{}, movement.intensities};
+    if (movement.points.empty()) return errors;
+    std::vector<MovingPoint> at = with_normals(displaced.function, beside, alone);
+    others.walls.limit(at);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        if (at[i].normal == Vec3{} || nearest_distance(at[i].position, others.points) <= displaced.voxel_mm) continue;
+        at[i].prior_mm = displaced.by_mm;
+        const double error = dot(drawn[i].position - at[i].position, at[i].normal);
+        const double moved = offset_at(at[i], movement.points, movement.prior, movement.offsets);
+        const double reachable = std::clamp(error, at[i].least_mm, at[i].most_mm);
+        errors.points.push_back({drawn[i].position, displaced.distance_mm, error, error - moved, reachable, 0});
+    }
+    return errors;
+}
+
+PlaneErrors displace(const Displaced& displaced, const ContourSet& contours, const PlaneGroup& group, const Work& alone) {
+    PlaneErrors errors;
+    try {
+        const DrawnOnImage others(Drawing(without(contours, group), FillRule::declared), displaced.image);
+        const std::vector<MovingPoint> drawn =
+            with_normals(displaced.function, along_contours(only(contours, group), displaced.step_mm), alone);
+        for (const double side : {1.0, -1.0}) {
+            const PlaneErrors part = displace(displaced, others, drawn, side, alone);
+            errors.points.insert(errors.points.end(), part.points.begin(), part.points.end());
+            errors.intensities += part.intensities;
+        }
+    } catch (const Error& error) {
+        // What is left of a drawing may be too little to be one.
+        if (error.kind() == ErrorKind::cancelled) throw;
+    }
+    return errors;
+}
+
+}  // namespace
+
+std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image& image, const ImplicitFunction& function,
+                                             const Work& work) {
+    const std::vector<PlaneGroup> groups = contours_by_plane(drawing.contours);
+    if (groups.size() < kFewestPlanes || groups.size() > kMostPlanes) return std::nullopt;
+    const double voxel = Intensities(image).voxel_mm();
+    const std::optional<double> far = median_distance_mm(drawing, function, voxel, work);
+    if (!far) return std::nullopt;
+    const double step = std::max(voxel, length_mm(drawing.contours) / kPoints);
+    const Displaced displaced{image, function, *far, kMostPriorSlope * *far, voxel, step};
+
+    std::vector<PlaneErrors> planes(groups.size());
+    const Work alone{.threads = 1, .stop = work.stop};  // planes are asked beside each other
+    parallel_for(static_cast<std::int64_t>(groups.size()), 1, work, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            planes[i] = displace(displaced, drawing.contours, groups[i], alone);
+            for (HeldOut& point : planes[i].points) point.plane = i;
+        }
+    });
+    if (!tell_enough(planes)) return std::nullopt;
+    const Beliefs beliefs{[](double d) { return kMostPriorSlope * d; }};
+    // The hand's wavering is no error here: what is drawn counts as right.
+    HeldOutErrors errors(planes, beliefs, kLargest * displaced.by_mm + voxel, voxel, 0);
+    if (errors.without_mm() < kLeastDisplacement * voxel) return std::nullopt;
+    return errors;
+}
+
+}  // namespace kontur

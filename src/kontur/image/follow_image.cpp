@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/image/follow_image.h"
+
+#include <cmath>
+
+#include "kontur/drawing/stored_alike.h"
+#include "kontur/image/displace.h"
+#include "kontur/image/leave_out.h"
+#include "kontur/image/move_surface.h"
+#include "kontur/image/refit.h"
+#include "kontur/image/walk_surface.h"
+#include "kontur/sampling/plane_groups.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kCautiousSlope = 0.12;  // without the gate: prior standard deviation over the distance ...
+constexpr double kCautiousImage = 0.7;   // ... and the image's error in voxels
+constexpr std::size_t kFewPlanes = 3;    // of which leaving one out tells little
+
+/// What speaks for the image and against it.
+struct Trial {
+    std::optional<LeftOutPlanes> left_out;
+    std::optional<HeldOutErrors> displaced;  ///< asked where leaving planes out does not show, or hardly, that it helps
+    double left_out_weight = 0, displaced_weight = 0;  ///< how far the surface moves by each; together at most 1
+    double not_denied = 1;                             ///< how far displacing lets the other count
+
+    double moving() const { return left_out_weight + displaced_weight; }
+    double walking() const { return left_out ? not_denied * left_out->walking(moving()) : 0; }
+    /// By which it was mostly decided whether the surface moves.
+    const HeldOutErrors* deciding() const {
+        const bool is_displaced = displaced && (!left_out || displaced_weight > left_out_weight);
+        return is_displaced ? &*displaced : left_out ? &left_out->errors : nullptr;
+    }
+
+    /// By which it does.
+    Beliefs beliefs() const {
+        if (displaced_weight == 0) return left_out->errors.beliefs(left_out_weight);
+        const Beliefs by_displacing = displaced->beliefs(displaced_weight);
+        if (left_out_weight == 0) return by_displacing;
+        const Beliefs by_leaving_out = left_out->errors.beliefs(left_out_weight);
+        const double share = displaced_weight / moving();
+        return {[=](double mm) { return std::lerp(by_leaving_out.prior_mm(mm), by_displacing.prior_mm(mm), share); },
+                [=](const MovingPoint& point) {
+                    return 1 / std::hypot(1 / by_leaving_out.image_mm(point), 1 / by_displacing.image_mm(point));
+                }};
+    }
+};
+
+/// What becomes of a drawing, its fit and an image.
+struct Question {
+    const Drawing& drawing;
+    const PreparedContours& prepared;
+    const FittedFunction& fitted;
+    const Image& image;
+    const DrawnOnImage& drawn;
+    const ImageOptions& options;
+    const Work& work;
+
+    AskedSurface asked(const Beliefs& beliefs) const { return ask_surface(drawn, drawing, fitted, beliefs, options, work); }
+    ImageFit moved(AskedSurface surface) const {
+        return move_surface(std::move(surface), drawn, drawing, prepared, fitted, options, work);
+    }
+    std::optional<ImageFit> walked(const LeftOutPlanes& left_out, const std::optional<AskedSurface>& begin) const {
+        const Beliefs beliefs = left_out.errors.beliefs();
+        return walk_surface({left_out.cells, drawn.walls, beliefs}, drawing, prepared, fitted, begin ? &*begin : nullptr,
+                            options, drawn.image.voxel_mm(), work);
+    }
+    /// From one function to that of a walk, as far as it is followed.
+    ImageFit towards(ImageFit walked, const ImageFit& from, double share) const {
+        if (share == 1) return walked;
+        walked.fitted = between(from.fitted, walked.fitted, share);
+        const double largest_mm = std::lerp(from.report.largest_move_mm, walked.report.largest_move_mm, share);
+        const bool is_moved_rather = share < 0.5 && from.report.verdict == ImageVerdict::used;
+        if (is_moved_rather) walked.report = from.report;  // what is told is what counts more
+        walked.report.on_contours_mm = largest_change(fitted.function, walked.fitted.function, drawing.contours, work);
+        walked.report.largest_move_mm = largest_mm;
+        return walked;
+    }
+    ImageFit unchanged(ImageVerdict verdict) const { return {fitted, {.verdict = verdict}}; }
+};
+
+Trial try_image(const Question& asked, const FitContours& fit_contours) {
+    Trial trial;
+    trial.left_out = leave_planes_out(asked.drawing, asked.image, fit_contours, asked.work);
+    if (trial.left_out) trial.left_out_weight = trial.left_out->moving();
+    const bool are_few = contours_by_plane(asked.drawing.contours).size() <= kFewPlanes;
+    if (trial.left_out_weight == 1 && !are_few) return trial;
+    trial.displaced = displace_planes(asked.drawing, asked.image, asked.fitted.function, asked.work);
+    if (!trial.displaced) return trial;
+    if (are_few) trial.not_denied = kNotDenied.at(trial.displaced->mended());
+    trial.left_out_weight *= trial.not_denied;
+    trial.displaced_weight = (1 - trial.left_out_weight) * trial.displaced->weight(kTakenBack);
+    return trial;
+}
+
+/// Moved as far as that helps, and from there to where a walk leads, as far as that helps more.
+ImageFit follow(const Question& asked, const Trial& trial, double walking) {
+    std::optional<AskedSurface> surface;
+    if (trial.moving() > 0) surface = asked.asked(trial.beliefs());
+    const std::int64_t intensities = surface ? surface->movement.intensities : 0;
+    std::optional<ImageFit> walked;
+    if (walking > 0) walked = asked.walked(*trial.left_out, surface);
+    const bool is_astray = walking > 0 && !walked;
+    ImageFit result = asked.unchanged(is_astray          ? ImageVerdict::astray
+                                      : trial.deciding() ? ImageVerdict::no_help
+                                                         : ImageVerdict::unknown);
+    if (surface && !(walked && walking == 1)) result = asked.moved(*std::move(surface));
+    if (walked) result = asked.towards(*std::move(walked), result, walking);
+    result.report.intensities = intensities;
+    return result;
+}
+
+/// With what it was decided by.
+void tell(const Trial& trial, double walking, ImageReport& report) {
+    const HeldOutErrors* deciding = trial.deciding();
+    if (!deciding) return;
+    report.displaced = deciding != (trial.left_out ? &trial.left_out->errors : nullptr);
+    report.intensities += deciding->intensities();
+    report.planes_left_out = deciding->planes();
+    report.error_without_mm = deciding->without_mm();
+    report.error_with_mm = deciding->with_mm();
+    if (report.verdict == ImageVerdict::used) report.weight = report.walked ? walking : trial.moving();
+    if (!trial.left_out) return;
+    report.intensities += trial.left_out->cells.intensities;
+    if (walking == 0) return;
+    const WrongCells wrong = sum(trial.left_out->wrong);
+    report.wrong_without = wrong.alone / wrong.drawn;
+    report.wrong_with = wrong.walked / wrong.drawn;
+    if (report.walked)
+        for (AskedPoint& point : report.asked) point.share = report.share_left();
+}
+
+}  // namespace
+
+ImageFit follow_image(const Drawing& drawing, const PreparedContours& prepared, const FittedFunction& fitted,
+                      const Image& image, const FitContours& fit_contours, const ImageOptions& options, const Work& work) {
+    check_image(image);
+    if (is_label_map(image)) return {fitted, {.verdict = ImageVerdict::labels}};
+    Drawing alike = drawing;
+    alike.contours = stored_alike(drawing.contours);
+    const DrawnOnImage drawn(alike, image);
+    const Question asked{alike, prepared, fitted, image, drawn, options, work};
+    if (!options.gate) {
+        const double voxel = drawn.image.voxel_mm();
+        const Beliefs cautious{[](double d) { return kCautiousSlope * d; },
+                               [voxel](const MovingPoint&) { return kCautiousImage * voxel; }};
+        ImageFit moved = asked.moved(asked.asked(cautious));
+        moved.report.weight = 1;
+        return moved;
+    }
+    const Trial trial = try_image(asked, fit_contours);
+    const double walking = trial.walking();
+    ImageFit result = follow(asked, trial, walking);
+    tell(trial, walking, result.report);
+    return result;
+}
+
+}  // namespace kontur

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kontur/image/movement.h"
+#include "kontur/sampling/rise.h"
+
+namespace kontur {
+
+/// A point of a drawn contour and how far the surface through the contours of the other planes passes from it.
+struct HeldOut {
+    Vec3 position;        ///< mm
+    double distance_mm;   ///< to the nearest contour of the other planes
+    double without_mm;    ///< error of what the contours alone make, along the normal, positive outwards
+    double with_mm;       ///< and of what the image makes of it
+    double reachable_mm;  ///< as much of the error without the image as walls let it mend
+    std::size_t plane = 0;
+
+    /// How far the image moves the surface here.
+    double moved_mm() const { return without_mm - with_mm; }
+};
+
+/// What was found at the contours of one plane.
+struct PlaneErrors {
+    std::vector<HeldOut> points;
+    std::int64_t intensities = 0;  ///< read from the image
+};
+
+/// Whether they have points enough, in two planes at least, to tell how far off the surface is.
+bool tell_enough(std::span<const PlaneErrors> planes);
+
+/// How much is true of the offsets that the image tells: least squares of the errors of the contours alone on them. What the
+/// hand adds to an error has nothing to do with the image and takes no part.
+struct ToldByImage {
+    double told_and_true = 0, told = 0;  ///< sums of products, weighted
+
+    void add(double error_mm, double moved_mm, double weight);
+    double share() const { return told > 0 ? told_and_true / told : 0; }
+};
+
+/// Measured on the drawn contours themselves: how far off the surface between them is, without the image and with it.
+class HeldOutErrors {
+public:
+    /// `planes`: that tell enough, of points at least a voxel from the other planes' contours. Larger errors count as
+    /// `limit_mm`.
+    /// `hand_mm`: standard deviation of the drawn lines themselves, which no surface and no image can know.
+    HeldOutErrors(std::span<const PlaneErrors> planes, const Beliefs& beliefs, double limit_mm, double voxel_mm,
+                  double hand_mm);
+
+    double without_mm() const { return without_mm_; }  ///< means of the absolute errors
+    double with_mm() const { return with_mm_; }
+    std::size_t planes() const { return planes_; }
+    std::int64_t intensities() const { return intensities_; }  ///< read from the image
+    /// How far the image is followed: 0 where the mean error with it is not below that without it by the first of these
+    /// shares, or lower in no more planes than chance makes it; 1 where it is by the second, and by a standard error over
+    /// the planes. In between it rises steadily, so that nothing flips with small changes of a fit.
+    double weight(const Rise& enough = kHelps) const;
+    static constexpr Rise kHelps{0, 0.05};
+    /// The share of the mean error that the image takes away, without what the hand adds to both.
+    double mended() const;
+    /// How far the errors without the image are larger than what an image of voxels (or cells) so long tells: 0 up to a
+    /// quarter of one, 1 from half of one on. Contours that hold the surface better than that have nothing to ask.
+    double seen(double edge_mm) const;
+    double seen() const { return seen(voxel_mm_); }
+    /// What is true of the image's offsets counts that much only.
+    Beliefs beliefs(double weight = 1) const;
+
+private:
+    double weight_of_planes() const;
+    double error_of_share() const;
+    double believed(const ToldByImage& told) const;
+    double image_sd(const MovingPoint& point, double weight) const;
+    double limited(double error_mm) const;
+    void add(const HeldOut& point, double weight, ToldByImage& sums) const;
+    std::vector<const HeldOut*> nearest(const Vec3& place) const;
+
+    std::vector<HeldOut> held_out_;
+    Beliefs beliefs_;
+    double limit_mm_, voxel_mm_, hand_mm_;
+    std::size_t planes_ = 0;
+    std::int64_t intensities_ = 0;
+    double without_mm_ = 0, with_mm_ = 0;
+    double median_without_ = 0, median_distance_ = 0;
+    ToldByImage told_;           ///< a point, on the average
+    double error_of_share_ = 0;  ///< standard error of its share
+};
+
+}  // namespace kontur

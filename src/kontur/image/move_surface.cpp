@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/image/move_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kontur/base/point_tree.h"
+#include "kontur/image/refit.h"
+#include "kontur/image/searched_band.h"
+#include "kontur/sampling/spread_points.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kSurfaceSpacing = 0.025;  // of the drawing's diameter: where the surface is asked for
+constexpr double kFollow = 0.05;           // noise of a moved point over its posterior standard deviation
+constexpr double kLeastDeviation = 0.2;    // voxels
+constexpr double kBeside = 2.24;           // how much noisier f is before and behind a moved point
+constexpr double kOutsideAlone = 0.8;      // of a place's way to the surface: none of it is nearer
+constexpr double kAnchorNoise = 0.1;       // voxels
+constexpr int kAttempts = 4;               // to keep the surface where the image was asked
+
+/// f at the moved points, and before and behind them, is what it was where they came from.
+std::vector<PointConstraint> observations(const Movement& movement, const ImplicitFunction& before, double voxel_mm,
+                                          const Work& work) {
+    std::vector<Vec3> from;
+    for (const MovingPoint& p : movement.points)
+        for (const double side : {0.0, 1.0, -1.0}) from.push_back(p.position + side * voxel_mm * p.normal);
+    std::vector<double> values(from.size());
+    before.values(from, values, work);
+    std::vector<PointConstraint> observed;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const std::size_t point = i / 3;
+        const double noise = kFollow * std::max(movement.offsets.sd_mm[point], kLeastDeviation * voxel_mm);
+        observed.push_back({.position = from[i] + movement.offsets.mean_mm[point] * movement.points[point].normal,
+                            .value = values[i],
+                            .noise_mm = i % 3 == 0 ? noise : kBeside * noise});
+    }
+    return observed;
+}
+
+/// How far the nearest point of the surface moves outwards.
+double change_near(const Movement& movement, const Vec3& place) {
+    const auto away = [&](const MovingPoint& point) { return distance(point.position, place); };
+    const auto nearest = std::ranges::min_element(movement.points, {}, away);
+    return movement.offsets.mean_mm[static_cast<std::size_t>(nearest - movement.points.begin())];
+}
+
+/// Where moving points would meet a drawn plane: f stays there what the contours make of it.
+std::vector<PointConstraint> anchors(const Movement& movement, const DrawnOnImage& drawn, const ImplicitFunction& fitted,
+                                     const Work& work) {
+    const double voxel = drawn.image.voxel_mm();
+    std::vector<Vec3> places;
+    for (const MovingPoint& p : movement.points)
+        for (const double wall : {p.least_mm, p.most_mm}) {
+            const bool near = std::abs(wall) < std::max(2.5 * p.prior_mm, 2 * voxel) && std::abs(wall) > 0.5 * voxel;
+            if (!near) continue;
+            const Vec3 place = p.position + wall * p.normal;
+            if (nearest_distance(place, drawn.points) > voxel && nearest_distance(place, places) > 1.5 * voxel)
+                places.push_back(place);
+        }
+    std::vector<double> values(places.size());
+    fitted.values(places, values, work);
+    std::vector<PointConstraint> held;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        held.push_back({.position = places[i], .value = values[i], .noise_mm = kAnchorNoise * voxel});
+    return held;
+}
+
+/// Outside of the surface f changes as beneath.
+std::vector<PointConstraint> outside(const Movement& movement, const FittedFunction& fitted, const Affine3& frame,
+                                     double radius_mm) {
+    std::vector<Vec3> surface;
+    for (const MovingPoint& p : movement.points) surface.push_back(p.position);
+    std::vector<PointConstraint> told;
+    for (const OutsideShell& shell : kOutsideShells) {
+        const double above = shell.radii * radius_mm;
+        std::vector<Vec3> places;
+        for (const MovingPoint& p : movement.points) {
+            const Vec3 place = p.position + above * p.normal;
+            if (may_tell_outside(fitted, place) && nearest_distance(place, surface) > kOutsideAlone * above)
+                places.push_back(place);
+        }
+        for (const Vec3& place : spread(places, shell.places, frame))
+            told.push_back({.position = place, .value = change_near(movement, place), .noise_mm = kOutsideNoise * above});
+    }
+    return told;
+}
+
+std::vector<AskedPoint> asked_points(const Movement& movement) {
+    std::vector<AskedPoint> asked;
+    for (std::size_t i = 0; i < movement.points.size(); ++i) {
+        const MovingPoint& p = movement.points[i];
+        const double share = std::clamp(movement.offsets.sd_mm[i] / p.prior_mm, 0.0, 1.0);
+        asked.push_back({p.position + movement.offsets.mean_mm[i] * p.normal, share});
+    }
+    return asked;
+}
+
+/// As far from the surface as offsets are searched, and as points of it are apart.
+SearchedBand searched_band(const std::vector<Vec3>& surface, const DrawnOnImage& drawn, const Beliefs& beliefs,
+                           double spacing_mm) {
+    const PointTree contours(drawn.points);
+    std::vector<double> reach;
+    for (const Vec3& p : surface) reach.push_back(kSearched * beliefs.prior_mm(contours.distance_to(p)) + spacing_mm);
+    return {surface, std::move(reach)};
+}
+
+/// Takes moves back near the places from which the surface ran away, the less the farther off.
+void hold_back(Movement& movement, std::span<const Vec3> places) {
+    for (std::size_t i = 0; i < movement.points.size(); ++i) {
+        const double r = nearest_distance(movement.points[i].position, places) / movement.prior.length_mm;
+        movement.offsets.mean_mm[i] *= 1 - std::exp(-0.5 * r * r);
+    }
+}
+
+}  // namespace
+
+AskedSurface ask_surface(const DrawnOnImage& drawn, const Drawing& drawing, const FittedFunction& fitted,
+                         const Beliefs& beliefs, const ImageOptions& options, const Work& work) {
+    AskedSurface asked{{}, kSurfaceSpacing * drawing.diameter_mm(), beliefs, {}};
+    asked.points = points_of_surface(fitted.function, drawing.contours, asked.spacing_mm, work);
+    std::vector<Vec3> points = spread(asked.points, options.samples, frame_of(drawing.contours));
+    slide_to_surface(fitted.function, points, {.reach_mm = asked.spacing_mm}, work);
+    work.check();
+    asked.movement = find_movement(drawn, fitted.function, points, beliefs, work);
+    return asked;
+}
+
+/// The image is asked once, as it was where contours were left out: asked again from the moved surface it would be believed
+/// twice.
+ImageFit move_surface(AskedSurface asked, const DrawnOnImage& drawn, const Drawing& drawing,
+                      const PreparedContours& prepared, const FittedFunction& fitted, const ImageOptions& options,
+                      const Work& work) {
+    const double voxel = drawn.image.voxel_mm(), spacing = asked.spacing_mm;
+    Movement& movement = asked.movement;
+    ImageFit result{fitted, {}};
+    result.report.intensities = movement.intensities;
+    result.report.verdict = ImageVerdict::used;
+    if (movement.points.empty()) return result;
+
+    const SearchedBand band = searched_band(asked.points, drawn, asked.beliefs, spacing);
+    const std::vector<PointConstraint> held = anchors(movement, drawn, fitted.function, work);
+    Refit refit(prepared, fitted, options.fit, voxel);
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        work.check();
+        ImageData told{observations(movement, fitted.function, voxel, work),
+                       outside(movement, fitted, frame_of(drawing.contours), drawing.diameter_mm() / 2),
+                       [&](const Vec3& p) { return change_near(movement, p); }};
+        told.values.insert(told.values.end(), held.begin(), held.end());
+        FittedFunction moved = refit.with(told, work);
+        const std::vector<Vec3> left =
+            band.left_from(points_of_surface(moved.function, drawing.contours, spacing, work), work);
+        if (left.empty()) {
+            result.fitted = std::move(moved);
+            result.report.on_contours_mm = largest_change(fitted.function, result.fitted.function, drawing.contours, work);
+            result.report.asked = asked_points(movement);
+            for (const double u : movement.offsets.mean_mm)
+                result.report.largest_move_mm = std::max(result.report.largest_move_mm, std::abs(u));
+            return result;
+        }
+        hold_back(movement, left);
+    }
+    result.report.verdict = ImageVerdict::astray;
+    return result;
+}
+
+}  // namespace kontur

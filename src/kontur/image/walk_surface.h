@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "kontur/image/follow_image.h"
+#include "kontur/image/move_surface.h"
+#include "kontur/image/voxel_walk.h"
+
+namespace kontur {
+
+/// What a walk on the image's cells needs besides the surface that it begins with.
+struct WalkedImage {
+    const ImageCells& cells;
+    const Walls& walls;
+    const Beliefs& beliefs;
+};
+
+/// The surface of a random walk about that of `fitted`, moved if there is a `begin`, as one function that leaves the
+/// contours where they are: what the walk tells is more data of one more solve. Nothing if no such function follows the
+/// walk.
+std::optional<ImageFit> walk_surface(const WalkedImage& image, const Drawing& drawing, const PreparedContours& prepared,
+                                     const FittedFunction& fitted, const AskedSurface* begin, const ImageOptions& options,
+                                     double voxel_mm, const Work& work);
+
+}  // namespace kontur

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/dicom/dicom_grid.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kontur/base/error.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kRelativeTolerance = 0.01;
+constexpr double kAlongToleranceMm = 0.01;
+constexpr double kAcrossToleranceMm = 0.1;
+constexpr std::size_t kGapsNamed = 10;
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::unsupported, message); }
+
+/// Positions in the words of the user: z for axial slices, else mm along the slice normal.
+class PositionNames {
+public:
+    explicit PositionNames(const DicomStack& stack)
+        : normal_(stack.slices.front().placement.normal()), axial_(std::abs(normal_.z) > 1 - 1e-4) {}
+
+    std::string at(const DicomHeader& slice) const { return unit_text(fmt::format("{:.6g}", value(slice))); }
+    std::string between(const DicomHeader& a, const DicomHeader& b) const {
+        const auto [low, high] = std::minmax({value(a), value(b)});
+        return fmt::format("{:.6g} and {:.6g}", low, high);
+    }
+    std::string unit_text(const std::string& values) const {
+        return axial_ ? "z = " + values + " mm" : values + " mm along the slice normal";
+    }
+
+private:
+    double value(const DicomHeader& slice) const {
+        return axial_ ? slice.placement.position.z : dot(normal_, slice.placement.position);
+    }
+
+    Vec3 normal_;
+    bool axial_;
+};
+
+std::vector<double> steps_between(const std::vector<double>& positions) {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < positions.size(); ++k) steps.push_back(positions[k] - positions[k - 1]);
+    return steps;
+}
+
+double lower_median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+void refuse_duplicates(const DicomStack& stack, const std::vector<double>& positions) {
+    for (std::size_t k = 1; k < positions.size(); ++k)
+        if (positions[k] - positions[k - 1] <= kSamePositionMm)
+            refuse(fmt::format("two slices lie at {}, and nothing tells them apart: {} and {}",
+                               PositionNames(stack).at(stack.slices[k]), name_of(stack.slices[k - 1]),
+                               name_of(stack.slices[k])));
+}
+
+[[noreturn]] void refuse_gaps(const DicomStack& stack, const std::vector<double>& steps, double usual) {
+    const PositionNames names(stack);
+    std::vector<std::string> gaps;
+    double missing = 0;  // positions of a damaged file may be 1e300 mm apart
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (steps[k] < 1.5 * usual) continue;
+        missing += std::round(steps[k] / usual) - 1;
+        gaps.push_back(names.between(stack.slices[k], stack.slices[k + 1]));
+    }
+    const std::size_t count = gaps.size();
+    if (count > kGapsNamed) gaps.resize(kGapsNamed);
+    refuse(fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm",
+                       names.unit_text(fmt::format("{}", fmt::join(gaps, ", "))),
+                       count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual));
+}
+
+/// Every slice must lie where a regular grid from the first to the last slice puts it, measured along the normal.
+void check_spacing(const DicomStack& stack, const std::vector<double>& positions) {
+    const double mean = positions.back() / static_cast<double>(positions.size() - 1);
+    const double tolerance = std::max(kRelativeTolerance * mean, kAlongToleranceMm);
+    double worst = 0;
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        worst = std::max(worst, std::abs(positions[k] - static_cast<double>(k) * mean));
+    if (worst <= tolerance) return;
+    const std::vector<double> steps = steps_between(positions);
+    const double usual = lower_median(steps);
+    const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
+    if (*longest >= 1.5 * usual) refuse_gaps(stack, steps, usual);
+    refuse(fmt::format(
+        "the slice spacing is irregular: steps from {:.6g} to {:.6g} mm put slices up to {:.3g} mm off a regular "
+        "grid; the limit is {:.3g} mm",
+        *shortest, *longest, worst, tolerance));
+}
+
+/// Slices may be shifted against each other within their planes, but by the same amount from each to the next.
+void check_shift(const DicomStack& stack, const Vec3& step) {
+    const SlicePlacement& first = stack.slices.front().placement;
+    const double tolerance = std::max(kRelativeTolerance * norm(step), kAcrossToleranceMm);
+    for (std::size_t k = 0; k < stack.slices.size(); ++k) {
+        const double off = distance(stack.slices[k].placement.position, first.position + static_cast<double>(k) * step);
+        if (off > tolerance)
+            refuse(fmt::format("the slice at {} is shifted by {:.3g} mm against its neighbours; the limit is {:.3g} mm",
+                               PositionNames(stack).at(stack.slices[k]), off, tolerance));
+    }
+}
+
+/// Empty unless the slices are shifted across their normal, in total, by more than rounding would explain.
+std::string tilt_note(const Vec3& step, const Vec3& normal, std::size_t slices) {
+    const double along = dot(step, normal), across = norm(step - along * normal);
+    if (across * static_cast<double>(slices - 1) <= kAcrossToleranceMm) return {};
+    return fmt::format(
+        "gantry tilt: each slice is shifted by {:.4g} mm against the one before ({:.3g} degrees); the grid is "
+        "sheared accordingly",
+        across, std::atan2(across, along) * 180 / std::numbers::pi);
+}
+
+Vec3 single_slice_step(const DicomHeader& slice, std::vector<std::string>& notes) {
+    if (!slice.thickness_mm || !(*slice.thickness_mm > 0))
+        refuse("the series has a single slice without a SliceThickness (0018,0050), so its depth is unknown");
+    notes.push_back(fmt::format("a single slice; its depth of {:.6g} mm is its SliceThickness", *slice.thickness_mm));
+    return *slice.thickness_mm * slice.placement.normal();
+}
+
+Vec3 slice_step(const DicomStack& stack, std::vector<std::string>& notes) {
+    const DicomHeader &first = stack.slices.front(), &last = stack.slices.back();
+    if (stack.slices.size() == 1) return single_slice_step(first, notes);
+    const std::vector<double> positions = positions_along_normal(stack.slices);
+    refuse_duplicates(stack, positions);
+    check_spacing(stack, positions);
+    const Vec3 step = (last.placement.position - first.placement.position) / static_cast<double>(stack.slices.size() - 1);
+    check_shift(stack, step);
+    if (std::string note = tilt_note(step, first.placement.normal(), stack.slices.size()); !note.empty())
+        notes.push_back(std::move(note));
+    return step;
+}
+
+}  // namespace
+
+StackGrid stack_grid(const DicomStack& stack) {
+    const DicomHeader& first = stack.slices.front();
+    StackGrid result;
+    result.notes = stack.notes;
+    result.grid.size = {first.columns, first.rows, static_cast<std::int64_t>(stack.slices.size())};
+    Affine3& affine = result.grid.index_to_mm;
+    affine.set_column(0, first.placement.spacing_mm[0] * first.placement.row_direction);
+    affine.set_column(1, first.placement.spacing_mm[1] * first.placement.column_direction);
+    affine.set_column(2, slice_step(stack, result.notes));
+    affine.translation = first.placement.position;
+    check_grid(result.grid);
+    return result;
+}
+
+}  // namespace kontur

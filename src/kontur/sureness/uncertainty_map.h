@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kontur/base/work.h"
+#include "kontur/shape/volume.h"
+#include "kontur/sureness/surface_evidence.h"
+
+namespace kontur {
+
+/// The band's half width in mm (half_widths_mm) at the voxels on both sides of the mask's border, in float; 0 elsewhere, and
+/// everywhere where nothing is known of the surface's error. Where the image's border cuts the object off is no border.
+Image uncertainty_map(const Mask& mask, const SurfaceEvidence& evidence, const Work& work = {});
+
+}  // namespace kontur

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kontur/image/held_out_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kontur/phantom/random.h"
+
+namespace kontur {
+namespace {
+
+constexpr double kVoxelMm = 0.1, kFarMm = 10;  // of every held-out point
+
+HeldOutErrors errors_of(const std::vector<HeldOut>& points, double hand_mm = 0) {
+    std::vector<PlaneErrors> planes;
+    for (const HeldOut& point : points) {
+        planes.resize(std::max(planes.size(), point.plane + 1));
+        planes[point.plane].points.push_back(point);
+    }
+    return {planes, {[](double d) { return 0.1 * d; }}, 100, kVoxelMm, hand_mm};
+}
+
+/// Twenty points in each plane, 2 mm off without the image, and with it by so much less.
+HeldOutErrors errors_with_gains(const std::vector<double>& gains_mm) {
+    std::vector<HeldOut> points;
+    for (std::size_t plane = 0; plane < gains_mm.size(); ++plane)
+        for (int n = 0; n < 20; ++n)
+            points.push_back(
+                {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 2, 2 - gains_mm[plane], 2, plane});
+    return errors_of(points);
+}
+
+/// 20 planes of 100 points: errors of `error_mm`, of which an image tells that is off by `image_mm` of its own, and which
+/// are drawn by a hand that wavers by `hand_mm`.
+std::vector<HeldOut> told(double error_mm, double image_mm, double hand_mm = 0, double off_mm = 0) {
+    Random random(3);
+    std::vector<HeldOut> points;
+    for (std::size_t plane = 0; plane < 20; ++plane)
+        for (int n = 0; n < 100; ++n) {
+            const double error = error_mm * random.gaussian(), image = image_mm * random.gaussian();
+            const double drawn = error + hand_mm * random.gaussian();
+            points.push_back(
+                {{off_mm + n, 0, 10.0 * static_cast<double>(plane)}, kFarMm, drawn, drawn - error - image, drawn, plane});
+        }
+    return points;
+}
+
+double image_mm(const HeldOutErrors& errors, const Vec3& place, double far_mm = kFarMm) {
+    return errors.beliefs().image_mm({.position = place, .normal = {1, 0, 0}, .distance_mm = far_mm});
+}
+
+TEST(HeldOutErrors, WhatHelpsInOnePlaneOfFourMayBeChance) {
+    EXPECT_EQ(errors_with_gains({0.5, 0.5, 0.5, 0.5}).weight(), 1);
+    EXPECT_EQ(errors_with_gains({0.2, 0.9, 0.6, 0.3}).weight(), 1);
+    EXPECT_EQ(errors_with_gains({1.8, 0.2, -0.1, -0.3}).weight(), 0) << "the mean is 0.4 mm, give or take 0.48";
+    EXPECT_NEAR(errors_with_gains({1.8, 0.2, -0.1, -0.3}).with_mm(), 1.6, 1e-12);
+}
+
+TEST(HeldOutErrors, AnImageOfFewPercentCountsInPart) {
+    EXPECT_EQ(errors_with_gains({-0.05, -0.05, -0.05, -0.05}).weight(), 0);
+    EXPECT_EQ(errors_with_gains({0, 0, 0, 0}).weight(), 0);
+    EXPECT_NEAR(errors_with_gains({0.05, 0.05, 0.05, 0.05}).weight(), 0.5, 1e-9);
+    EXPECT_NEAR(errors_with_gains({0.09, 0.09, 0.09, 0.09}).weight(), 0.9, 1e-9);
+    EXPECT_EQ(errors_with_gains({0.15, 0.15, 0.15, 0.15}).weight(), 1);
+    EXPECT_EQ(errors_with_gains({0.15, 0.15, 0.15, 0.15}).weight({0.2, 0.3}), 0);
+}
+
+TEST(HeldOutErrors, BelowAQuarterOfAVoxelThereIsNothingToSeeNorOfACellForAWalk) {
+    constexpr double kCellMm = 4 * kVoxelMm;
+    const auto errors = [](double voxels) {
+        const double error_mm = voxels * kVoxelMm;
+        std::vector<HeldOut> points;
+        for (std::size_t plane = 0; plane < 4; ++plane)
+            for (int n = 0; n < 20; ++n)
+                points.push_back(
+                    {Vec3{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, error_mm, 0, error_mm, plane});
+        return errors_of(points);
+    };
+    EXPECT_EQ(errors(0.2).seen(), 0);
+    EXPECT_NEAR(errors(0.375).seen(), 0.5, 1e-9);
+    EXPECT_EQ(errors(0.6).seen(), 1);
+    EXPECT_EQ(errors(0.6).seen(kCellMm), 0) << "the voxels know more than cells that are four of them wide";
+    EXPECT_NEAR(errors(1.5).seen(kCellMm), 0.5, 1e-9);
+}
+
+/// The points nearest to a place count as much as all: in the mean over places that comes out right.
+double mean_image_mm(const HeldOutErrors& errors) {
+    double sum = 0;
+    for (int n = 0; n < 20; ++n) sum += image_mm(errors, {50, 0, 10.0 * n}) / 20;
+    return sum;
+}
+
+TEST(HeldOutErrors, TellTheErrorOfTheImageAndCountAStandardErrorAgainstIt) {
+    for (const double image : {0.5, 1.0, 2.0}) {
+        const double found = mean_image_mm(errors_of(told(1, image)));
+        EXPECT_GT(found, image);
+        EXPECT_LT(found, 1.2 * image);
+    }
+}
+
+TEST(HeldOutErrors, AnUnsteadyHandDoesNotCountAgainstTheImage) {
+    const HeldOutErrors steady = errors_of(told(1, 1)), unsteady = errors_of(told(1, 1, 1), 1);
+    EXPECT_GT(unsteady.with_mm(), 1.3 * steady.with_mm());
+    EXPECT_NEAR(mean_image_mm(unsteady), mean_image_mm(steady), 0.1 * mean_image_mm(steady));
+}
+
+TEST(HeldOutErrors, WhatTheImageMayNotMendTellsNothingOfIt) {
+    // Beyond the end of a stack the surface may not follow: 5 mm of error are left whatever the image shows.
+    std::vector<HeldOut> points = told(1, 1);
+    for (int n = 0; n < 200; ++n) points.push_back({{1000.0 + n, 0, 0}, kFarMm, 5, 6, 0, 0});
+    EXPECT_NEAR(mean_image_mm(errors_of(points)), mean_image_mm(errors_of(told(1, 1))), 0.15);
+    for (HeldOut& point : points) point.reachable_mm = point.without_mm;
+    EXPECT_GT(mean_image_mm(errors_of(points)), 1.5);
+}
+
+TEST(HeldOutErrors, AnImageIsTrustedLessWhereItMisleads) {
+    std::vector<HeldOut> points = told(1, 0.3);
+    const std::vector<HeldOut> misled = told(1, 2, 0, 1000);
+    points.insert(points.end(), misled.begin(), misled.end());
+    const HeldOutErrors errors = errors_of(points);
+    EXPECT_GT(image_mm(errors, {1050, 0, 100}), 1.5 * image_mm(errors, {50, 0, 100}));
+}
+
+TEST(HeldOutErrors, WhatCouldBeChanceIsNotFollowedAtAll) {
+    // Of four planes one is told wrongly, and by much: the share that is true is 0.5, give or take 0.6.
+    std::vector<HeldOut> points;
+    for (std::size_t plane = 0; plane < 4; ++plane)
+        for (int n = 0; n < 20; ++n) {
+            const double moved = plane == 3 ? -1.4 : 1;
+            points.push_back({{1.0 * n, 10.0 * static_cast<double>(plane), 0}, kFarMm, 1.2, 1.2 - moved, 1.2, plane});
+        }
+    const HeldOutErrors errors = errors_of(points);
+    EXPECT_EQ(errors.weight(), 0);
+    EXPECT_EQ(image_mm(errors, {5, 15, 0}), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(image_mm(errors_with_gains({0, 0, 0, 0}), {5, 15, 0}), std::numeric_limits<double>::infinity())
+        << "an image that says nothing";
+}
+
+TEST(HeldOutErrors, WhatCountsLessMovesLess) {
+    const HeldOutErrors errors = errors_of(told(1, 1));
+    const MovingPoint point{.position = {50, 0, 100}, .normal = {1, 0, 0}, .distance_mm = kFarMm};
+    double less = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(errors.beliefs(0).image_mm(point), less);
+    for (const double weight : {0.01, 0.1, 0.5, 0.9, 1.0}) {
+        const double image = errors.beliefs(weight).image_mm(point);
+        EXPECT_LT(image, less);
+        less = image;
+    }
+    EXPECT_EQ(less, image_mm(errors, point.position));
+}
+
+TEST(HeldOutErrors, FartherFromContoursThanAnyWasTheImageIsTrustedLess) {
+    const HeldOutErrors errors = errors_of(told(1, 1));
+    const Vec3 place{50, 0, 100};
+    EXPECT_LT(image_mm(errors, place, 5), image_mm(errors, place, 10));
+    EXPECT_NEAR(image_mm(errors, place, 30), 3 * image_mm(errors, place, 10), 1e-9);
+}
+
+}  // namespace
+}  // namespace kontur

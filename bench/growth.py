@@ -121,26 +121,20 @@ def svg(rows):
 
 
 def growth_table(rows):
+    """Sizes near a power of ten."""
     lines = []
     for row in rows:
-        checked = "all" if row["residual_points"] == row["n"] else tables.count(row["residual_points"])
-        slowest = max(STAGES, key=lambda stage: stage_seconds(row)[stage])
-        lines.append(
-            [
-                row["drawn"],
-                tables.count(row["n"]),
-                tables.seconds(row["seconds"]),
-                tables.seconds(row["cpu_s"]),
-                f"{row['added_mb']:.0f}",
-                row["iterations"],
-                f"{row['residual_mm']:.4f}",
-                checked,
-                f"{slowest} ({100 * stage_seconds(row)[slowest] / sum(stage_seconds(row).values()):.0f} %)",
-                f"{100 * row['products_at_peak_s'] / row['seconds']:.0f} %",
-            ]
-        )
-    header = ["drawn", "n", "seconds", "CPU s", "MB added", "iterations", "largest residual, mm", "checked at", "longest stage"]
-    return tables.table([*header, "products at peak rate"], lines)
+        if abs(math.log10(row["n"]) - round(math.log10(row["n"]))) > 0.01:
+            continue
+        stages = stage_seconds(row)
+        slowest = max(stages, key=stages.get)
+        lines.append([
+            row["drawn"], tables.count(row["n"]), tables.seconds(row["seconds"]), tables.seconds(row["cpu_s"]),
+            f"{row['added_mb']:.0f}", row["iterations"], f"{row['residual_mm']:.4f}",
+            f"{slowest} ({100 * stages[slowest] / sum(stages.values()):.0f} %)",
+        ])
+    header = ["drawn", "n", "seconds", "CPU s", "MB added", "iterations", "largest residual, mm", "longest stage"]
+    return tables.table(header, lines)
 
 
 def main():

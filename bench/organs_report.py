@@ -21,7 +21,7 @@ HANDS = ("exact", "wave", "jitter", "coarse")
 HAND_COLOURS = dict(zip(HANDS, ("#1b6ca8", "#c4552d", "#4a8f3c", "#8a5fb0")))
 PEERS = ("nearest slice", "shape-based", "plain")
 METHOD_COLOURS = {"nearest slice": "#999", "shape-based": "#c4552d", "plain": "#4a8f3c", "kontur": "#1b6ca8", "paper": "#8a5fb0"}
-WORST = 12
+WORST = 6
 
 
 def read(path):
@@ -49,36 +49,36 @@ def gains(entries, peer="plain"):
 
 def versus_cells(entries):
     gained = gains(entries)
-    hd95 = [f"{statistics.median(entry['by'][method]['hausdorff95_mm'] for entry in entries):.1f}" for method in ("plain", "kontur")]
     return [len(entries), f"{mean(entries, 'plain'):.4f}", f"{mean(entries, 'kontur'):.4f}",
             f"{sum(gain > 0 for gain in gained) / len(gained):.0%}", f"{sum(gain < -BEHIND for gain in gained) / len(gained):.0%}",
-            f"{min(gained):+.3f}", *hd95]
+            f"{min(gained):+.3f}"]
 
 
-VERSUS = ["drawings", "plain: Dice", "kontur: Dice", "ahead", "behind", "worst", "plain: median HD95, mm", "kontur"]
+VERSUS = ["drawings", "plain: Dice", "kontur: Dice", "ahead", "behind", "worst"]
 
 
-def by_hand(entries):
-    """(how drawn, entries): all exact ones, and of the structures that hands drew the exact ones again, and each hand's."""
-    by_hands = {entry["structure"] for entry in entries if entry["hand"] != "exact"}
-    sets = {"exact": [entry for entry in entries if entry["hand"] == "exact"]}
-    for hand in HANDS:
-        own = [entry for entry in entries if entry["hand"] == hand and entry["structure"] in by_hands]
-        sets["exact, of these:" if hand == "exact" else hand] = own
-    return [(drawn, own) for drawn, own in sets.items() if own]
+def sets_of(entries):
+    """{name: entries} of drawings on planes: by set of planes, then by shape; sets without drawings are left out."""
+    on_planes = [entry for entry in entries if not is_slices(entry)]
+    sets = {drawing: [entry for entry in on_planes if entry["drawing"] == drawing] for drawing in sorted({e["drawing"] for e in on_planes})}
+    sets |= {group: [entry for entry in on_planes if entry["group"] == group] for group in GROUPS}
+    return {name: own for name, own in sets.items() if own}
 
 
 def planes_table(entries):
-    on_planes = [entry for entry in entries if not is_slices(entry)]
-    rows = [[drawing, drawn, *versus_cells(own)] for drawing in sorted({entry["drawing"] for entry in on_planes})
-            for drawn, own in by_hand([entry for entry in on_planes if entry["drawing"] == drawing])]
-    return table(["planes", "drawn", *VERSUS], rows)
+    """All drawings by an exact hand."""
+    rows = [[name, *versus_cells([entry for entry in own if entry["hand"] == "exact"])] for name, own in sets_of(entries).items()]
+    return table(["planes or shape", *VERSUS], rows)
 
 
-def shapes_table(entries):
-    rows = [[group, drawn, *versus_cells(own)] for group in GROUPS
-            for drawn, own in by_hand([entry for entry in entries if entry["group"] == group and not is_slices(entry)])]
-    return table(["shape", "drawn", *VERSUS], rows)
+def hands_table(entries):
+    """Of the structures that hands drew: mean Dice of the plain method and of kontur, hand by hand."""
+    by_hands = {entry["structure"] for entry in entries if entry["hand"] != "exact"}
+    rows = []
+    for name, own in sets_of([entry for entry in entries if entry["structure"] in by_hands]).items():
+        drawn = [[entry for entry in own if entry["hand"] == hand] for hand in HANDS]
+        rows.append([name, len(drawn[0]), *(f"{mean(some, 'plain'):.4f}, {mean(some, 'kontur'):.4f}" for some in drawn)])
+    return table(["planes or shape", "drawings", *HANDS], rows)
 
 
 def slice_sets(entries):
@@ -91,12 +91,11 @@ def slice_sets(entries):
 
 
 def slices_table(entries):
-    methods = [*PEERS, "kontur"]
-    rows = [[group, step, len(own), *(f"{mean(own, method):.4f}" for method in methods),
-             *(f"{mean(own, method, 'dice_left_out'):.4f}" for method in methods)] for group, step, own in slice_sets(entries)]
-    header = ["structures", "kept: one in", "drawings", *(f"{method}: Dice" for method in methods),
-              *(f"{method}: left out" for method in methods)]
-    return table(header, rows)
+    """Mean Dice over all slices, and over those left out between kept ones."""
+    methods = ["shape-based", "plain", "kontur"]
+    rows = [[group, step, len(own), *(f"{mean(own, method):.4f}, {mean(own, method, 'dice_left_out'):.4f}" for method in methods)]
+            for group, step, own in slice_sets(entries)]
+    return table(["structures", "kept: one in", "drawings", *methods], rows)
 
 
 def best_peer(entry):
@@ -107,13 +106,12 @@ def worst_table(entries):
     rows = []
     for entry in sorted(entries, key=lambda entry: gains([entry], best_peer(entry))[0])[:WORST]:
         peer = best_peer(entry)
-        kontur, other = entry["by"]["kontur"], entry["by"][peer]
-        rows.append([entry["structure"], entry["group"], f"{entry['drawing']}, {entry['hand']}", peer, f"{other['dice']:.3f}",
-                     f"{kontur['dice']:.3f}", f"{other['hausdorff95_mm']:.1f}", f"{kontur['hausdorff95_mm']:.1f}"])
-    return table(["structure", "shape", "drawing", "best peer", "its Dice", "kontur", "its HD95, mm", "kontur"], rows)
+        rows.append([entry["structure"], entry["group"], f"{entry['drawing']}, {entry['hand']}", peer,
+                     f"{entry['by'][peer]['dice']:.3f}", f"{entry['by']['kontur']['dice']:.3f}"])
+    return table(["structure", "shape", "drawing", "best peer", "its Dice", "kontur"], rows)
 
 
-TABLES = {"planes": planes_table, "shapes": shapes_table, "slices": slices_table, "worst": worst_table}
+TABLES = {"planes": planes_table, "hands": hands_table, "slices": slices_table, "worst": worst_table}
 
 
 def quantile(values, share):

@@ -80,80 +80,76 @@ def machine(results):
     )
 
 
+def by_hand(case):
+    return case.endswith("_hand")
+
+
+def by_threads(rows, keys, choose):
+    """Of rows that differ in the number of threads alone the one that `choose` (min or max) takes."""
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return [choose(group, key=lambda row: row["threads"]) for group in groups.values()]
+
+
 def solving(results):
+    """With the most threads; of the paper with the fewest, too. A case's name has the number of unknowns."""
     rows = []
     for case in unique(results["solving"], "case"):
         n, paper = PAPER_SOLVE[organ(case)]
+        for threads in (min(paper), max(paper)):
+            rows.append([f"{case_name(case)}, {count(n)}", "paper: dsysv (MKL)", threads, seconds(paper[threads]), "", "", ""])
         mine = [row for row in results["solving"] if row["case"] == case]
-        dense = next(row["cpu_s"] for row in mine if row["solver"] == "dense")
-        for threads, time in paper.items():
-            rows.append([case_name(case), count(n), "paper: dsysv (MKL)", threads, seconds(time), "", "", "", ""])
-        for row in mine:
+        for row in by_threads(mine, ["solver"], max):
             rows.append([
-                case_name(case), count(row["n"]), SOLVERS[row["solver"]], row["threads"], seconds(row["seconds"]),
-                seconds(row["cpu_s"]), f"{dense / row['cpu_s']:.1f}", row["iterations"] or "", f"{row['residual_mm']:.1g}",
+                f"{case_name(case)}, {count(row['n'])}", SOLVERS[row["solver"]], row["threads"], seconds(row["seconds"]),
+                seconds(row["cpu_s"]), row["iterations"] or "", f"{row['residual_mm']:.1g}",
             ])
-    header = [
-        "case", "n", "solver", "threads", "seconds", "CPU s", "times less CPU than dsysv", "iterations",
-        "largest residual, mm",
-    ]
-    return table(header, rows)
+    return table(["case, n", "solver", "threads", "seconds", "CPU s", "iterations", "largest residual, mm"], rows)
 
 
 def voxelizing(results):
+    """Exact drawings with the fewest threads. The paper's normals are shown with its search, kontur's with every search."""
     rows = []
-    for case in unique(results["voxelizing"], "case"):
+    for case in (case for case in unique(results["voxelizing"], "case") if not by_hand(case)):
         cells, paper = PAPER_VOXELIZE[organ(case)]
-        for threads, time in paper.items() if not case.endswith("_hand") else ():
-            rows.append([case_name(case), "paper", "tracked", threads, seconds(time), "", "", count(cells), "", ""])
-        for row in (row for row in results["voxelizing"] if row["case"] == case):
-            rows.append([
-                case_name(case), NORMALS[row["normals"]], row["voxelizer"], row["threads"], seconds(row["seconds"]),
-                seconds(row["cpu_s"]), count(row["evaluations"]), count(row["surface_cells"]),
-                precise_percent(row.get("jaccard_exhaustive")),
-                # The adaptive search takes most of its values from near centres alone.
-                f"{row['evaluations'] * row['centres'] / row['cpu_s'] / 1e9:.2f}" if row["voxelizer"] != "adaptive" else "",
-            ])
-    header = [
-        "case", "normals", "search", "threads", "seconds", "CPU s", "evaluations of f", "surface cells",
-        "Jaccard to exhaustive, %", "10^9 kernel values / CPU s",
-    ]
-    return table(header, rows)
+        rows.append([case_name(case), "paper", "tracked", min(paper), seconds(paper[min(paper)]), "", count(cells)])
+        mine = [row for row in results["voxelizing"] if row["case"] == case]
+        for row in by_threads(mine, ["normals", "voxelizer"], min):
+            if row["normals"] == "surface" or row["voxelizer"] == "tracked":
+                rows.append([
+                    case_name(case), NORMALS[row["normals"]], row["voxelizer"], row["threads"], seconds(row["cpu_s"]),
+                    count(row["evaluations"]), count(row["surface_cells"]),
+                ])
+    return table(["case", "normals", "search", "threads", "CPU s", "values of f", "surface cells"], rows)
 
 
 def reduction(results):
+    """Exact drawings: total time, Jaccard index to q = 1 and Dice with the truth."""
     rows = []
-    for row in results["reduction"]:
-        n, solve, voxelize, total, overlap = PAPER_REDUCTION[organ(row["case"])][row["quality"]]
-        rows.append([
-            case_name(row["case"]), row["configuration"], row["quality"], count(row["centres"]),
-            " / ".join(seconds(row[key]) for key in ("fit_s", "voxelize_s", "total_s")),
-            percent(row["jaccard"]), percent(row["dice_truth"]),
-            count(n), f"{solve} / {voxelize} / {total}", f"{overlap:.2f}",
-        ])
-    header = [
-        "case", "configuration", "q", "centres", "fit / voxelize / total, s", "Jaccard to q = 1, %", "Dice to truth, %",
-        "paper: n", "paper: solve / voxelize / total, s", "paper: Jaccard, %",
-    ]
+    exact = [row for row in results["reduction"] if not by_hand(row["case"])]
+    for case in unique(exact, "case"):
+        for quality in unique(exact, "quality"):
+            _, _, _, total, overlap = PAPER_REDUCTION[organ(case)][quality]
+            cells = [case_name(case), quality, seconds(total), f"{overlap:.2f}"]
+            for configuration in ("paper", "default"):
+                row = next(r for r in exact if (r["case"], r["quality"], r["configuration"]) == (case, quality, configuration))
+                cells += [seconds(row["total_s"]), percent(row["jaccard"]), percent(row["dice_truth"])]
+            rows.append(cells)
+    header = ["case", "q", "paper: s", "Jaccard, %", "as printed: s", "Jaccard, %", "Dice, %", "default: s", "Jaccard, %", "Dice, %"]
     return table(header, rows)
 
 
 def end_to_end(results):
-    rows = []
-    for case in unique(results["end_to_end"], "case"):
-        mine = [row for row in results["end_to_end"] if row["case"] == case]
-        for row in mine:
-            rows.append([
-                case_name(case), row["pipeline"], count(row["centres"]), row["solves"], seconds(row["total_s"]),
-                f"{row['total_s'] / mine[0]['total_s']:.1f}", seconds(row["cpu_s"]), f"{row['cpu_s'] / mine[0]['cpu_s']:.1f}",
-                f"{row['peak_mb']:.0f}" if row["peak_mb"] else "", percent(row["dice_truth"]),
-                precise_percent(row.get("jaccard_exact")),
-            ])
-    header = [
-        "case", "pipeline", "centres", "solves", "seconds", "times default", "CPU s", "times default", "peak memory, MB",
-        "Dice to truth, %", "Jaccard to exact, %",
+    """Exact drawings."""
+    rows = [
+        [
+            case_name(row["case"]), row["pipeline"], count(row["centres"]), seconds(row["total_s"]), seconds(row["cpu_s"]),
+            f"{row['peak_mb']:.0f}" if row["peak_mb"] else "", percent(row["dice_truth"]), precise_percent(row.get("jaccard_exact")),
+        ]
+        for row in results["end_to_end"] if not by_hand(row["case"]) and row["pipeline"] != "default, tight"
     ]
-    return table(header, rows)
+    return table(["case", "pipeline", "centres", "seconds", "CPU s", "memory, MB", "Dice, %", "Jaccard to exact, %"], rows)
 
 
 def editing(results):
@@ -165,15 +161,14 @@ def editing(results):
         for row in results["editing"]
     ]
     header = [
-        "case", "edits", "median, s", "nine of ten within, s", "CPU s", "within 0.5 mm of the finished surface, %",
-        "largest distance, mm",
+        "case", "edits", "median, s", "nine of ten within, s", "CPU s", "within 0.5 mm, %", "largest distance, mm",
     ]
     return table(header, rows)
 
 
 def stages(results):
     rows = []
-    for row in (row for row in results["end_to_end"] if row["pipeline"] == "default"):
+    for row in (row for row in results["end_to_end"] if row["pipeline"] == "default" and not by_hand(row["case"])):
         shares = [f"{seconds(time)} ({100 * time / row['total_s']:.0f} %)" for time in row["stages_s"].values()]
         rows.append([case_name(row["case"]), *shares, seconds(row["total_s"])])
     names = list(results["end_to_end"][0]["stages_s"])

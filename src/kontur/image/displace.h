@@ -21,7 +21,7 @@ std::optional<HeldOutErrors> displace_planes(const Drawing& drawing, const Image
                                              const Work& work);
 
 /// How much of a displacement an image has to take back to be followed for that: not at all, wholly. Chosen so that images
-/// which lie beside the drawing are not (docs/decisions/0008-image-error.md).
+/// which lie beside the drawing are not (docs/decisions/0013-few-planes.md).
 inline constexpr Rise kTakenBack{0.2, 0.3};
 /// And with three planes, to be followed for what leaving one of them out says: two are left then, which tell little.
 inline constexpr Rise kNotDenied{0.1, 0.2};

@@ -16,7 +16,7 @@ namespace {
 constexpr double kBeside = 1e-6;  // edges: a plane between two layers of cells is in both, however they are rounded
 // What shows that an image helps of which moving has not shown it: standard errors over the planes, one of which, but for
 // rounding, is what a single plane makes, however many say nothing; and the share of wrong cells that it mends, which images
-// beside the drawing do not (docs/decisions/0008-image-error.md).
+// beside the drawing do not (docs/decisions/0014-walk-on-voxels.md).
 constexpr Rise kSureAlone{1 + 1e-6, 2}, kMendedAlone{0.05, 0.15};
 constexpr Rise kSure{0.0228, 0.9772};  // probabilities: two standard deviations
 constexpr std::size_t kLeastPlanesTelling = 3;

@@ -95,7 +95,8 @@ def anchors_of(text):
 @pytest.mark.parametrize("page", PAGES, ids=named)
 def test_links_and_pictures_are_there(page):
     text = re.sub(r"```.*?```", "", page.read_text(), flags=re.DOTALL)
-    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+    targets = re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r"^\[[^\]]+\]: (\S+)", text, re.MULTILINE)
+    for target in targets:
         if re.match(r"https?:", target):
             continue
         file, _, anchor = target.partition("#")

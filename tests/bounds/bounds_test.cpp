@@ -61,10 +61,9 @@ TEST(EndHeight, IsAboutTheGapBeforeAndNeverMoreThanOneAndAHalfRadii) {
     EXPECT_LE(end_of({0, 100}), 15);
 }
 
-/// Whoever draws slice after slice from the middle of an organ must not see it shrink.
-TEST(EndHeight, ClosePlanesSayLittleUntilTheyAreManyOrGoFar) {
+TEST(EndHeight, TwoClosePlanesSayLittleAndMoreTheMoreThereAre) {
     EXPECT_GT(end_of({0, 0.5}), 9.5);
-    EXPECT_GT(end_of({0, 0.5, 1, 1.5}), 8.5);
+    EXPECT_LT(end_of({0, 0.5, 1, 1.5}), 2) << "that several are alike tells that planes were drawn across all of it";
     std::vector<double> all;
     for (double at = 0; at < 20; at += 0.5) all.push_back(at);
     EXPECT_NEAR(end_of(all), 0.85 * 0.5, 0.01);

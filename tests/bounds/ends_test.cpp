@@ -94,6 +94,31 @@ TEST(FindEnds, HolesStayOpen) {
     for (const BoundaryPoint& point : find_ends(DrawnPlanes(set)).lids) EXPECT_GE(norm(point.position - 8 * kNormal), 3.99);
 }
 
+TEST(FindEnds, ABranchThatLeansAwayEndsAwayFromTheNextPlane) {
+    ContourSet set = stack({0, 4}, ContourEnd::flat);
+    for (Vec3& p : set.contours.back().points) p += 25 * set.contours.back().plane.u;
+    const Ends ends = find_ends(DrawnPlanes(set));
+    EXPECT_TRUE(ends.notes.empty());
+    EXPECT_GT(ends.lids.size(), 60u);
+    for (const BoundaryPoint& point : ends.lids)
+        if (dot(point.position, kNormal) > 3.5) {
+            EXPECT_GT(dot(point.inplane_normal, kNormal), 0.99);
+        }
+}
+
+TEST(FindEnds, AThinRingGetsItsLid) {
+    ContourSet set = stack({0, 4, 8}, ContourEnd::flat);
+    for (const double h : {0.0, 4.0, 8.0}) {
+        set.contours.push_back(test::circle(make_plane(h * kNormal, kNormal), 9.6, 60));
+        set.contours.back().hole = true;
+    }
+    const Ends ends = find_ends(DrawnPlanes(set));
+    EXPECT_TRUE(ends.notes.empty());
+    std::size_t lid = 0;
+    for (const BoundaryPoint& point : ends.lids) lid += dot(point.position, kNormal) > 7.99;
+    EXPECT_GT(lid, 60u);
+}
+
 TEST(FindEnds, WhatCannotBeFollowedIsSaid) {
     ContourSet middle = stack({0, 8, 4}, ContourEnd::flat);
     EXPECT_TRUE(find_ends(DrawnPlanes(middle)).lids.empty());

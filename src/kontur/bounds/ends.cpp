@@ -61,6 +61,14 @@ Continuation continuation(const DrawnPlanes& planes, const Section& region, cons
     return result;
 }
 
+/// Where no section lies over the region, the rest of the drawing is on the side that has planes, or the nearer ones.
+/// 0 where neither side does.
+double side_of_the_rest(const Continuation& above, const Continuation& below) {
+    if (!above.next && !below.next) return 0;
+    if (above.next && below.next) return *above.spacing < *below.spacing ? 1 : *below.spacing < *above.spacing ? -1 : 0;
+    return above.next ? 1 : -1;
+}
+
 /// By how much a wall at a place of a flat end's rim moves outwards per mm below it: straight to the outline of the next
 /// parallel plane; upright where there is none of its kind (outer or of a hole).
 double flare(const Continuation& below, const Contour& contour, const Vec3& rim) {
@@ -98,12 +106,15 @@ void append_rim(const Contour& contour, std::int32_t index, const Section& regio
     }
 }
 
-void append_flat(const ContourSet& set, const Section& region, const Continuation& below, const std::vector<Probe>& inside,
-                 double sign, Ends& ends) {
+void append_flat(const DrawnPlanes& planes, const Section& region, const Continuation& below,
+                 const std::vector<Probe>& inside, double sign, Ends& ends) {
     constexpr double kEdge = 0.1, kBeyond = 0.005;  // of the inscribed radius
-    const Vec3 up = sign * region.plane.normal, beyond = kBeyond * deepest(inside) * up;
+    constexpr double kLeastBeyond = 0.5;  // of the tolerance for planes: f is not so exact that it tells less from its plane
+    const Vec3 up = sign * region.plane.normal,
+               beyond = std::max(kBeyond * deepest(inside), kLeastBeyond * planes.tolerance_mm) * up;
     for (const std::size_t c : region.contours)
-        append_rim(set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond, ends);
+        append_rim(planes.set.contours[c], static_cast<std::int32_t>(c), region, below, up, kEdge * deepest(inside), beyond,
+                   ends);
     const auto contour = static_cast<std::int32_t>(region.contours.front());
     for (const Probe& probe : inside)
         ends.lids.push_back(
@@ -138,14 +149,18 @@ Ends find_ends(const DrawnPlanes& planes) {
             const std::vector<Probe> inside = probes(region);
             const Continuation above = continuation(planes, region, inside, 1);
             const Continuation below = continuation(planes, region, inside, -1);
-            if (above.carried_on == below.carried_on) {
+            const bool is_clear = above.carried_on != below.carried_on;
+            const double towards_rest = is_clear           ? (above.carried_on ? 1 : -1)
+                                        : above.carried_on ? 0
+                                                           : side_of_the_rest(above, below);
+            if (towards_rest == 0) {
                 ends.notes.push_back(complaint(c, above.carried_on));
                 continue;
             }
-            const double sign = above.carried_on ? -1 : 1;
-            const Continuation& rest = above.carried_on ? above : below;
+            const double sign = -towards_rest;
+            const Continuation& rest = towards_rest > 0 ? above : below;
             if (set.contours[c].end == ContourEnd::flat) {
-                append_flat(set, region, rest, inside, sign, ends);
+                append_flat(planes, region, rest, inside, sign, ends);
                 continue;
             }
             const double widest = deepest(inside);

@@ -23,7 +23,8 @@ struct Ends {
 /// goes straight to the next parallel plane's outline (upright without one). A round end is a dome, as high as half
 /// the distance to the parallel plane before it and no higher than half the width of the contour (half its inscribed radius
 /// where there is no such plane). It ends on the side where neither the next parallel plane nor contours of other directions
-/// carry the contour's region on. Holes inside of the contour stay open.
+/// carry the contour's region on; where neither is so, away from the nearer parallel plane. Holes inside of the contour stay
+/// open.
 Ends find_ends(const DrawnPlanes& planes);
 
 }  // namespace kontur

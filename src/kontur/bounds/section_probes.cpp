@@ -23,8 +23,40 @@ struct Outline {
 Outline outline_along(const SectionAxes& axes, const Polygon2& polygon) {
     Outline outline;
     for (const Point2& vertex : polygon) outline.box.extend(axes.from_plane(vertex));
-    outline.area = area(polygon);
+    outline.area = enclosed_area(polygon);
     return outline;
+}
+
+/// The length of the rows inside of a line times their distance. An edge is asked in the rows that it spans alone.
+double area_by_rows(const Polygon2& line) {
+    constexpr int kRows = 512;
+    Box2 box;
+    for (const Point2& p : line) box.extend(p);
+    const double row_mm = (box.high[1] - box.low[1]) / kRows;
+    if (!(row_mm > 0)) return 0;
+    std::vector<std::vector<double>> crossings(kRows);
+    const auto first_above = [&](double y) {  // of the rows' middles
+        return static_cast<int>(std::clamp(std::ceil((y - box.low[1]) / row_mm - 0.5), 0.0, static_cast<double>(kRows)));
+    };
+    for_each_edge(line, [&](const Point2& a, const Point2& b) {
+        const auto [low, high] = std::minmax(a[1], b[1]);
+        for (int row = first_above(low), end = first_above(high); row < end; ++row) {
+            const double y = box.low[1] + (row + 0.5) * row_mm;
+            crossings[static_cast<std::size_t>(row)].push_back(std::lerp(a[0], b[0], (y - a[1]) / (b[1] - a[1])));
+        }
+    });
+    double inside_mm = 0;
+    for (std::vector<double>& row : crossings) {
+        std::ranges::sort(row);
+        for (std::size_t i = 0; i + 1 < row.size(); i += 2) inside_mm += row[i + 1] - row[i];
+    }
+    return inside_mm * row_mm;
+}
+
+double length_of(const Polygon2& line) {
+    double length = 0;
+    for_each_edge(line, [&](const Point2& a, const Point2& b) { length += std::hypot(b[0] - a[0], b[1] - a[1]); });
+    return length;
 }
 
 /// Whether that outline is the first but holes that encloses the place.
@@ -37,6 +69,27 @@ bool belongs_to(const Section& section, const SectionSearch& search, std::size_t
 }
 
 }  // namespace
+
+double enclosed_area(const Polygon2& line) {
+    constexpr double kCrossesItself = 0.95;  // of what rows say, which is exact to a part in a thousand
+    const double by_signs = area(line), by_rows = area_by_rows(line);
+    return by_signs < kCrossesItself * by_rows ? by_rows : by_signs;
+}
+
+std::vector<double> areas_without_holes(const Section& section) {
+    constexpr double kLeast = 1e-6;  // of what it encloses with them: holes may lie beside what they are cut from
+    std::vector<double> areas;
+    for (std::size_t o = 0; o < section.outlines.size(); ++o) {
+        areas.push_back(section.layer(o) > 0 ? enclosed_area(section.outlines[o]) : 0);
+        const double least = kLeast * areas.back();
+        for (std::size_t hole = 0; hole < section.outlines.size(); ++hole)
+            if (section.layer(o) > 0 && section.layer(hole) < 0 &&
+                is_inside(section.outlines[o], section.outlines[hole].front()))
+                areas.back() -= enclosed_area(section.outlines[hole]);
+        areas.back() = std::max(areas.back(), least);
+    }
+    return areas;
+}
 
 SectionAxes::SectionAxes(const Section& section) {
     // Moments of the lines, each edge as a mass at its middle.
@@ -67,14 +120,18 @@ SectionAxes::SectionAxes(const Section& section) {
 std::vector<Probe> probes(const Section& section) {
     constexpr double kProbes = 118;                              // of a section without gaps in its regions
     constexpr double kOfSmallRegion = 12, kOfAllRegions = 1200;  // however small they are beside others
+    constexpr double kOfWall = 0.4;     // the step, of a wall's mean thickness, so that none falls between two places
+    constexpr double kMostSteps = 400;  // along a section
     const SectionAxes axes(section);
     std::vector<Outline> outlines;
-    double whole_area = 0;
+    double whole_area = 0, length = 0;
     for (std::size_t o = 0; o < section.outlines.size(); ++o) {
         outlines.push_back(outline_along(axes, section.outlines[o]));
         whole_area += section.layer(o) * outlines.back().area;
+        length += length_of(section.outlines[o]);
     }
-    whole_area = std::max(whole_area, 0.0);  // holes may lie beside what they are cut from
+    whole_area = std::max(whole_area, 0.0);       // holes may lie beside what they are cut from
+    const double wall = 2 * whole_area / length;  // a thin ring's thickness, a disc's radius
     const double least = std::clamp(kOfAllRegions / static_cast<double>(outlines.size()), 1.0, kOfSmallRegion);
     const SectionSearch search(section);
     std::vector<Probe> result;
@@ -83,8 +140,8 @@ std::vector<Probe> probes(const Section& section) {
         const auto& [box, area] = outlines[o];
         const auto& [low, high] = box;
         const double width = high[0] - low[0], height = high[1] - low[1];
-        const double step =
-            std::max(std::min(std::sqrt(whole_area / kProbes), std::sqrt(area / least)), std::max(width, height) / 100);
+        const double step = std::max(std::min({std::sqrt(whole_area / kProbes), std::sqrt(area / least), kOfWall * wall}),
+                                     std::max(width, height) / kMostSteps);
         // Symmetric about the middle: the axes' signs mean nothing.
         const auto columns = static_cast<int>(width / 2 / step), rows = static_cast<int>(height / 2 / step);
         for (int row = -rows; row <= rows; ++row)

@@ -27,7 +27,15 @@ struct Probe {
     std::size_t outline;  ///< the one around it, but for holes
 };
 
-/// A lattice of some hundred points over the section, those inside of it. It turns with the section.
+/// What one line encloses by the even-odd rule, mm2. The signed area of a line that crosses itself is the difference of its
+/// lobes.
+double enclosed_area(const Polygon2& line);
+
+/// Of each outline what it encloses, mm2, without the holes in it; 0 for a hole.
+std::vector<double> areas_without_holes(const Section& section);
+
+/// A lattice of some hundred points over the section, of more where its walls are thin, those inside of it. It turns with
+/// the section.
 std::vector<Probe> probes(const Section& section);
 
 /// The largest depth, about the radius of the largest circle in the section; 0 without probes.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drawn_bodies.h"
+#include "support/drawn_bodies.h"
 #include "kontur/measure/compare.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/phantom/phantom.h"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "drawn_bodies.h"
+#include "support/drawn_bodies.h"
 #include "kontur/sureness/surface_uncertainty.h"
 
 namespace kontur {

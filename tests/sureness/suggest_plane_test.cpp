@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "drawn_bodies.h"
+#include "support/drawn_bodies.h"
 #include "kontur/phantom/phantom.h"
 #include "support/coarse_grid.h"
 #include "support/expect_error.h"

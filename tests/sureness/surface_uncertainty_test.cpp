@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "drawn_bodies.h"
+#include "support/drawn_bodies.h"
 #include "kontur/phantom/cases.h"
 #include "kontur/sureness/uncertainty_map.h"
 #include "support/coarse_grid.h"

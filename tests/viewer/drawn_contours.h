@@ -28,7 +28,7 @@ inline std::vector<Vec3> circle(std::size_t count, double radius = 10) {
 inline DrawnContour circle_of(std::size_t count, Stretch kind, SliceEdges& edges) {
     std::vector<SketchPoint> sketch;
     for (const Vec3& p : circle(count)) sketch.push_back({p, kind, {}});
-    const Drawing drawing = draw(sketch, kPlane, edges, {.snap = false});
+    const PlacedSketch drawing = draw(sketch, kPlane, edges, {.snap = false});
     DrawnContour contour;
     contour.id = 7;
     contour.structure = 3;

@@ -57,7 +57,7 @@ DrawnContour moved(DrawnContour contour, const Vec3& by) {
 
 DrawnContour draw_contour(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
                           const SketchOptions& options) {
-    Drawing drawing = draw(sketch, plane, edges, options);
+    PlacedSketch drawing = draw(sketch, plane, edges, options);
     DrawnContour contour;
     contour.plane = plane;
     contour.control = std::move(drawing.control);

@@ -31,8 +31,8 @@ public:
         for (std::size_t i = 0; i < sketch_.size(); ++i) place(sketch_[i], i > 0 ? &sketch_[i - 1] : nullptr);
     }
 
-    Drawing draw() const {
-        Drawing drawing;
+    PlacedSketch draw() const {
+        PlacedSketch drawing;
         for (std::size_t i = 0; i < sketch_.size(); ++i) {
             const std::vector<Vec3> line = stretch(i);
             if (!drawing.points.empty() && distance(drawing.points.back(), sketch_[i].at) < kSamePoint_mm) {
@@ -102,7 +102,7 @@ private:
         return sketch_[static_cast<std::size_t>(index)].at;
     }
 
-    void close(Drawing& drawing) const {
+    void close(PlacedSketch& drawing) const {
         while (options_.closed && drawing.points.size() > 1 && drawing.control.back().index + 1 < drawing.points.size() &&
                distance(drawing.points.back(), drawing.points.front()) < kSamePoint_mm)
             drawing.points.pop_back();
@@ -141,9 +141,9 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& line) {
     return result;
 }
 
-Drawing draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges, const SketchOptions& options) {
+PlacedSketch draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges, const SketchOptions& options) {
     if (sketch.empty()) throw Error(ErrorKind::invalid_input, "a drawing has no control point; at least 1 is needed");
-    Drawing drawing = Sketcher(sketch, plane, edges, options).draw();
+    PlacedSketch drawing = Sketcher(sketch, plane, edges, options).draw();
     if (drawing.points.size() > kMostPoints)
         throw Error(ErrorKind::too_large,
                     fmt::format("a drawing has {} points; the limit is {}", drawing.points.size(), kMostPoints));

@@ -29,11 +29,11 @@ struct SketchOptions {
 /// The line through a sketch: `control` with indices into `points`, all on the plane. Hand-drawn and edge-following
 /// stretches are `thinned`. Points that coincide with the one before are left out, so the control points of a very short
 /// sketch may be fewer.
-struct Drawing {
+struct PlacedSketch {
     std::vector<ControlPoint> control;
     std::vector<Vec3> points;
 };
-Drawing draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
+PlacedSketch draw(const std::vector<SketchPoint>& sketch, const Plane& plane, SliceEdges& edges,
              const SketchOptions& options = {});
 
 /// The contour as a sketch that draws the same line.

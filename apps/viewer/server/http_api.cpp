@@ -284,7 +284,7 @@ HttpReply HttpApi::import(const HttpRequest& request, const std::stop_token& sto
     ImportReply reply;
     if (target.path == "/api/import/near") {
         reply = workspace_.session(request.opening)
-                    ->import_near(target.parameter("file").value_or(""), upload.trace, anyway, stop);
+                    ->import_near(target.parameter("file").value_or(""), upload, stop);
     } else if (target.path == "/api/import/contours") {
         upload.extension = known_extension(file, kContourEndings);
         reply = workspace_.session(request.opening)->import(request.body, upload, stop);

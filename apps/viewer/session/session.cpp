@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "kontur/base/error.h"
 #include "kontur/image/intensities.h"
 #include "viewer/model/message_checks.h"
 #include "viewer/model/model_json.h"
+#include "viewer/session/calls.h"
+#include "viewer/session/history.h"
 
 namespace kontur::viewer {
 namespace {
@@ -21,82 +20,15 @@ json error_json(std::string_view kind, std::string_view message) {
 
 }  // namespace
 
-std::string notice_event(std::string_view level, const std::string& text) {
-    return to_text({{"event", "notice"}, {"level", std::string(level)}, {"text", text}});
-}
-
-Session::Session(OpenedImage opened, const std::filesystem::path& project)
-    : image_(std::move(opened.image)),
-      times_(image_, std::move(opened.times)),
-      title_(std::move(opened.title)),
-      frame_of_reference_uid_(std::move(opened.frame_of_reference_uid)),
-      series_(std::move(opened.series)),
-      identity_(std::move(opened.identity)),
-      mm_to_index_(image_->grid.index_to_mm.inverse()),
-      presets_(window_presets(*image_)),
-      window_(suggest_window(*image_)),
-      range_(value_range(*image_)),
-      shows_borders_(range_.first < range_.second && !is_label_map(*image_)),
-      edges_(image_),
-      fits_(image_),
-      notes_(std::move(opened.notes)),
-      project_(project, opened.reference),
-      surfaces_(
-          {[this](Id structure, std::int64_t revision, const PlaneCutters& cut) { tell_outlines(structure, revision, cut); },
-           [this](const std::shared_ptr<const Surface>& surface) { tell(surface_event(*surface)); },
-           [this](const std::string& text, std::optional<double> fraction) { tell_status(text, fraction); },
-           [this](const std::vector<BorderPair>& pairs, const std::string& problem) { tell_borders(pairs, problem); }}) {
-    if (const ImageReference& known = project_.image(); known.fingerprint != opened.reference.fingerprint)
-        throw Error(ErrorKind::invalid_input,
-                    fmt::format("{} was drawn on another image ({}) than {}", project.string(), known.path, title_));
-    if (project_.is_read_only())
-        notes_.push_back(
-            fmt::format("{} can only be read here, so nothing can be drawn or changed. To go on from it save a "
-                        "copy where you can write: Export, Project.",
-                        project.filename().string()));
-    else if (project_.image().path != opened.reference.path || project_.image().choice != opened.reference.choice)
-        project_.save_image(opened.reference);
-    surfaces_.use_image(image_to_ask());
-    surfaces_.share_borders(project_.state().borders);
-    for (const auto& [id, structure] : project_.state().structures) surfaces_.follow_later(surface_task(id));
-}
-
-Session::~Session() = default;
-
-std::string Session::image_path() const {
-    const std::scoped_lock lock(mutex_);
-    return project_.image().path;
-}
-
-State Session::state() const {
-    const std::scoped_lock lock(mutex_);
-    return project_.state();
-}
-
-const Structure& Session::structure_asked_for(const State& now, Id id) const {
-    const std::scoped_lock lock(mutex_);
-    if (!now.structures.contains(id) && project_.has_given(id))
-        throw StructureRemoved(ErrorKind::invalid_input, fmt::format("the structure with the id {} has been removed", id));
-    return structure_of(now, id);
-}
-
-void Session::on_event(std::function<void(const std::string&)> listener) {
-    const std::scoped_lock lock(listener_mutex_);
-    listener_ = std::move(listener);
-}
-
-void Session::tell(const json& event) {
-    const std::scoped_lock lock(listener_mutex_);
-    if (listener_) listener_(to_text(event));
-}
-
-void Session::tell_status(const std::string& text, std::optional<double> fraction) {
-    tell({{"event", "status"}, {"text", text}, {"fraction", fraction ? json(*fraction) : json(nullptr)}});
-}
-
-void Session::notice(std::string_view level, const std::string& text) {
-    const std::scoped_lock lock(listener_mutex_);
-    if (listener_) listener_(notice_event(level, text));
+const Calls& all_calls() {
+    static const Calls table = [] {
+        Calls all;
+        for (const auto calls : {border_calls, contour_calls, history_calls, page_calls, point_calls, proposal_calls,
+                                 second_image_calls, structure_calls, use_image_calls})
+            all.merge(calls());
+        return all;
+    }();
+    return table;
 }
 
 std::string Session::call(std::string_view message, PageId page) {
@@ -108,16 +40,16 @@ std::string Session::call(std::string_view message, PageId page) {
         const json request = parsed(message);
         const Members m(request);
         if (m.has("seq") && m.at("seq").is_number_integer()) seq = m.at("seq");
-        const auto found = calls().find(m.text("call", 64));
-        if (found == calls().end())
+        const auto found = all_calls().find(m.text("call", 64));
+        if (found == all_calls().end())
             return failed(name(ErrorKind::invalid_input), fmt::format("there is no call '{}'", m.text("call", 64)));
         check_message(request, *call_types().find(found->first)->second, {"seq", "call"});
-        std::unique_lock lock(mutex_, std::defer_lock);
+        std::unique_lock lock(state_.mutex, std::defer_lock);
         if (found->second.needs_project) {
             lock.lock();
-            caller_ = page;
+            state_.caller = page;
         }
-        return to_text({{"seq", seq}, {"result", (this->*found->second.method)(m)}});
+        return to_text({{"seq", seq}, {"result", found->second.carry_out(state_, m)}});
     } catch (const json::exception&) {
         return failed(name(ErrorKind::invalid_input), "the message is no JSON that kontur understands");
     } catch (const Error& error) {
@@ -130,51 +62,40 @@ std::string Session::call(std::string_view message, PageId page) {
 }
 
 void Session::left(PageId page) {
-    const std::scoped_lock lock(mutex_);
-    if (!draft_ || draft_owner_ != page) return;
+    const std::scoped_lock lock(state_.mutex);
+    if (!state_.draft || state_.draft->owner != page) return;
     try {
-        clear_draft();
+        clear_draft(state_);
     } catch (const std::exception& error) {
         notice("error", error.what());
     }
 }
 
-const std::map<std::string, Session::Call, std::less<>>& Session::calls() {
-    static const std::map<std::string, Call, std::less<>> table{
-        {"path", {&Session::path, false}},
-        {"outline", {&Session::outline_of, false}},
-        {"suggest", {&Session::suggest, false}},
-        {"contour.add", {&Session::add_contour}},
-        {"contour.move_point", {&Session::move_control_point}},
-        {"contour.insert_point", {&Session::insert_control_point}},
-        {"contour.delete_point", {&Session::delete_control_point}},
-        {"contour.pull", {&Session::pull_contour}},
-        {"contour.redraw", {&Session::redraw_contour}},
-        {"contour.translate", {&Session::translate_contour}},
-        {"contour.copy", {&Session::copy_contour}},
-        {"contour.set", {&Session::set_contour}},
-        {"contour.remove", {&Session::remove_contours}},
-        {"structure.add", {&Session::add_structure}},
-        {"structure.set", {&Session::set_structure}},
-        {"structure.remove", {&Session::remove_structure}},
-        {"point.add", {&Session::add_single_point}},
-        {"point.move", {&Session::move_single_point}},
-        {"point.set", {&Session::set_single_point}},
-        {"point.remove", {&Session::remove_single_point}},
-        {"image.set", {&Session::set_image}},
-        {"image.remove", {&Session::remove_image}},
-        {"borders.set", {&Session::set_borders}},
-        {"borders.rule", {&Session::set_border_rule}},
-        {"draft.drop", {&Session::drop_draft}},
-        {"undo", {&Session::undo}},
-        {"redo", {&Session::redo}},
-        {"value", {&Session::value, false}},
-        {"page.save", {&Session::save_page}},
-        {"ping", {&Session::ping, false}},
-    };
-    return table;
+std::string Session::image_path() const {
+    const std::scoped_lock lock(state_.mutex);
+    return state_.project.image().path;
 }
 
-json Session::ping(const Members&) { return json::object(); }
+std::string Session::modality() const {
+    const ProjectImage& image = state_.image;
+    if (image.identity.modality.empty() && looks_like_ct(*image.voxels)) return "CT";
+    return image.identity.modality;
+}
+
+std::optional<ImageReference> Session::kept_second_image() const {
+    const std::scoped_lock lock(state_.mutex);
+    if (state_.project.further_images().empty()) return std::nullopt;
+    return state_.project.further_images().front();
+}
+
+std::string Session::second_title() const {
+    const auto second = state_.second.get();
+    return second ? second->opened.title : "";
+}
+
+void Session::add_note(const std::string& sentence) {
+    const std::scoped_lock lock(state_.mutex);
+    state_.notes.push_back(sentence);
+}
 
 }  // namespace kontur::viewer

@@ -5,7 +5,6 @@ import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import { changesDrawing, type Maker } from "../net/calls";
 import type { ViewName } from "../net/protocol";
-import type { OverlayPainter } from "../view/overlay";
 import { ContourEdits } from "./contour_edits";
 import { Drafts } from "./drafts";
 import { Drawing } from "./drawing";
@@ -13,6 +12,7 @@ import type { Gesture, Modifiers } from "./gesture";
 import { hitContour } from "./hit";
 import { Measuring } from "./measuring";
 import { OutlineEdits } from "./outline_edits";
+import type { ToolPainter } from "./painter";
 import type { Place } from "./place";
 import { PlaneLines } from "./plane_lines";
 import { Proposals } from "./proposals";
@@ -179,7 +179,7 @@ export class Editor extends Emitter<"tool" | "hover"> implements ToolContext {
     return this.tool.cursor(this.hover);
   }
 
-  paint(painter: OverlayPainter, view: ViewName): void {
+  paint(painter: ToolPainter, view: ViewName): void {
     this.tool.paint?.(painter, this, view, this.hover);
   }
 

@@ -4,8 +4,18 @@ import { isInside, nearestOnPath, type NearPlace } from "../geometry/loop";
 import { planeOf, toScreen, type Point2, type Screen } from "../geometry/screen";
 import { dot, sub, type Vec3 } from "../geometry/vec";
 import type { Project } from "../model/project";
-import type { Outline } from "../view/outlines";
+import type { LineRun } from "../net/protocol";
 import { inView } from "./hit";
+
+/** Where the surface of this revision cuts a view's plane, in pixels of the plane, column and row alternating. */
+export interface Outline {
+  structure: number;
+  revision: number;
+  points: ArrayLike<number>;
+  lines: LineRun[];
+  /** What the contours alone make, where the image was used. */
+  without_image?: LineRun[];
+}
 
 /** The outlines that a view shows, and the plane that they were cut with. */
 export interface ShownOutlines {

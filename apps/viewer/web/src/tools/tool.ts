@@ -3,13 +3,13 @@ import type { Point2 } from "../geometry/screen";
 import type { Navigation } from "../model/navigation";
 import type { Project } from "../model/project";
 import type { StretchKind, ViewName } from "../net/protocol";
-import type { OverlayPainter } from "../view/overlay";
 import type { ContourEdits } from "./contour_edits";
 import type { Drawing } from "./drawing";
 import type { Gesture, Modifiers } from "./gesture";
 import type { ContourHit, LineHit } from "./hit";
 import type { Measuring } from "./measuring";
 import type { OutlineEdits, OutlineHit } from "./outline_edits";
+import type { ToolPainter } from "./painter";
 import type { Place } from "./place";
 import type { PlaneLines } from "./plane_lines";
 import type { Pushing } from "./pushing";
@@ -85,7 +85,7 @@ export interface Tool<Id extends string = string> {
   left?(context: ToolContext): void;
   cursor(hover: Hover): string;
   /** What it shows on a view beside contours and sketch. */
-  paint?(painter: OverlayPainter, context: ToolContext, view: ViewName, hover: Hover): void;
+  paint?(painter: ToolPainter, context: ToolContext, view: ViewName, hover: Hover): void;
 }
 
 export function usualCursor(hover: Hover): string {

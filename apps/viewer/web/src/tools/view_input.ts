@@ -2,13 +2,24 @@
 import { toWorld, type Point2, type Screen } from "../geometry/screen";
 import { sub } from "../geometry/vec";
 import type { Navigation } from "../model/navigation";
-import type { Window } from "../net/protocol";
-import type { SliceView } from "../view/slice_view";
+import type { ViewName, Window } from "../net/protocol";
 import type { Editor } from "./editor";
 import { fingerPair } from "./finger_pair";
 import { Fingers } from "./fingers";
 import type { Gesture } from "./gesture";
 import type { Pointers } from "./pointers";
+
+/** What input needs of the view that it comes from. */
+export interface InputView {
+  readonly name: ViewName;
+  readonly element: HTMLElement;
+  /** Where the pointer is heard. */
+  readonly overlay: HTMLElement;
+  /** Null before the view is laid out. */
+  screen(): Screen | null;
+  /** In pixels of the screen. */
+  pointOf(event: PointerEvent | WheelEvent): Point2;
+}
 
 export interface InputServices {
   navigation: Navigation;
@@ -17,8 +28,8 @@ export interface InputServices {
   isPanning(): boolean; // space is held
   /** The image that a drag puts into another window; with Shift the other one of two. */
   windowed(isShifted: boolean): Windowed;
-  pointed(view: SliceView, event: PointerEvent): void;
-  jump(view: SliceView, event: PointerEvent): void;
+  pointed(view: InputView, event: PointerEvent): void;
+  jump(view: InputView, event: PointerEvent): void;
   /** What can be done by what has begun, until it ends. */
   hint(text: string | null): void;
 }
@@ -40,7 +51,7 @@ export class ViewInput {
   private readonly fingers: Fingers;
 
   constructor(
-    private readonly view: SliceView,
+    private readonly view: InputView,
     private readonly services: InputServices,
   ) {
     const canvas = view.overlay;

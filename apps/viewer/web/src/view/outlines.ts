@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { LineRun, SliceHeader } from "../net/protocol";
-
-/** Where the surface of this revision cuts a view's plane, in pixels of the plane, column and row alternating. */
-export interface Outline {
-  structure: number;
-  revision: number;
-  points: ArrayLike<number>;
-  lines: LineRun[];
-  /** What the contours alone make, where the image was used. */
-  without_image?: LineRun[];
-}
+import type { Outline } from "../tools/free_outlines";
 
 export type Outlines = Map<number, Outline>; // by structure
 

@@ -7,8 +7,9 @@ import type { Vec3 } from "../geometry/vec";
 import type { SavedAppearance } from "../model/appearance";
 import type { Contour, Hand, LineRun, PointKind, SliceHeader } from "../net/protocol";
 import { hasHandles, type PlaneLine } from "../tools/hit";
+import type { Outline } from "../tools/free_outlines";
 import type { SinglePoint } from "../tools/single_points";
-import type { Outline } from "./outlines";
+import type { ToolPainter } from "../tools/painter";
 import { PLANE_COLORS, tinted, withAlpha } from "../model/palette";
 
 const SHADE = "rgba(8, 10, 13, 0.8)";
@@ -47,7 +48,7 @@ const POINT_SHAPES: Record<PointKind, readonly Point2[]> = {
 };
 
 /** Draws vectors over a slice, in CSS pixels of `screen`; lines and marks grow with the letters. */
-export class OverlayPainter {
+export class OverlayPainter implements ToolPainter {
   private readonly scale: number;
 
   constructor(

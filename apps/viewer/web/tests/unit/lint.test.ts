@@ -10,7 +10,7 @@ const linter = new ESLint();
 
 /** The rules that a line of the page breaks. `field` is an input, `event` a key's. */
 async function broken(line: string): Promise<(string | null)[]> {
-  const text = `import { el } from "./dom";\nexport function handle(field: HTMLInputElement, save: () => Promise<void>): void {\n  ${line}\n}\nexport { el };\n`;
+  const text = `import { el } from "../dom/dom";\nexport function handle(field: HTMLInputElement, save: () => Promise<void>): void {\n  ${line}\n}\nexport { el };\n`;
   const [result] = await linter.lintText(text, { filePath: "src/ui/hints.ts" }); // a file of the project, whose types are known
   return result!.messages.map(({ ruleId }) => ruleId);
 }

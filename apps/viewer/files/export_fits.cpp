@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/files/kept_fits.h"
+#include "viewer/files/export_fits.h"
 
 #include <algorithm>
 #include <set>
@@ -32,7 +32,7 @@ State only(const State& state, Id structure) {
     return own;
 }
 
-std::size_t bytes_of(const KeptFits::Fits& fits) {
+std::size_t bytes_of(const ExportFits::Fits& fits) {
     std::size_t bytes = 0;
     for (const FittedStructure& one : *fits) {
         bytes += one.made.mask.values.size();
@@ -45,13 +45,13 @@ std::size_t bytes_of(const KeptFits::Fits& fits) {
 
 }  // namespace
 
-KeptFits::Fits KeptFits::all(const State& state, const Work& work) {
+ExportFits::Fits ExportFits::all(const State& state, const Work& work) {
     const std::set<Id> drawn = drawn_in(state);
     const State asked = drawn.size() == 1 ? only(state, *drawn.begin()) : state;
     return kept(asked, [&] { return fit_structures(asked, *image_, true, work); });
 }
 
-std::shared_ptr<const FittedStructure> KeptFits::one(const State& state, Id structure, const Work& work) {
+std::shared_ptr<const FittedStructure> ExportFits::one(const State& state, Id structure, const Work& work) {
     const std::set<Id> drawn = drawn_in(state);
     const bool is_alone = drawn.size() == 1 || !drawn.contains(structure);
     if (state.borders.shared && !is_alone) {
@@ -64,7 +64,7 @@ std::shared_ptr<const FittedStructure> KeptFits::one(const State& state, Id stru
     return {fits, &fits->front()};
 }
 
-KeptFits::Fits KeptFits::kept(const State& state, const std::function<std::vector<FittedStructure>()>& fit) {
+ExportFits::Fits ExportFits::kept(const State& state, const std::function<std::vector<FittedStructure>()>& fit) {
     {
         const std::scoped_lock lock(mutex_);
         const auto known = std::ranges::find_if(kept_, [&](const Kept& one) { return is_same(one.state, state); });

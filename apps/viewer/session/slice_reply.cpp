@@ -14,7 +14,8 @@
 #include "viewer/model/binary_reply.h"
 #include "viewer/model/message_checks.h"
 #include "viewer/model/model_json.h"
-#include "viewer/session/session.h"
+#include "viewer/session/events.h"
+#include "viewer/session/replies.h"
 
 // What a view shows: the image on its plane, and where surfaces and contours meet it.
 
@@ -22,8 +23,6 @@ namespace kontur::viewer {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t kMostWatched = 8;  // two pages of four views
 
 // json's default constructor makes null, which cannot throw; clang-tidy sees the throwing cases of the one it calls.
 struct SliceRequest {  // NOLINT(bugprone-exception-escape)
@@ -145,13 +144,13 @@ private:
 
 /// To hundredths of a pixel, column and row alternating.
 json in_pixels(const std::vector<std::vector<Vec3>>& lines, const Reslice& raster) {
-    json told = json::array();
+    json runs = json::array();
     for (const std::vector<Vec3>& line : lines) {
-        json& numbers = told.emplace_back(json::array());
+        json& numbers = runs.emplace_back(json::array());
         for (const Vec3& p : line)
             for (const double mm : raster.plane.to_uv(p)) numbers.push_back(std::round(100 * mm / raster.pixel_mm) / 100);
     }
-    return told;
+    return runs;
 }
 
 /// Lines of the visible surfaces; points of the visible contours that cross the plane, names of those that lie in it.
@@ -168,9 +167,9 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
             }
             return runs;
         };
-        json told{{"structure", id}, {"revision", surface->revision}, {"lines", runs_of(*surface->mesh)}};
-        if (surface->without_image) told["without_image"] = runs_of(*surface->without_image);
-        head["outlines"].push_back(std::move(told));
+        json shown{{"structure", id}, {"revision", surface->revision}, {"lines", runs_of(*surface->mesh)}};
+        if (surface->without_image) shown["without_image"] = runs_of(*surface->without_image);
+        head["outlines"].push_back(std::move(shown));
     }
     for (const auto& [id, contour] : state.contours) {
         if (!contour->visible || !is_visible(contour->structure)) continue;
@@ -187,20 +186,7 @@ void add_outlines(const State& state, const std::map<Id, std::shared_ptr<const S
 
 }  // namespace
 
-void Session::watch(WatchedPlane plane) {
-    const std::scoped_lock lock(watched_mutex_);
-    std::erase_if(watched_, [&](const WatchedPlane& old) { return old.page == plane.page && old.view == plane.view; });
-    if (watched_.size() == kMostWatched) watched_.erase(watched_.begin());
-    watched_.push_back(std::move(plane));
-}
-
-/// In all views, before anybody asks: a page that is busy drawing would come to ask much later.
-void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutters& cut) {
-    std::vector<WatchedPlane> watched;
-    {
-        const std::scoped_lock lock(watched_mutex_);
-        watched = watched_;
-    }
+json outlines_event(const std::vector<WatchedPlane>& watched, Id structure, std::int64_t revision, const PlaneCutters& cut) {
     json views = json::array();
     for (const WatchedPlane& plane : watched) views.push_back({{"view", plane.view}, {"plane", plane.plane}});
     parallel_for(static_cast<std::int64_t>(watched.size()), 1, 0, [&](std::int64_t begin, std::int64_t end) {
@@ -210,13 +196,13 @@ void Session::tell_outlines(Id structure, std::int64_t revision, const PlaneCutt
             if (cut.without_image) views[view]["without_image"] = in_pixels(cut.without_image(raster.plane), raster);
         }
     });
-    tell({{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}});
+    return {{"event", "outlines"}, {"structure", structure}, {"revision", revision}, {"views", std::move(views)}};
 }
 
-std::string Session::slice(std::string_view text) {
+std::string slice_reply(SessionState& s, std::string_view text) {
     const SliceRequest request = parse(text);
-    const std::shared_ptr<const Image> image = image_numbered(request.image, request.time);
-    if (request.outlines) watch({request.page, request.view, request.raster, request.plane});
+    const std::shared_ptr<const Image> image = image_numbered(s, request.image, request.time);
+    if (request.outlines) s.watched.set({request.page, request.view, request.raster, request.plane});
     const EdgeLetters letters = edge_letters(request.raster.plane);
     json head{
         {"width", request.raster.width},
@@ -225,8 +211,8 @@ std::string Session::slice(std::string_view text) {
     head["outlines"] = head["crossings"] = head["contours"] = json::array();
     PixelPoints lines(request.raster), dots(request.raster);
     if (request.outlines)
-        add_outlines(state(), surfaces_.all(), request.raster, slice_step_mm(image_->grid, request.raster.plane.normal),
-                     head, lines, dots);
+        add_outlines(s.state(), s.surfaces.all(), request.raster,
+                     slice_step_mm(s.image.voxels->grid, request.raster.plane.normal), head, lines, dots);
     if (!image) head["gone"] = true;
     const SentPixels sent = image ? sent_pixels(image->grid, request) : SentPixels{};
     CodedValues coded;

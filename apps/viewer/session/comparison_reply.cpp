@@ -8,17 +8,17 @@
 #include "viewer/files/structure_exports.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
-#include "viewer/session/session.h"
+#include "viewer/session/replies.h"
 
 // Two structures, or two readers' drawings of one.
 
 namespace kontur::viewer {
 
-std::string Session::compare(Id first, Id second, const std::stop_token& stop) {
-    State now = state();
+std::string comparison_reply(SessionState& s, Id first, Id second, const std::stop_token& stop) {
+    State now = s.state();
     // Readers are compared by what each has drawn, not by borders that they would share.
     now.borders.shared = false;
-    const Structure a = structure_asked_for(now, first), b = structure_asked_for(now, second);
+    const Structure a = s.present_structure(now, first), b = s.present_structure(now, second);
     if (first == second)
         throw Error(ErrorKind::invalid_input,
                     fmt::format("{} would be compared with itself; 2 structures are needed", a.name));
@@ -26,24 +26,24 @@ std::string Session::compare(Id first, Id second, const std::stop_token& stop) {
         if (contour_set(now, one.id).contours.empty())
             throw Error(ErrorKind::invalid_input,
                         fmt::format("{} has 0 contours; at least 1 is needed to compare it", one.name));
-    const StatusLine line(status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));
-    const auto fitted = [&](Id id) { return fits_.one(now, id, line.work(stop)); };
+    const StatusLine line(s.pages.status_teller(), fmt::format("Comparing {} and {}", a.name, b.name));
+    const auto fitted = [&](Id id) { return s.fits.one(now, id, line.work(stop)); };
     const auto fit_a = fitted(first), fit_b = fitted(second);
     const Comparison found = kontur::compare(fit_a->made.mask, fit_b->made.mask, line.work(stop));
-    nlohmann::json told{{"first", first},
-                        {"second", second},
-                        {"dice", found.dice},
-                        {"jaccard", found.jaccard},
-                        {"volumes_ml", {found.volume_a_ml, found.volume_b_ml}},
-                        {"mean_mm", nullptr},
-                        {"percentile_95_mm", nullptr},
-                        {"largest_mm", nullptr}};
+    nlohmann::json reply{{"first", first},
+                         {"second", second},
+                         {"dice", found.dice},
+                         {"jaccard", found.jaccard},
+                         {"volumes_ml", {found.volume_a_ml, found.volume_b_ml}},
+                         {"mean_mm", nullptr},
+                         {"percentile_95_mm", nullptr},
+                         {"largest_mm", nullptr}};
     if (found.surface) {
-        told["mean_mm"] = found.surface->mean_surface_distance_mm;
-        told["percentile_95_mm"] = found.surface->hausdorff95_mm;
-        told["largest_mm"] = found.surface->hausdorff_mm;
+        reply["mean_mm"] = found.surface->mean_surface_distance_mm;
+        reply["percentile_95_mm"] = found.surface->hausdorff95_mm;
+        reply["largest_mm"] = found.surface->hausdorff_mm;
     }
-    return to_text(told);
+    return to_text(reply);
 }
 
 }  // namespace kontur::viewer

@@ -7,7 +7,8 @@
 #include "kontur/base/error.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/single_points.h"
-#include "viewer/session/session.h"
+#include "viewer/session/calls.h"
+#include "viewer/session/history.h"
 
 // Single points that a structure's surface passes, or that lie inside or outside of it. They are named by where they are:
 // numbers would be others as soon as another page has removed one.
@@ -74,6 +75,55 @@ std::string_view where(PointKind kind) {
     return kind == PointKind::exterior ? "outside of" : "on";
 }
 
+json put_points(SessionState& s, const std::string& label, const Structure& after) {
+    ContourSet set = contour_set(s.project.state(), after.id);
+    if (set.contours.empty()) refuse(after.name + " has no contour yet, and a point alone makes no surface");
+    ContourSet wanted = without_contours(after);
+    wanted.contours = std::move(set.contours);
+    check_single_points(wanted);
+    // Contours that cannot be followed are told with the surface.
+    if (const auto problems = set_problems(wanted); !problems.empty()) refuse(problems.front());
+    commit(s, {label + " " + after.name, {{after.id, structure_of(s.project.state(), after.id), after}}, {}});
+    return {{"structure", to_json(after)}};
+}
+
+json add_single_point(SessionState& s, const Members& m) {
+    Structure structure = structure_of(s.project.state(), m.id("structure"));
+    check_is_new(structure, m.point("at"));
+    append_point(structure, kind_of(m), m.point("at"));
+    return put_points(s, fmt::format("Point {}", where(kind_of(m))), structure);
+}
+
+json move_single_point(SessionState& s, const Members& m) {
+    Structure structure = structure_of(s.project.state(), m.id("structure"));
+    const auto [kind, index] = known_point(structure, m.point("at"));
+    check_is_new(structure, m.point("to"));
+    const auto i = static_cast<std::size_t>(index);
+    // Which way is out was said of another place.
+    if (kind == PointKind::surface) structure.surface_points[i] = {m.point("to"), {}};
+    else side(structure, kind)[i] = m.point("to");
+    return put_points(s, fmt::format("Move a point {}", where(kind)), structure);
+}
+
+json set_single_point(SessionState& s, const Members& m) {
+    Structure structure = structure_of(s.project.state(), m.id("structure"));
+    const FoundPoint point = known_point(structure, m.point("at"));
+    if (point.kind == kind_of(m)) return {{"structure", to_json(structure)}};
+    erase_point(structure, point);
+    append_point(structure, kind_of(m), m.point("at"));
+    return put_points(s, fmt::format("Point {}", where(kind_of(m))), structure);
+}
+
+json remove_single_point(SessionState& s, const Members& m) {
+    Structure structure = structure_of(s.project.state(), m.id("structure"));
+    const FoundPoint point = known_point(structure, m.point("at"));
+    erase_point(structure, point);
+    commit(s, {fmt::format("Remove a point {} {}", where(point.kind), structure.name),
+               {{structure.id, structure_of(s.project.state(), structure.id), structure}},
+               {}});
+    return {{"structure", to_json(structure)}};
+}
+
 }  // namespace
 
 void check_single_points(const ContourSet& set) {
@@ -83,53 +133,11 @@ void check_single_points(const ContourSet& set) {
                     fmt::format("{} has {} single points; the limit is {}", set.name, count, kMostSinglePoints));
 }
 
-json Session::put_points(const std::string& label, const Structure& after) {
-    ContourSet set = contour_set(project_.state(), after.id);
-    if (set.contours.empty()) refuse(after.name + " has no contour yet, and a point alone makes no surface");
-    ContourSet wanted = without_contours(after);
-    wanted.contours = std::move(set.contours);
-    check_single_points(wanted);
-    // Contours that cannot be followed are told with the surface.
-    if (const auto problems = set_problems(wanted); !problems.empty()) refuse(problems.front());
-    commit({label + " " + after.name, {{after.id, structure_of(project_.state(), after.id), after}}, {}});
-    return {{"structure", to_json(after)}};
-}
-
-json Session::add_single_point(const Members& m) {
-    Structure structure = structure_of(project_.state(), m.id("structure"));
-    check_is_new(structure, m.point("at"));
-    append_point(structure, kind_of(m), m.point("at"));
-    return put_points(fmt::format("Point {}", where(kind_of(m))), structure);
-}
-
-json Session::move_single_point(const Members& m) {
-    Structure structure = structure_of(project_.state(), m.id("structure"));
-    const auto [kind, index] = known_point(structure, m.point("at"));
-    check_is_new(structure, m.point("to"));
-    const auto i = static_cast<std::size_t>(index);
-    // Which way is out was said of another place.
-    if (kind == PointKind::surface) structure.surface_points[i] = {m.point("to"), {}};
-    else side(structure, kind)[i] = m.point("to");
-    return put_points(fmt::format("Move a point {}", where(kind)), structure);
-}
-
-json Session::set_single_point(const Members& m) {
-    Structure structure = structure_of(project_.state(), m.id("structure"));
-    const FoundPoint point = known_point(structure, m.point("at"));
-    if (point.kind == kind_of(m)) return {{"structure", to_json(structure)}};
-    erase_point(structure, point);
-    append_point(structure, kind_of(m), m.point("at"));
-    return put_points(fmt::format("Point {}", where(kind_of(m))), structure);
-}
-
-json Session::remove_single_point(const Members& m) {
-    Structure structure = structure_of(project_.state(), m.id("structure"));
-    const FoundPoint point = known_point(structure, m.point("at"));
-    erase_point(structure, point);
-    commit({fmt::format("Remove a point {} {}", where(point.kind), structure.name),
-            {{structure.id, structure_of(project_.state(), structure.id), structure}},
-            {}});
-    return {{"structure", to_json(structure)}};
+Calls point_calls() {
+    return {{"point.add", {add_single_point}},
+            {"point.move", {move_single_point}},
+            {"point.set", {set_single_point}},
+            {"point.remove", {remove_single_point}}};
 }
 
 }  // namespace kontur::viewer

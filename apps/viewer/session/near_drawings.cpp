@@ -6,7 +6,7 @@
 #include "kontur/io/dicom/dicom_drawings.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/temporary_files.h"
-#include "viewer/session/session.h"
+#include "viewer/session/replies.h"
 
 // What others have drawn on a DICOM image, in files near it.
 
@@ -33,26 +33,28 @@ std::vector<DicomDrawing> drawings_of(const DicomSeries& series, const std::stri
 
 }  // namespace
 
-std::string Session::drawings(const std::stop_token& stop) const {
+std::string drawings_reply(const SessionState& s, const std::stop_token& stop) {
     json list = json::array();
-    if (series_)
-        for (const DicomDrawing& one : drawings_of(*series_, frame_of_reference_uid_, {.stop = stop}))
+    if (s.image.series)
+        for (const DicomDrawing& one : drawings_of(*s.image.series, s.image.frame_of_reference_uid, {.stop = stop}))
             list.push_back({{"file", one.file.string()},
                             {"name", one.file.filename().string()},
                             {"modality", one.modality},
                             {"label", one.label},
                             {"structures", one.structures},
-                            {"own_series", is_of(one, *series_)}});
+                            {"own_series", is_of(one, *s.image.series)}});
     return to_text({{"drawings", std::move(list)}});
 }
 
-ImportReply Session::import_near(const fs::path& file, const TraceRequest& trace, bool anyway, const std::stop_token& stop) {
+ImportReply import_near(SessionState& s, const fs::path& file, const Upload& upload, const std::stop_token& stop) {
     std::vector<DicomDrawing> near;
-    if (series_) near = drawings_of(*series_, frame_of_reference_uid_, {.stop = stop});
+    if (s.image.series) near = drawings_of(*s.image.series, s.image.frame_of_reference_uid, {.stop = stop});
     if (std::ranges::find(near, file, &DicomDrawing::file) == near.end())
         throw Error(ErrorKind::invalid_input, "no such structure set or segmentation lies near the image");
-    const Upload upload{.extension = ".dcm", .trace = trace, .anyway = anyway, .file = file.filename().string()};
-    return import(read_bytes(file), upload, stop);
+    Upload found = upload;
+    found.extension = ".dcm";
+    found.file = file.filename().string();
+    return import(s, read_bytes(file), found, stop);
 }
 
 }  // namespace kontur::viewer

@@ -7,7 +7,7 @@
 #include "viewer/files/structure_exports.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
-#include "viewer/session/session.h"
+#include "viewer/session/replies.h"
 
 // What is measured of all structures, in both images where there are two.
 
@@ -41,20 +41,20 @@ json row_json(const FittedStructure& one, const Image& image) {
 
 }  // namespace
 
-std::string Session::statistics(const std::stop_token& stop) {
-    const StatusLine line(status_teller(), "Measuring");
-    const State now = state();
-    const std::shared_ptr<const FurtherImage> second = second_image();
-    const KeptFits::Fits fits = fits_.all(now, line.work(stop));
+std::string statistics_reply(SessionState& s, const std::stop_token& stop) {
+    const StatusLine line(s.pages.status_teller(), "Measuring");
+    const State now = s.state();
+    const std::shared_ptr<const FurtherImage> second = s.second.get();
+    const ExportFits::Fits fits = s.fits.all(now, line.work(stop));
     const std::vector<FittedStructure>& all = *fits;
     json rows = json::array();
-    for (const FittedStructure& one : all) rows.push_back(row_json(one, *image_));
-    json told{{"unit", unit()}};
+    for (const FittedStructure& one : all) rows.push_back(row_json(one, *s.image.voxels));
+    json reply{{"unit", s.image.unit}};
     if (second) {
         const Image& other = *second->opened.image;
-        const bool is_same_grid = other.grid == image_->grid;
-        const auto refitted =
-            is_same_grid ? std::vector<FittedStructure>{} : fit_structures_on(other.grid, now, *image_, line.work(stop));
+        const bool is_same_grid = other.grid == s.image.voxels->grid;
+        const auto refitted = is_same_grid ? std::vector<FittedStructure>{}
+                                           : fit_structures_on(other.grid, now, *s.image.voxels, line.work(stop));
         const std::vector<FittedStructure>& on_other = is_same_grid ? all : refitted;
         for (json& row : rows) row["second"] = {{"voxels", 0}};
         for (std::size_t n = 0, row = 0; n < on_other.size(); ++n, ++row) {
@@ -62,10 +62,10 @@ std::string Session::statistics(const std::stop_token& stop) {
             rows[row]["second"] = values_json(value_statistics(on_other[n].made.mask, other));
             rows[row]["second"]["points_beyond"] = points_outside(on_other[n].set, other.grid);
         }
-        told["second"] = {{"modality", second->opened.identity.modality}, {"unit", second->unit}};
+        reply["second"] = {{"modality", second->opened.identity.modality}, {"unit", second->unit}};
     }
-    told["structures"] = std::move(rows);
-    return to_text(told);
+    reply["structures"] = std::move(rows);
+    return to_text(reply);
 }
 
 }  // namespace kontur::viewer

@@ -15,11 +15,11 @@ namespace kontur::viewer {
 /// Structures as files, tables and comparisons need them, with surfaces. What was fitted last is kept, so that a drawing
 /// that goes out as label map, SEG, RTSTRUCT and surfaces is fitted once; what has been drawn since is fitted anew. Safe for
 /// concurrent use: two that ask at the same moment both fit.
-class KeptFits {
+class ExportFits {
 public:
     using Fits = std::shared_ptr<const std::vector<FittedStructure>>;
 
-    explicit KeptFits(std::shared_ptr<const Image> image) : image_(std::move(image)) {}
+    explicit ExportFits(std::shared_ptr<const Image> image) : image_(std::move(image)) {}
 
     /// As `fit_structures`.
     Fits all(const State& state, const Work& work);

@@ -5,7 +5,8 @@
 #include "kontur/sureness/surface_uncertainty.h"
 #include "viewer/model/binary_reply.h"
 #include "viewer/model/model_json.h"
-#include "viewer/session/session.h"
+#include "viewer/session/events.h"
+#include "viewer/session/replies.h"
 #include "viewer/surfaces/mesh_code.h"
 
 // The surface of a structure, as numbers or in few bytes.
@@ -52,13 +53,13 @@ std::string as_code(nlohmann::json head, const TriangleMesh& mesh, const std::ve
 
 }  // namespace
 
-std::string Session::mesh(Id structure, bool coded, const MeshExtras& extras) {
-    const auto surfaces = surfaces_.all();
+std::string mesh_reply(const SessionState& s, Id structure, bool coded, const MeshExtras& extras) {
+    const auto surfaces = s.surfaces.all();
     const Surface none;
     const TriangleMesh no_mesh;
     const auto surface_of = [&](Id id) -> const Surface& {
         const auto found = surfaces.find(id);
-        const bool is_there = found != surfaces.end() && found->second->mesh && state().structures.contains(id);
+        const bool is_there = found != surfaces.end() && found->second->mesh && s.state().structures.contains(id);
         return is_there ? *found->second : none;
     };
     const auto mesh_of = [&](const Surface& shown) -> const TriangleMesh& { return shown.mesh ? *shown.mesh : no_mesh; };
@@ -66,7 +67,7 @@ std::string Session::mesh(Id structure, bool coded, const MeshExtras& extras) {
     const TriangleMesh& mesh = mesh_of(surface);
     std::vector<double> widths_mm;
     if (extras.widths && surface.evidence && has_full_resolution(surface.stage))
-        widths_mm = half_widths_mm(evidence_of(surface), mesh.points);
+        widths_mm = half_widths_mm(evidence_of(s, surface), mesh.points);
     nlohmann::json head{
         {"structure", structure}, {"revision", surface.revision}, {"stage", std::string(name(surface.stage))}};
     if (!coded) return as_numbers(std::move(head), mesh, widths_mm);

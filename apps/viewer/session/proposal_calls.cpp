@@ -6,9 +6,11 @@
 #include "kontur/base/error.h"
 #include "kontur/sureness/suggest_plane.h"
 #include "viewer/edits/proposed_lines.h"
+#include "viewer/edits/sketch.h"
 #include "viewer/edits/snapped_line.h"
 #include "viewer/model/model_json.h"
-#include "viewer/session/session.h"
+#include "viewer/session/calls.h"
+#include "viewer/session/events.h"
 
 // Where to draw next, and what is proposed there.
 
@@ -55,56 +57,58 @@ const DrawnContour* neighbour_of(const std::vector<Vec3>& line, Id structure, co
     return nearest == near.end() ? nullptr : *nearest;
 }
 
-}  // namespace
-
 /// What is fitted on a slice that no view shows yet.
-json Session::outline_of(const Members& m) {
+json outline_of(SessionState& s, const Members& m) {
     const Id structure = m.id("structure");
     const Plane plane = m.plane("plane");
-    const auto surfaces = surfaces_.all();
+    const auto surfaces = s.surfaces.all();
     const auto found = surfaces.find(structure);
     json lines = json::array();
     if (found == surfaces.end() || !found->second->mesh) return {{"lines", std::move(lines)}};
-    const State now = state();
-    const bool snaps = m.flag_or("snap", false) && shows_borders_ && now.use_image;
-    const Vec3 spacing = image_->grid.spacing_mm();
+    const State now = s.state();
+    const bool snaps = m.flag_or("snap", false) && s.image.shows_borders && now.use_image;
+    const Vec3 spacing = s.image.voxels->grid.spacing_mm();
     const double most_mm = kMostSlicesApart * std::max({spacing.x, spacing.y, spacing.z});
     for (Polyline& line : proposed_lines(*found->second->mesh, plane)) {
         const DrawnContour* beside = snaps ? neighbour_of(line.points, structure, plane, now, most_mm) : nullptr;
-        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *image_));
+        if (beside) line.points = thinned(snapped_line(line.points, plane, beside->points, beside->plane, *s.image.voxels));
         lines.push_back(to_json(line.points));
     }
     return {{"lines", std::move(lines)}};
 }
 
-SurfaceEvidence Session::evidence_of(const Surface& surface) const {
-    SurfaceEvidence evidence = *surface.evidence;
-    const Vec3 spacing = image_->grid.spacing_mm();
-    evidence.voxel_mm = std::min({spacing.x, spacing.y, spacing.z});
-    return evidence;
-}
-
-json Session::suggest(const Members& m) {
+json suggest(SessionState& s, const Members& m) {
     const Id structure = m.id("structure");
     SuggestPlaneOptions options{.planes = m.flag_or("slices", false) ? PlaneChoice::image_slices : PlaneChoice::any};
     if (m.has("skip")) options.avoid = m.planes("skip");
-    options.grid = image_->grid;
-    const auto surfaces = surfaces_.all();
+    options.grid = s.image.voxels->grid;
+    const auto surfaces = s.surfaces.all();
     const auto found = surfaces.find(structure);
     json planes = json::array();
     // While contours change there is no surface of them yet, and none to suggest a plane for.
     if (found == surfaces.end() || !found->second->evidence || !has_full_resolution(found->second->stage))
         return {{"planes", planes}};
     const Surface& surface = *found->second;
-    for (const SuggestedPlane& one : suggest_planes(evidence_of(surface), *surface.drawn, 1, options).planes) {
+    for (const SuggestedPlane& one : suggest_planes(evidence_of(s, surface), *surface.drawn, 1, options).planes) {
         json lines = json::array();
         for (const Polyline& line : proposed_lines(*surface.mesh, one.plane)) lines.push_back(to_json(line.points));
-        json told{{"plane", to_json(one.plane)}, {"gain", one.gain}, {"lines", std::move(lines)}};
-        if (one.slice) told["slice"] = {{"axis", one.slice->axis}, {"index", one.slice->index}};
-        if (one.after.value > 0) told["expected_dice"] = to_json(one.after);
-        planes.push_back(std::move(told));
+        json proposal{{"plane", to_json(one.plane)}, {"gain", one.gain}, {"lines", std::move(lines)}};
+        if (one.slice) proposal["slice"] = {{"axis", one.slice->axis}, {"index", one.slice->index}};
+        if (one.after.value > 0) proposal["expected_dice"] = to_json(one.after);
+        planes.push_back(std::move(proposal));
     }
     return {{"planes", std::move(planes)}};
+}
+
+}  // namespace
+
+Calls proposal_calls() { return {{"outline", {outline_of, false}}, {"suggest", {suggest, false}}}; }
+
+SurfaceEvidence evidence_of(const SessionState& s, const Surface& surface) {
+    SurfaceEvidence evidence = *surface.evidence;
+    const Vec3 spacing = s.image.voxels->grid.spacing_mm();
+    evidence.voxel_mm = std::min({spacing.x, spacing.y, spacing.z});
+    return evidence;
 }
 
 }  // namespace kontur::viewer

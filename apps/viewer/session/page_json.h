@@ -10,7 +10,7 @@ namespace kontur::viewer {
 
 /// Objects as pages are told of them: with what they show and no project need store. For one message, which must not take
 /// seconds where a project holds millions of points: beyond some 100,000 contours count as crossing themselves nowhere.
-class Told {
+class PageJson {
 public:
     nlohmann::json operator()(const Structure& structure);
     nlohmann::json operator()(const DrawnContour& contour);

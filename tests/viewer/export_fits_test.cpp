@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/files/kept_fits.h"
+#include "viewer/files/export_fits.h"
 
 #include <gtest/gtest.h>
 
@@ -32,29 +32,29 @@ State with_larger_left(State state) {
     return state;
 }
 
-TEST(KeptFits, WhatIsDrawnTheSameIsFittedOnce) {
+TEST(ExportFits, WhatIsDrawnTheSameIsFittedOnce) {
     for (const bool shares : {false, true}) {
-        KeptFits fits(test::flat_image());
+        ExportFits fits(test::flat_image());
         const State state = two_circles(shares);
-        const KeptFits::Fits first = fits.all(state, {});
+        const ExportFits::Fits first = fits.all(state, {});
         ASSERT_EQ(first->size(), 2u);
         EXPECT_EQ(fits.all(two_circles(shares), {}), first) << "other contours of the same points";
-        const KeptFits::Fits second = fits.all(with_larger_left(state), {});
+        const ExportFits::Fits second = fits.all(with_larger_left(state), {});
         EXPECT_NE(second, first);
         EXPECT_NE(second->front().made.mask.values, first->front().made.mask.values);
         EXPECT_EQ(fits.all(state, {}), first) << "after undo";
     }
 }
 
-TEST(KeptFits, AStructureIsTheOneOfAllWhereBordersAreShared) {
-    KeptFits fits(test::flat_image());
+TEST(ExportFits, AStructureIsTheOneOfAllWhereBordersAreShared) {
+    ExportFits fits(test::flat_image());
     const State state = two_circles(true);
-    const KeptFits::Fits all = fits.all(state, {});
+    const ExportFits::Fits all = fits.all(state, {});
     EXPECT_EQ(fits.one(state, 4, {}).get(), &all->back());
 }
 
-TEST(KeptFits, AStructureAloneStaysWhileOthersChange) {
-    KeptFits fits(test::flat_image());
+TEST(ExportFits, AStructureAloneStaysWhileOthersChange) {
+    ExportFits fits(test::flat_image());
     const State state = two_circles(false);
     const auto right = fits.one(state, 4, {});
     EXPECT_EQ(right->structure.name, "Right");
@@ -64,8 +64,8 @@ TEST(KeptFits, AStructureAloneStaysWhileOthersChange) {
     EXPECT_EQ(fits.one(renamed, 4, {})->structure.name, "Other");
 }
 
-TEST(KeptFits, TellsWhatHasNoContours) {
-    KeptFits fits(test::flat_image());
+TEST(ExportFits, TellsWhatHasNoContours) {
+    ExportFits fits(test::flat_image());
     State state = two_circles(false);
     state.contours.clear();
     EXPECT_KONTUR_ERROR(fits.all(state, {}), ErrorKind::invalid_input, "no structure has contours");

@@ -21,7 +21,7 @@
 #include "viewer/model/model_json.h"
 #include "viewer/model/status_line.h"
 #include "viewer/model/temporary_files.h"
-#include "viewer/session/session.h"
+#include "viewer/session/replies.h"
 
 // What leaves the session as files and comes in as files.
 
@@ -81,32 +81,33 @@ std::string without_ending(const std::string& file, const std::string& ending) {
 
 }  // namespace
 
-Download Session::exported(const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
-    const StatusLine line(status_teller(), "Exporting " + name);
+Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const std::stop_token& stop) {
+    const StatusLine line(s.pages.status_teller(), "Exporting " + name);
     const TemporaryFolder folder;
     const fs::path path = folder.path() / name;
     Download download{name, "application/octet-stream", {}};
     if (name == "project.kontur") {
-        const std::scoped_lock lock(mutex_);
-        project_.copy_to(path);
-        download.file_name = file_name(project_.path().stem().string(), name);
+        const std::scoped_lock lock(s.mutex);
+        s.project.copy_to(path);
+        download.file_name = file_name(s.project.path().stem().string(), name);
     } else if (is_export_of_all(name)) {
-        const KeptFits::Fits all = fits_.all(state(), line.work(stop));
-        for (const std::string& note : write_structures(path, name, *all, series_, line.work(stop))) notice("info", note);
-        download.file_name = plain_name(project_path().stem().string()) + "_" + name;
+        const ExportFits::Fits all = s.fits.all(s.state(), line.work(stop));
+        for (const std::string& note : write_structures(path, name, *all, s.image.series, line.work(stop)))
+            s.pages.notice("info", note);
+        download.file_name = plain_name(s.project.path().stem().string()) + "_" + name;
     } else {
         if (!structure) throw Error(ErrorKind::invalid_input, fmt::format("{} needs a structure", name));
         const auto [now, image] = [&] {
-            const std::scoped_lock lock(mutex_);
-            return std::pair(project_.state(), project_.image());
+            const std::scoped_lock lock(s.mutex);
+            return std::pair(s.project.state(), s.project.image());
         }();
-        const Structure& chosen = structure_asked_for(now, *structure);
+        const Structure& chosen = s.present_structure(now, *structure);
         const ContourSet set = contour_set(now, *structure);
-        const auto made = [&, &now = now] { return fits_.one(now, *structure, line.work(stop)); };
+        const auto made = [&, &now = now] { return s.fits.one(now, *structure, line.work(stop)); };
         if (is_one_of(name, kMasks)) write_mask_file(path, *made());
         else if (is_one_of(name, kMeshes)) write_mesh_file(path, *made());
         else if (is_one_of(name, kContours)) write_contours(path, set, provenance_of_drawing(set, image));
-        else if (name == "picture.png") write_picture(path, *made(), *image_);
+        else if (name == "picture.png") write_picture(path, *made(), *s.image.voxels);
         else throw Error(ErrorKind::unsupported, "there is no export of this name");
         download.file_name = file_name(chosen.name, name);
     }
@@ -114,19 +115,20 @@ Download Session::exported(const std::string& name, std::optional<Id> structure,
     return download;
 }
 
-ImportReply Session::import(const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
-    const StatusLine line(status_teller(), "Importing");
+ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const std::stop_token& stop) {
+    const StatusLine line(s.pages.status_teller(), "Importing");
     const Work work{.stop = stop};
     Imported imported = import_apart(bytes, upload, work);
     work.check();
     for (ContourSet& set : imported.sets)
         if (set.name.empty()) set.name = without_ending(upload.file, upload.extension);
     if (!upload.anyway) {
-        auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, image_->grid, frame_of_reference_uid_);
+        auto doubts = import_doubts(imported.sets, imported.frame_of_reference_uid, s.image.voxels->grid,
+                                    s.image.frame_of_reference_uid);
         if (!doubts.empty()) return {{}, std::move(doubts), {}};
     }
     const bool is_mask = upload.content == Upload::Content::mask;
-    return {add_structures(is_mask ? "Import a mask" : "Import contours", imported.sets), {}, imported.notes};
+    return {add_structures(s, is_mask ? "Import a mask" : "Import contours", imported.sets), {}, imported.notes};
 }
 
 }  // namespace kontur::viewer

@@ -11,8 +11,10 @@
 #include "kontur/base/error.h"
 #include "viewer/edits/contour_edits.h"
 #include "viewer/model/model_json.h"
-#include "viewer/session/session.h"
-#include "viewer/session/told.h"
+#include "viewer/session/calls.h"
+#include "viewer/session/events.h"
+#include "viewer/session/history.h"
+#include "viewer/session/page_json.h"
 
 // Calls that draw contours and change them.
 
@@ -81,7 +83,7 @@ void set_marks(DrawnContour& contour, const Members& m) {
 }
 
 /// The line closed or opened, if the message says so, and its marks set.
-DrawnContour as_told(const DrawnContour& before, const Members& m, SliceEdges& edges) {
+DrawnContour with_changes(const DrawnContour& before, const Members& m, SliceEdges& edges) {
     std::optional<Vec3> at;
     if (m.has("at")) at = m.point("at");
     DrawnContour after = before;
@@ -105,90 +107,87 @@ Commit one_contour(const std::string& label, const State& state, const DrawnCont
     return {label, {}, {change}};
 }
 
-}  // namespace
-
-json Session::path(const Members& m) {
+json path(SessionState& s, const Members& m) {
     const Members plane(m.at("plane"));
     SketchOptions options;
     options.closed = m.flag_or("closed", false);
     options.snap = m.flag_or("snap", true);
     options.snap_radius_mm = snap_radius_mm(plane);
-    const Drawing drawing = draw(sketch_from(m), m.plane("plane"), edges_, options);
+    const PlacedSketch drawing = draw(sketch_from(m), m.plane("plane"), s.edges, options);
     json control = json::array();
     for (const ControlPoint& c : drawing.control) control.push_back(to_json(c));
     return {{"points", to_json(drawing.points)}, {"control", std::move(control)}};
 }
 
-json Session::put(const std::string& label, DrawnContour contour, const Members& m) {
-    std::vector<DrawnContour> carried = carried_with(contour);
-    json result{{"contour", Told()(contour)}, {"carried", json::array()}};
-    for (const DrawnContour& other : carried) result["carried"].push_back(Told()(other));
+/// Stores a new or changed contour, or only shows it when the call is a draft.
+json put(SessionState& s, const std::string& label, DrawnContour contour, const Members& m) {
+    std::vector<DrawnContour> carried = carried_with(s, contour);
+    json result{{"contour", PageJson()(contour)}, {"carried", json::array()}};
+    for (const DrawnContour& other : carried) result["carried"].push_back(PageJson()(other));
     if (m.flag_or("draft", false)) {
-        std::set<Id> touched = drafted();
-        draft_ = std::move(contour);
-        carried_ = std::move(carried);
-        draft_owner_ = caller_;
-        touched.merge(drafted());
-        for (const Id id : touched) follow(id);
+        std::set<Id> touched = drafted(s);
+        s.draft = Draft{std::move(contour), std::move(carried), s.caller};
+        touched.merge(drafted(s));
+        for (const Id id : touched) follow(s, id);
         return result;
     }
-    if (contour.id == 0) result["contour"]["id"] = contour.id = project_.new_id();
-    Commit step = one_contour(label, project_.state(), contour);
+    if (contour.id == 0) result["contour"]["id"] = contour.id = s.project.new_id();
+    Commit step = one_contour(label, s.project.state(), contour);
     for (DrawnContour& other : carried)
-        step.contours.push_back({other.id, contour_of(project_.state(), other.id), std::move(other)});
-    commit_ahead(step);
+        step.contours.push_back({other.id, contour_of(s.project.state(), other.id), std::move(other)});
+    commit_ahead(s, step);
     return result;
 }
 
-json Session::add_contour(const Members& m) {
+json add_contour(SessionState& s, const Members& m) {
     SketchOptions options;
     // The page sends control points that `path` has snapped already.
     options.snap = false;
     options.closed = m.flag_or("closed", true);
     const Plane plane = m.plane("plane");  // of two wrong members every compiler's program names the same
-    DrawnContour contour = draw_contour(sketch_from(m), plane, edges_, options);
-    contour.structure = structure_of(project_.state(), m.id("structure")).id;
+    DrawnContour contour = draw_contour(sketch_from(m), plane, s.edges, options);
+    contour.structure = structure_of(s.project.state(), m.id("structure")).id;
     set_marks(contour, m);
-    return put(label_of(m.has("origin") ? m.text("origin", 16) : "drawn"), std::move(contour), m);
+    return put(s, label_of(m.has("origin") ? m.text("origin", 16) : "drawn"), std::move(contour), m);
 }
 
-json Session::move_control_point(const Members& m) {
+json move_control_point(SessionState& s, const Members& m) {
     SketchOptions options;
     options.snap_radius_mm = snap_radius_mm(m);
-    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
     const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
-    return put("Move a point", move_point(contour, index, m.point("to"), edges_, options), m);
+    return put(s, "Move a point", move_point(contour, index, m.point("to"), s.edges, options), m);
 }
 
-json Session::insert_control_point(const Members& m) {
-    return put("Insert a point", insert_point(contour_of(project_.state(), m.id("id")), m.point("at"), edges_), m);
+json insert_control_point(SessionState& s, const Members& m) {
+    return put(s, "Insert a point", insert_point(contour_of(s.project.state(), m.id("id")), m.point("at"), s.edges), m);
 }
 
-json Session::delete_control_point(const Members& m) {
+json delete_control_point(SessionState& s, const Members& m) {
     const auto index = static_cast<std::size_t>(m.integer("index", 0, kMostPoints));
-    return put("Delete a point", delete_point(contour_of(project_.state(), m.id("id")), index, edges_), m);
+    return put(s, "Delete a point", delete_point(contour_of(s.project.state(), m.id("id")), index, s.edges), m);
 }
 
-json Session::pull_contour(const Members& m) {
+json pull_contour(SessionState& s, const Members& m) {
     std::optional<double> radius;
     if (m.has("radius_mm")) radius = m.number("radius_mm");
-    return put("Bend a contour",
-               pull(contour_of(project_.state(), m.id("id")), m.point("from"), m.point("to"), radius, edges_), m);
+    return put(s, "Bend a contour",
+               pull(contour_of(s.project.state(), m.id("id")), m.point("from"), m.point("to"), radius, s.edges), m);
 }
 
-json Session::redraw_contour(const Members& m) {
-    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+json redraw_contour(SessionState& s, const Members& m) {
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
     const std::vector<Vec3> path = m.points("path");
     const bool whole = m.flag_or("whole", false);
-    return put("Redraw a part", whole ? redraw_whole(contour, path, edges_) : redraw(contour, path, edges_), m);
+    return put(s, "Redraw a part", whole ? redraw_whole(contour, path, s.edges) : redraw(contour, path, s.edges), m);
 }
 
-json Session::translate_contour(const Members& m) {
-    return put("Move a contour", translate(contour_of(project_.state(), m.id("id")), m.point("by")), m);
+json translate_contour(SessionState& s, const Members& m) {
+    return put(s, "Move a contour", translate(contour_of(s.project.state(), m.id("id")), m.point("by")), m);
 }
 
-json Session::copy_contour(const Members& m) {
-    const DrawnContour& contour = contour_of(project_.state(), m.id("id"));
+json copy_contour(SessionState& s, const Members& m) {
+    const DrawnContour& contour = contour_of(s.project.state(), m.id("id"));
     double offset_mm = 0;
     if (m.has("plane")) {
         const Plane target = m.plane("plane");
@@ -200,36 +199,52 @@ json Session::copy_contour(const Members& m) {
     }
     DrawnContour copy = offset(contour, offset_mm);
     copy.id = 0;
-    return put("Copy a contour", std::move(copy), m);
+    return put(s, "Copy a contour", std::move(copy), m);
 }
 
-/// One contour, or several as one step.
-json Session::set_contour(const Members& m) {
-    if (m.has("ids")) return set_contours(m);
-    if (m.has("structure")) structure_of(project_.state(), m.id("structure"));
-    return put(label_of_marks(m), as_told(contour_of(project_.state(), m.id("id")), m, edges_), m);
-}
-
-json Session::set_contours(const Members& m) {
+json set_contours(SessionState& s, const Members& m) {
     Commit changed;
-    if (m.has("structure")) structure_of(project_.state(), m.id("structure"));
+    if (m.has("structure")) structure_of(s.project.state(), m.id("structure"));
     for (const Id id : ids_from(m)) {
-        const DrawnContour& before = contour_of(project_.state(), id);
-        changed.contours.push_back({id, before, as_told(before, m, edges_)});
+        const DrawnContour& before = contour_of(s.project.state(), id);
+        changed.contours.push_back({id, before, with_changes(before, m, s.edges)});
     }
     changed.label =
         fmt::format("{} {}", m.has("visible") ? "Show or hide" : "Change", counted(changed.contours.size(), "contour"));
-    commit(changed);
+    commit(s, changed);
     return json::object();
 }
 
-json Session::remove_contours(const Members& m) {
+/// One contour, or several as one step.
+json set_contour(SessionState& s, const Members& m) {
+    if (m.has("ids")) return set_contours(s, m);
+    if (m.has("structure")) structure_of(s.project.state(), m.id("structure"));
+    return put(s, label_of_marks(m), with_changes(contour_of(s.project.state(), m.id("id")), m, s.edges), m);
+}
+
+json remove_contours(SessionState& s, const Members& m) {
     Commit removed;
-    for (const Id id : ids_from(m)) removed.contours.push_back({id, contour_of(project_.state(), id), {}});
+    for (const Id id : ids_from(m)) removed.contours.push_back({id, contour_of(s.project.state(), id), {}});
     removed.label =
         removed.contours.size() == 1 ? "Delete a contour" : fmt::format("Delete {} contours", removed.contours.size());
-    commit(removed);
+    commit(s, removed);
     return json::object();
+}
+
+}  // namespace
+
+Calls contour_calls() {
+    return {{"path", {path, false}},
+            {"contour.add", {add_contour}},
+            {"contour.move_point", {move_control_point}},
+            {"contour.insert_point", {insert_control_point}},
+            {"contour.delete_point", {delete_control_point}},
+            {"contour.pull", {pull_contour}},
+            {"contour.redraw", {redraw_contour}},
+            {"contour.translate", {translate_contour}},
+            {"contour.copy", {copy_contour}},
+            {"contour.set", {set_contour}},
+            {"contour.remove", {remove_contours}}};
 }
 
 }  // namespace kontur::viewer

@@ -11,7 +11,9 @@
 #include "viewer/model/file_names.h"
 #include "viewer/model/model_json.h"
 #include "viewer/model/single_points.h"
-#include "viewer/session/session.h"
+#include "viewer/session/calls.h"
+#include "viewer/session/history.h"
+#include "viewer/session/replies.h"
 
 // Structures: made, named, imported, removed.
 
@@ -23,7 +25,7 @@ using nlohmann::json;
 constexpr std::size_t kLongestName = 100;                ///< of imports
 constexpr std::size_t kMostPointsOfProject = 2'000'000;  ///< of imports: a page is told all of them at once
 
-/// Told apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
+/// PageJson apart by people with any colour vision, on a dark ground (Okabe and Ito's palette, the dark ones left out).
 constexpr std::array kColors{"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7"};
 
 /// A file's name for a structure: whole characters of UTF-8.
@@ -60,19 +62,17 @@ std::optional<Structure> placeholder(const State& state) {
     return only == untouched ? std::optional(only) : std::nullopt;
 }
 
-}  // namespace
-
-json Session::add_structure(const Members& m) {
+json add_structure(SessionState& s, const Members& m) {
     Structure structure;
-    structure.name = m.has("name") ? m.text("name", kMostNameBytes) : free_name(project_.state());
-    structure.color = m.has("color") ? m.color("color") : next_color(project_.state());
-    structure.id = project_.new_id();
-    commit({"Add " + structure.name, {{structure.id, {}, structure}}, {}});
+    structure.name = m.has("name") ? m.text("name", kMostNameBytes) : free_name(s.project.state());
+    structure.color = m.has("color") ? m.color("color") : next_color(s.project.state());
+    structure.id = s.project.new_id();
+    commit(s, {"Add " + structure.name, {{structure.id, {}, structure}}, {}});
     return {{"structure", to_json(structure)}};
 }
 
-json Session::set_structure(const Members& m) {
-    const Structure before = structure_of(project_.state(), m.id("id"));
+json set_structure(SessionState& s, const Members& m) {
+    const Structure before = structure_of(s.project.state(), m.id("id"));
     Structure after = before;
     if (m.has("name")) after.name = m.text("name", kMostNameBytes);
     if (m.has("color")) after.color = m.color("color");
@@ -85,22 +85,22 @@ json Session::set_structure(const Members& m) {
     if (after.smoothing != before.smoothing) label = "Smoothing of " + after.name;
     if (after.color != before.color) label = "Colour " + after.name;
     if (after.name != before.name) label = "Rename " + before.name;
-    commit({label, {{after.id, before, after}}, {}});
+    commit(s, {label, {{after.id, before, after}}, {}});
     return {{"structure", to_json(after)}};
 }
 
-json Session::remove_structure(const Members& m) {
-    const Structure structure = structure_of(project_.state(), m.id("id"));
+json remove_structure(SessionState& s, const Members& m) {
+    const Structure structure = structure_of(s.project.state(), m.id("id"));
     Commit removed{"Delete " + structure.name, {{structure.id, structure, {}}}, {}};
-    for (const auto& [id, contour] : project_.state().contours)
+    for (const auto& [id, contour] : s.project.state().contours)
         if (contour->structure == structure.id) removed.contours.push_back({id, *contour, {}});
-    commit(removed);
+    commit(s, removed);
     return json::object();
 }
 
-Commit Session::new_structures(const std::string& label, const std::vector<ContourSet>& sets) {
+Commit new_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets) {
     Commit added{label, {}, {}};
-    State state = project_.state();
+    State state = s.project.state();
     if (const auto unused = placeholder(state)) {
         added.structures.push_back({unused->id, unused, {}});
         state.structures.clear();
@@ -108,7 +108,7 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
     std::size_t points = 0;
     for (const auto& [id, contour] : state.contours) points += contour->points.size();
     for (const ContourSet& set : sets) {
-        Structure structure{project_.new_id(), name_from(set.name), next_color(state), true, set.empty_planes};
+        Structure structure{s.project.new_id(), name_from(set.name), next_color(state), true, set.empty_planes};
         check_single_points(set);
         structure.surface_points = set.surface;
         structure.interior = set.interior;
@@ -121,7 +121,7 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
         for (const Contour& contour : set.contours) {
             points += contour.points.size();
             DrawnContour drawn = as_drawn(contour);
-            drawn.id = project_.new_id();
+            drawn.id = s.project.new_id();
             drawn.structure = structure.id;
             added.contours.push_back({drawn.id, {}, std::move(drawn)});
         }
@@ -132,26 +132,33 @@ Commit Session::new_structures(const std::string& label, const std::vector<Conto
     return added;
 }
 
-std::vector<Id> Session::add_structures(const std::string& label, const std::vector<ContourSet>& sets) {
-    const std::scoped_lock lock(mutex_);
-    const Commit added = new_structures(label, sets);
-    clear_draft();
-    project_.commit(added);
-    tell_changes(added);
+}  // namespace
+
+Calls structure_calls() {
+    return {
+        {"structure.add", {add_structure}}, {"structure.set", {set_structure}}, {"structure.remove", {remove_structure}}};
+}
+
+std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets) {
+    const std::scoped_lock lock(s.mutex);
+    const Commit added = new_structures(s, label, sets);
+    clear_draft(s);
+    s.project.commit(added);
+    tell_changes(s, added);
     std::vector<Id> ids;
     for (const Change<Structure>& change : added.structures) {
         if (!change.after) continue;
         ids.push_back(change.id);
-        surfaces_.follow_later(surface_task(change.id));
+        s.surfaces.follow_later(surface_task(s, change.id));
     }
     return ids;
 }
 
-void Session::begin_with(const std::vector<ContourSet>& sets) {
-    const std::scoped_lock lock(mutex_);
-    const Commit first = new_structures({}, sets);
-    project_.begin_with(first);
-    for (const Change<Structure>& change : first.structures) surfaces_.follow_later(surface_task(change.id));
+void begin_with(SessionState& s, const std::vector<ContourSet>& sets) {
+    const std::scoped_lock lock(s.mutex);
+    const Commit first = new_structures(s, {}, sets);
+    s.project.begin_with(first);
+    for (const Change<Structure>& change : first.structures) s.surfaces.follow_later(surface_task(s, change.id));
 }
 
 }  // namespace kontur::viewer

@@ -8,8 +8,11 @@
 #include "kontur/base/error.h"
 #include "kontur/sureness/surface_uncertainty.h"
 #include "viewer/model/model_json.h"
-#include "viewer/session/session.h"
-#include "viewer/session/told.h"
+#include "viewer/session/calls.h"
+#include "viewer/session/events.h"
+#include "viewer/session/history.h"
+#include "viewer/session/page_json.h"
+#include "viewer/session/replies.h"
 
 // What a page is told when it comes, and what it keeps here.
 
@@ -46,61 +49,9 @@ json corners_json(const Grid& grid) {
     return corners;
 }
 
-}  // namespace
-
-std::string Session::greeting(const json& more) {
-    const std::scoped_lock lock(mutex_);
-    json structures = json::array(), contours = json::array(), surfaces = json::array();
-    Told told;
-    for (const auto& [id, structure] : project_.state().structures) structures.push_back(to_json(structure));
-    for (const auto& [id, contour] : project_.state().contours) contours.push_back(told(*contour));
-    for (const auto& [id, surface] : surfaces_.all())
-        if (project_.state().structures.contains(id)) surfaces.push_back(surface_event(*surface));
-    const Grid& grid = image_->grid;
-    const ViewNames names = view_names(grid);
-    json event{{"event", "session"},
-               {"version", KONTUR_VERSION},
-               {"title", title_},
-               {"project", project_.path().filename().string()},
-               {"read_only", project_.is_read_only()},
-               {"image",
-                {{"size", {grid.size.i, grid.size.j, grid.size.k}},
-                 {"spacing_mm", to_json(grid.spacing_mm())},
-                 {"corners", corners_json(grid)},
-                 {"center", to_json(grid.bounds_mm().center())},
-                 {"unit", unit()},
-                 {"range", {range_.first, range_.second}},
-                 {"times", times_.count()},
-                 {"time", times_.own()},
-                 {"notes", notes_}}},
-               {"identity", to_json(identity_)},
-               {"images", further_images()},
-               {"has_dicom", series_.has_value()},
-               {"window", {{"center", window_.center}, {"width", window_.width}}},
-               {"presets", to_json(presets_)},
-               {"views", views_json(grid, names)},
-               {"first_view", kViews[static_cast<std::size_t>(names.first)]},
-               {"structures", structures},
-               {"contours", contours},
-               {"surfaces", surfaces},
-               {"borders", to_json(project_.state().borders)},
-               {"use_image", use_image()},
-               {"border_pairs", borders_found(surfaces_.border_pairs())},
-               {"history", history()},
-               {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
-               {"page", page_state()}};
-    event.update(more);
-    return to_text(event);
-}
-
-std::string Session::modality() const {
-    if (identity_.modality.empty() && looks_like_ct(*image_)) return "CT";
-    return identity_.modality;
-}
-
 /// A project may come from anywhere: what `page.save` would have refused is not given back.
-json Session::page_state() {
-    const std::string stored = project_.page_state();
+json page_state(SessionState& s) {
+    const std::string stored = s.project.page_state();
     if (stored.size() > kLargestPageState) return nullptr;
     try {
         return parsed(stored);
@@ -111,16 +62,67 @@ json Session::page_state() {
     }
 }
 
-json Session::save_page(const Members& m) {
+json save_page(SessionState& s, const Members& m) {
     const std::string state = to_text(m.at("state"));
     if (state.size() > kLargestPageState)
         throw Error(ErrorKind::too_large,
                     fmt::format("'state' has {} bytes; the limit is {}", state.size(), kLargestPageState));
-    project_.save_page_state(state);
+    s.project.save_page_state(state);
     return json::object();
 }
 
-json Session::surface_event(const Surface& surface) const {
+json ping(SessionState&, const Members&) { return json::object(); }
+
+}  // namespace
+
+Calls page_calls() { return {{"page.save", {save_page}}, {"ping", {ping, false}}}; }
+
+std::string greeting(SessionState& s, const json& more) {
+    const std::scoped_lock lock(s.mutex);
+    json structures = json::array(), contours = json::array(), surfaces = json::array();
+    PageJson page_json;
+    for (const auto& [id, structure] : s.project.state().structures) structures.push_back(to_json(structure));
+    for (const auto& [id, contour] : s.project.state().contours) contours.push_back(page_json(*contour));
+    for (const auto& [id, surface] : s.surfaces.all())
+        if (s.project.state().structures.contains(id)) surfaces.push_back(surface_event(s, *surface));
+    const Grid& grid = s.image.voxels->grid;
+    const ViewNames names = view_names(grid);
+    json event{{"event", "session"},
+               {"version", KONTUR_VERSION},
+               {"title", s.image.title},
+               {"project", s.project.path().filename().string()},
+               {"read_only", s.project.is_read_only()},
+               {"image",
+                {{"size", {grid.size.i, grid.size.j, grid.size.k}},
+                 {"spacing_mm", to_json(grid.spacing_mm())},
+                 {"corners", corners_json(grid)},
+                 {"center", to_json(grid.bounds_mm().center())},
+                 {"unit", s.image.unit},
+                 {"range", {s.image.range.first, s.image.range.second}},
+                 {"times", s.image.times.count()},
+                 {"time", s.image.times.own()},
+                 {"notes", s.notes}}},
+               {"identity", to_json(s.image.identity)},
+               {"images", further_images_json(s)},
+               {"has_dicom", s.image.series.has_value()},
+               {"window", {{"center", s.image.window.center}, {"width", s.image.window.width}}},
+               {"presets", to_json(s.image.presets)},
+               {"views", views_json(grid, names)},
+               {"first_view", kViews[static_cast<std::size_t>(names.first)]},
+               {"structures", structures},
+               {"contours", contours},
+               {"surfaces", surfaces},
+               {"borders", to_json(s.project.state().borders)},
+               {"use_image", use_image_json(s)},
+               {"border_pairs", to_json(s.surfaces.border_pairs())},
+               {"history", history_json(s)},
+               {"imports", {{"contours", kContourEndings}, {"masks", kMaskEndings}}},
+               {"page", page_state(s)}};
+    event.update(more);
+    return to_text(event);
+}
+
+json surface_event(const SessionState& s, const Surface& surface) {
     json event{{"event", "surface"},
                {"structure", surface.structure},
                {"revision", surface.revision},
@@ -148,13 +150,8 @@ json Session::surface_event(const Surface& surface) const {
                          {"rms_mm", surface.residual.rms_mm},
                          {"contour", surface.worst_contour},
                          {"at", to_json(surface.worst_at)}};
-    event["uncertainty"] = to_json(surface_uncertainty(evidence_of(surface)));
+    event["uncertainty"] = to_json(surface_uncertainty(evidence_of(s, surface)));
     return event;
-}
-
-json Session::history() {
-    const auto label = [](const std::optional<std::string>& text) { return text ? json(*text) : json(nullptr); };
-    return {{"undo", label(project_.undo_label())}, {"redo", label(project_.redo_label())}};
 }
 
 }  // namespace kontur::viewer

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viewer/files/imports.h"
+#include "viewer/session/session_state.h"
+
+// Replies to HTTP requests, and the first message of each page. They lock the state's mutex where they need it; errors are
+// exceptions.
+
+namespace kontur::viewer {
+
+/// What an import came to: structures, or why the contours may not belong to the image, and then nothing has changed.
+struct ImportReply {
+    std::vector<Id> structures;
+    std::vector<std::string> doubts;
+    std::vector<std::string> notes;  ///< what was left out, or had to be decided
+};
+
+/// What is told of a surface's points besides where they are.
+struct MeshExtras {
+    bool widths = false;           ///< of the 90 % band there, which take longer than all the rest
+    std::optional<Id> far_from{};  ///< how far they are from the surface of this structure
+};
+
+/// A name and the bytes of a file to download.
+struct Download {
+    std::string file_name;
+    std::string content_type;
+    std::string bytes;
+};
+
+/// The `session` event for a page that has just come, with further members of whoever serves it.
+std::string greeting(SessionState& s, const nlohmann::json& more);
+std::string slice_reply(SessionState& s, std::string_view request);
+/// Without triangles, and at the stage "none", where there is no surface: it may go while it is asked for.
+/// `coded`: in few bytes, which are worth compressing.
+std::string mesh_reply(const SessionState& s, Id structure, bool coded, const MeshExtras& extras);
+/// These three throw StructureRemoved for a structure that another page has removed meanwhile.
+Download exported(SessionState& s, const std::string& name, std::optional<Id> structure, const std::stop_token& stop);
+/// Of all structures with contours, as JSON.
+std::string statistics_reply(SessionState& s, const std::stop_token& stop);
+/// How two structures agree, voxel by voxel, as JSON.
+std::string comparison_reply(SessionState& s, Id first, Id second, const std::stop_token& stop);
+
+ImportReply import(SessionState& s, const std::string& bytes, const Upload& upload, const std::stop_token& stop);
+/// Structure sets and segmentations that lie near a DICOM image and were drawn on it, or in its frame of reference, as JSON.
+std::string drawings_reply(const SessionState& s, const std::stop_token& stop);
+/// Imports one of these. Throws Error(invalid_input) for another file, and as `import`.
+ImportReply import_near(SessionState& s, const std::filesystem::path& file, const Upload& upload,
+                        const std::stop_token& stop);
+
+/// One structure for each set, as one step of the history.
+std::vector<Id> add_structures(SessionState& s, const std::string& label, const std::vector<ContourSet>& sets);
+/// A new project's first structures, before its history.
+void begin_with(SessionState& s, const std::vector<ContourSet>& sets);
+/// Shows it beside the project's own image, in place of the one that was; kept with the project. Throws as
+/// `assumptions_of_one_space`, and then nothing changes.
+void put_second_image(SessionState& s, OpenedImage opened);
+
+}  // namespace kontur::viewer

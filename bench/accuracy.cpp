@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "agreement.h"
 #include "kontur/base/error.h"
 #include "kontur/io/contours.h"
 #include "kontur/io/image.h"
@@ -27,6 +27,27 @@ namespace kontur {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The paper's method: in-plane normals of 1 mm, exact interpolation.
+SegmentOptions as_printed() {
+    SegmentOptions options;
+    options.kernel = Kernel::triharmonic;
+    options.normals = Normals::in_plane;
+    options.normal_offset_mm = 1;
+    options.solver = Solver::cholesky;
+    return options;
+}
+
+/// The same field of view with voxels of twice the size.
+Grid coarsened(const Grid& grid) {
+    Grid coarse = grid;
+    for (int axis = 0; axis < 3; ++axis) {
+        coarse.size[axis] = (grid.size[axis] + 1) / 2;
+        coarse.index_to_mm.set_column(axis, 2.0 * grid.index_to_mm.column(axis));
+    }
+    coarse.index_to_mm.translation += 0.5 * grid.index_to_mm.apply_linear({1, 1, 1});
+    return coarse;
+}
 
 /// One drawing of one object, segmented in each way.
 struct Row {
@@ -100,42 +121,34 @@ void tell_tilts(Row& row, const ContourSet& contours, const Mask& truth) {
     row.normal_error_degrees = row.normals->all;
 }
 
-/// Calls visit(object, drawing, contours, truth) for all drawings of a folder of objects, each a folder with `truth.nii.gz`
-/// and contour files.
-template <class Visit>
-void for_each_drawing(const fs::path& root, const Visit& visit) {
+/// All drawings of a folder of objects, each a folder with `truth.nii.gz` and contour files.
+std::vector<Row> measured_rows(const fs::path& root, bool with_paper, bool with_tilts) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::ranges::sort(files);
+    std::vector<Row> rows;
     for (const fs::path& file : files) {
         const std::string object = file.parent_path().filename().string(), drawing = file.stem().string();
         fmt::print(stderr, "{} {}\n", object, drawing);
-        visit(object, drawing, read_contours(file).contours, read_mask(file.parent_path() / "truth.nii.gz"));
+        const ContourSet contours = read_contours(file).contours;
+        const Mask truth = read_mask(file.parent_path() / "truth.nii.gz");
+        Row row = segment_both_ways(contours, truth, with_paper);
+        if (with_tilts) tell_tilts(row, contours, truth);
+        row.object = object;
+        row.drawing = drawing;
+        rows.push_back(row);
     }
-}
-
-std::vector<Row> measured_rows(const fs::path& root, bool with_paper, bool with_tilts) {
-    std::vector<Row> rows;
-    for_each_drawing(
-        root, [&](const std::string& object, const std::string& drawing, const ContourSet& contours, const Mask& truth) {
-            Row row = segment_both_ways(contours, truth, with_paper);
-            if (with_tilts) tell_tilts(row, contours, truth);
-            row.object = object;
-            row.drawing = drawing;
-            rows.push_back(row);
-        });
     return rows;
 }
 
-nlohmann::ordered_json stored_otherwise(const std::vector<std::string>& roots) {
-    auto rows = nlohmann::ordered_json::array();
-    for (const std::string& root : roots)
-        for_each_drawing(
-            root, [&](const std::string& object, const std::string& drawing, const ContourSet& contours, const Mask& truth) {
-                rows.push_back({{"object", object}, {"drawing", drawing}, {"ways", agreement_by_storage(contours, truth)}});
-            });
-    return rows;
+nlohmann::ordered_json to_json(const Comparison& c) {
+    nlohmann::ordered_json json{{"dice", c.dice}};
+    if (c.surface) {
+        json["hausdorff95_mm"] = c.surface->hausdorff95_mm;
+        json["mean_surface_distance_mm"] = c.surface->mean_surface_distance_mm;
+    }
+    return json;
 }
 
 nlohmann::ordered_json to_json(const NormalErrors& errors) {
@@ -160,55 +173,14 @@ void print_json(const std::vector<Row>& rows) {
     fmt::print("{}\n", list.dump(2));
 }
 
-std::string cells(const std::optional<Comparison>& compared) {
-    if (!compared) return "- | - | -";
-    const Comparison& c = *compared;
-    if (!c.surface) return fmt::format("{:.3f} | - | -", c.dice);
-    return fmt::format("{:.3f} | {:.1f} | {:.2f}", c.dice, c.surface->hausdorff95_mm, c.surface->mean_surface_distance_mm);
-}
-
-/// One table for each kind of row, since only the phantom's have the last three columns.
-void print_markdown(const std::vector<Row>& rows) {
-    const Row* last = nullptr;
-    for (const Row& row : rows) {
-        if (!last || last->told.has_value() != row.told.has_value()) {
-            fmt::print(
-                "\n| object | drawing | contours | kontur: Dice | HD95 mm | mean mm | paper: Dice | HD95 mm | mean mm |{}\n",
-                row.told ? " true tilts: Dice | HD95 mm | mean mm |" : "");
-            fmt::print("|---|---|---|---|---|---|---|---|---|{}\n", row.told ? "---|---|---|" : "");
-        }
-        fmt::print("| {} | {} | {} | {} | {} |{}\n", row.object, row.drawing, row.contours, cells(row.kontur),
-                   cells(row.paper), row.told ? " " + cells(row.told) + " |" : "");
-        last = &row;
-    }
-}
-
-/// What estimating the tilts costs, with a digit more.
-void print_tilts(const std::vector<Row>& rows) {
-    fmt::print("\n| drawing | kontur: Dice | true tilts: Dice | lost by estimating them | mean error of the normals |\n");
-    fmt::print("|---|---|---|---|---|\n");
-    for (const Row& row : rows)
-        if (row.told)
-            fmt::print("| {} | {:.4f} | {:.4f} | {:.4f} | {:.2f} degrees |\n", row.drawing, row.kontur.dice, row.told->dice,
-                       row.told->dice - row.kontur.dice, *row.normal_error_degrees);
-}
-
 int run(const std::vector<std::string>& arguments) {
-    if (arguments == std::vector<std::string>{"--counts"}) {
-        fmt::print("{}\n", agreement_by_count().dump(1));
-        return 0;
-    }
-    if (arguments == std::vector<std::string>{"--phases"}) {
-        fmt::print("{}\n", agreement_by_phase().dump(1));
-        return 0;
-    }
-    if (!arguments.empty() && arguments.front() == "--stored") {
-        fmt::print("{}\n", stored_otherwise({arguments.begin() + 1, arguments.end()}).dump(1));
-        return 0;
-    }
+    constexpr std::array kOptions{"--without-paper", "--without-phantom", "--tilts"};
+    for (const std::string& argument : arguments)
+        if (argument.starts_with("--") && std::ranges::find(kOptions, argument) == kOptions.end())
+            throw Error(ErrorKind::invalid_input,
+                        fmt::format("{} is no option; there are {}", argument, fmt::join(kOptions, ", ")));
     const auto is_given = [&](const char* option) { return std::ranges::find(arguments, option) != arguments.end(); };
-    const bool markdown = is_given("--markdown"), with_paper = !is_given("--without-paper"),
-               with_tilts = is_given("--tilts");
+    const bool with_paper = !is_given("--without-paper"), with_tilts = is_given("--tilts");
     std::vector<Row> rows;
     for (const std::string& argument : arguments) {
         if (argument.starts_with("--")) continue;
@@ -219,23 +191,16 @@ int run(const std::vector<std::string>& arguments) {
         const std::vector<Row> phantom = phantom_rows(with_paper);
         rows.insert(rows.end(), phantom.begin(), phantom.end());
     }
-    if (!markdown) {
-        print_json(rows);
-        return 0;
-    }
-    print_markdown(rows);
-    print_tilts(rows);
+    print_json(rows);
     return 0;
 }
 
 }  // namespace
 }  // namespace kontur
 
-/// accuracy [--markdown] [--without-paper] [--without-phantom] [--tilts] [FOLDER]...: folders as `measured_rows` takes them,
-/// then the phantom. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are
-/// also fitted with the tilts of the true masks, as the phantom's are.
-/// accuracy --counts: the phantom's organs by the number of planes drawn. accuracy --phases: by where a stack of planes
-/// begins. accuracy --stored FOLDER...: how much the result depends on how a drawing is stored.
+/// accuracy [--without-paper] [--without-phantom] [--tilts] [FOLDER]...: folders as `measured_rows` takes them, then the
+/// phantom, as JSON. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are also
+/// fitted with the tilts of the true masks, as the phantom's are.
 int main(int count, char** arguments) {
     try {
         return kontur::run({arguments + 1, arguments + count});

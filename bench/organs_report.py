@@ -2,25 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables and plots of what organs.py measured. Means are over drawings; `behind` counts losses of more than 0.002 of Dice.
 
-Usage: bench/organs_report.py results.csv FOLDER [DOCUMENT.md]...: tables.md and plots into FOLDER; a document's tables, between
-the markers that tables.md has, are replaced.
+Usage: bench/organs_report.py results.csv FOLDER [DOCUMENT.md]...: plots into FOLDER, and tables.md or, with a document, its tables
+between the markers that tables.md has.
 """
 import csv
-import math
 import pathlib
 import statistics
 import sys
 
-from agreement import svg_of
-from growth import line, text
-from tables import table
+from plots import BLUE, GREEN, METHOD_COLOURS, RED, VIOLET, plain_ticks, pyplot, save
+from tables import filled, table
 from versus import BEHIND
 
 GROUPS = ("compact", "elongated", "thin or branched")  # shape_groups.py
 HANDS = ("exact", "wave", "jitter", "coarse")
-HAND_COLOURS = dict(zip(HANDS, ("#1b6ca8", "#c4552d", "#4a8f3c", "#8a5fb0")))
+HAND_COLOURS = dict(zip(HANDS, (BLUE, RED, GREEN, VIOLET)))
 PEERS = ("nearest slice", "shape-based", "plain")
-METHOD_COLOURS = {"nearest slice": "#999", "shape-based": "#c4552d", "plain": "#4a8f3c", "kontur": "#1b6ca8", "paper": "#8a5fb0"}
 WORST = 6
 
 
@@ -111,119 +108,67 @@ def worst_table(entries):
     return table(["structure", "shape", "drawing", "best peer", "its Dice", "kontur"], rows)
 
 
-TABLES = {"planes": planes_table, "hands": hands_table, "slices": slices_table, "worst": worst_table}
+TABLES = {"organs planes": planes_table, "organs hands": hands_table, "organs slices": slices_table, "organs worst": worst_table}
 
 
-def quantile(values, share):
-    ordered = sorted(values)
-    at = share * (len(ordered) - 1)
-    low = math.floor(at)
-    return ordered[low] + (at - low) * (ordered[min(low + 1, len(ordered) - 1)] - ordered[low])
-
-
-def gains_panel(left, top, width, height, entries, title):
+def gains_panel(axes, entries, title):
     """Boxes from the lower to the upper quartile of kontur's gain, lines from the 5th to the 95th percentile."""
-    limit = 0.05
-
-    def y(gain):
-        return top + height / 2 * (1 - max(-1.0, min(1.0, gain / limit)))
-
-    parts = [text(left + width / 2, top - 8, title, size=12)]
-    for tick in (-0.04, -0.02, 0, 0.02, 0.04):
-        parts += [line(left, y(tick), left + width, y(tick), "#888" if tick == 0 else "#ddd"),
-                  text(left - 5, y(tick) + 4, f"{tick:+.2f}" if tick else "0", "end", 10)]
     drawings = sorted({entry["drawing"] for entry in entries})
-    for n, drawing in enumerate(drawings):
-        middle = left + width * (n + 0.5) / len(drawings)
-        parts.append(text(middle, top + height + 14, drawing, size=10))
-        for k, hand in enumerate(HANDS):
-            gained = gains([entry for entry in entries if (entry["drawing"], entry["hand"]) == (drawing, hand)])
-            if not gained:
-                continue
-            x = middle + 13 * (k - 1.5)
-            low, first, centre, third, high = (y(quantile(gained, share)) for share in (0.05, 0.25, 0.5, 0.75, 0.95))
-            colour = HAND_COLOURS[hand]
-            parts += [line(x, low, x, high, colour), line(x - 5, centre, x + 5, centre, "white", 'stroke-width="2"')]
-            parts.insert(-1, f'<rect x="{x - 5:.1f}" y="{third:.1f}" width="10" height="{max(first - third, 0.5):.1f}" fill="{colour}"/>')
-    return parts
-
-
-def gains_svg(entries):
-    width, height, left, top = 500, 150, 56, 34
-    parts = []
-    for n, group in enumerate(GROUPS):
-        own = [entry for entry in entries if entry["group"] == group and not is_slices(entry)]
-        if own:
-            parts += gains_panel(left, top + n * (height + 58), width, height, own, f"{group}: Dice of kontur less that of the plain method")
-    bottom = top + len(GROUPS) * (height + 58)
     for k, hand in enumerate(HANDS):
-        parts += [f'<rect x="{left + 110 * k}" y="{bottom - 16}" width="10" height="10" fill="{HAND_COLOURS[hand]}"/>',
-                  text(left + 16 + 110 * k, bottom - 7, hand, "start")]
-    return svg_of(left + width + 14, bottom + 8, parts)
+        gained = [gains([entry for entry in entries if (entry["drawing"], entry["hand"]) == (drawing, hand)]) for drawing in drawings]
+        axes.boxplot(gained, positions=[n + 0.18 * (k - 1.5) for n in range(len(drawings))], widths=0.13, whis=(5, 95), showfliers=False,
+                     showcaps=False, patch_artist=True, manage_ticks=False, medianprops={"color": "white"},
+                     boxprops={"color": HAND_COLOURS[hand], "facecolor": HAND_COLOURS[hand]},
+                     whiskerprops={"color": HAND_COLOURS[hand]})
+    axes.axhline(0, color="#888888", linewidth=0.8)
+    axes.set(title=title, ylim=(-0.05, 0.05), xlim=(-0.5, len(drawings) - 0.5))
+    axes.set_xticks(range(len(drawings)), drawings)
+    axes.grid(axis="x", visible=False)
 
 
-MISSED_TICKS = (0.02, 0.05, 0.1, 0.2, 0.5)
+def gains_plot(entries, path):
+    sets = {group: own for group, own in sets_of(entries).items() if group in GROUPS}
+    figure, panels = pyplot.subplots(len(sets), 1, figsize=(6.2, 2.2 * len(sets) + 0.8), squeeze=False)
+    for axes, (group, own) in zip(panels[:, 0], sets.items()):
+        gains_panel(axes, own, f"{group}: Dice of kontur less that of the plain method")
+    patches = [pyplot.Rectangle((0, 0), 1, 1, color=colour) for colour in HAND_COLOURS.values()]
+    panels[-1, 0].legend(patches, HANDS, ncol=len(HANDS), loc="upper center", bbox_to_anchor=(0.5, -0.15))
+    save(figure, path)
 
 
-def slices_panel(left, top, width, height, steps, what, title):
+def slices_panel(axes, steps, what, title):
     """What is missed, by how many slices were kept; `steps` are (step, entries)."""
-    low, high = math.log(MISSED_TICKS[0]), math.log(MISSED_TICKS[-1])
-
-    def y(missed):
-        return top + height * (high - max(low, min(high, math.log(max(missed, 1e-9))))) / (high - low)
-
-    parts = [text(left + width / 2, top - 10, title, size=12)]
-    for tick in MISSED_TICKS:
-        parts += [line(left, y(tick), left + width, y(tick), "#ddd"), text(left - 5, y(tick) + 4, f"{tick:g}", "end", 10)]
-    places = [left + width * (k + 0.5) / len(steps) for k in range(len(steps))]
-    parts += [text(x, top + height + 15, f"1 in {step}", size=10) for x, (step, _) in zip(places, steps)]
     for method in (*PEERS, "kontur"):
-        points = [(x, y(1 - mean(own, method, what))) for x, (_, own) in zip(places, steps)]
-        path = " ".join(f"{px:.1f},{py:.1f}" for px, py in points)
-        colour = METHOD_COLOURS[method]
-        parts.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>')
-        parts += [f'<circle cx="{px:.1f}" cy="{py:.1f}" r="2.5" fill="{colour}"/>' for px, py in points]
-    return parts
+        missed = [1 - mean(own, method, what) for _, own in steps]
+        axes.semilogy([f"1 in {step}" for step, _ in steps], missed, "o-", color=METHOD_COLOURS[method], label=method)
+    axes.set(title=title, ylim=(0.02, 0.5))
+    plain_ticks(axes.yaxis, (0.02, 0.05, 0.1, 0.2, 0.5))
 
 
-def slices_svg(entries):
+def slices_plot(entries, path):
     """Above all slices, below those left out between kept ones."""
-    width, height, left, top, across, down = 170, 150, 50, 34, 232, 212
     groups = list(dict.fromkeys(group for group, _, _ in slice_sets(entries)))
-    parts = []
-    for n, group in enumerate(groups):
-        steps = [(step, own) for name, step, own in slice_sets(entries) if name == group]
-        for k, (what, title) in enumerate((("dice", "1 - Dice"), ("dice_left_out", "1 - Dice, left out"))):
-            parts += slices_panel(left + n * across, top + k * down, width, height, steps, what, f"{group}: {title}")
-    bottom = top + down + height + 44
-    for k, method in enumerate((*PEERS, "kontur")):
-        parts += [line(left + 120 * k, bottom - 4, left + 120 * k + 24, bottom - 4, METHOD_COLOURS[method], 'stroke-width="2"'),
-                  text(left + 120 * k + 30, bottom, method, "start")]
-    return svg_of(left + across * len(groups), bottom + 12, parts)
+    figure, panels = pyplot.subplots(2, len(groups), figsize=(2.6 * len(groups), 5), squeeze=False)
+    for row, (what, title) in zip(panels, (("dice", "1 - Dice"), ("dice_left_out", "1 - Dice, left out"))):
+        for axes, group in zip(row, groups):
+            slices_panel(axes, [(step, own) for name, step, own in slice_sets(entries) if name == group], what, f"{group}: {title}")
+    panels[1][0].legend(ncol=len(PEERS) + 1, loc="upper left", bbox_to_anchor=(0, -0.15))
+    save(figure, path)
 
 
-def marked(name, made):
-    return f"<!-- begin organs {name} -->\n{made}\n<!-- end organs {name} -->\n"
-
-
-def filled(document, entries):
-    """A document with each table that it has markers for in its place."""
-    for name, make in TABLES.items():
-        head, begin, rest = document.partition(f"<!-- begin organs {name} -->\n")
-        if begin:
-            document = head + marked(name, make(entries)) + rest.split(f"<!-- end organs {name} -->\n", 1)[1]
-    return document
+PLOTS = {"organs_gains.svg": gains_plot, "organs_slices.svg": slices_plot}
 
 
 def write(results, folder, documents=()):
-    """tables.md and the plots in `folder`; and the tables in documents."""
+    """tables.md and the plots in `folder`; with documents the tables in these, instead of tables.md."""
     entries = read(results)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "tables.md").write_text("\n".join(marked(name, make(entries)) for name, make in TABLES.items()), encoding="utf-8")
-    (folder / "organs_gains.svg").write_text(gains_svg(entries), encoding="utf-8")
-    (folder / "organs_slices.svg").write_text(slices_svg(entries), encoding="utf-8")
+    for name, make in PLOTS.items():
+        make(entries, folder / name)
+    if not documents:
+        (folder / "tables.md").write_text(filled("".join(f"<!-- begin {name} --><!-- end {name} -->\n" for name in TABLES), entries, TABLES), encoding="utf-8")
     for document in documents:
-        document.write_text(filled(document.read_text(encoding="utf-8"), entries), encoding="utf-8")
+        document.write_text(filled(document.read_text(encoding="utf-8"), entries, TABLES), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The benchmark runs, its solvers and searches agree, and its tables can be made."""
+import csv
 import json
 import os
 import pathlib
@@ -9,7 +10,8 @@ import xml.etree.ElementTree
 
 import pytest
 
-from tables import seconds
+import drawings
+from tables import filled, seconds
 
 TABLES = pathlib.Path(__file__).parent / "tables.py"
 GROWTH = TABLES.with_name("growth.py")
@@ -91,6 +93,18 @@ def test_the_published_tables_are_made_from_the_published_results(tmp_path):
     copy.write_text(published)
     subprocess.run([sys.executable, TABLES, TABLES.with_name("results") / "performance.json", copy], check=True)
     assert copy.read_text() == published
+
+
+def test_the_tables_of_drawings_are_made_from_the_published_results():
+    rows = list(csv.DictReader((TABLES.with_name("results") / "drawings.csv").read_text().splitlines()))
+    published = (DOCS / "accuracy/drawings.md").read_text()
+    assert filled(published, rows, drawings.TABLES) == published
+
+
+def test_a_drawing_measured_by_one_fit_alone_leaves_the_others_empty():
+    row = {"object": "ball", "drawing": "x", "contours": 3, "kontur": {"dice": 0.91234, "hausdorff95_mm": 1.04}}
+    cells = drawings.flat(row)
+    assert (cells["kontur_dice"], cells["kontur_hd95_mm"], cells["kontur_mean_mm"], cells["paper_dice"]) == ("0.9123", "1.0", "", "")
 
 
 def test_growth_is_measured_tabulated_and_drawn(tmp_path):

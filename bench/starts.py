@@ -8,8 +8,7 @@ Usage: bench/starts.py draw DATA FOLDER --kontur build/release/bin/kontur
 `draw` writes FOLDER/tune, FOLDER/report (structures of label maps that no image cuts off) and FOLDER/real (structure sets, whose
 contours are those that people drew), as kontur_accuracy takes them: one slice in two from the first and the second on, one in
 four from each of the first four, one in eight from the second, fourth, sixth and eighth. DATA is laid out as organ_sources.py
-says. `table` prints the means of files of kontur_accuracy: over the structures, of each the mean over its starts; or, of
-`kontur_accuracy --phases`, over the phantom's organs and over the phases.
+says. `table` prints the means of files of kontur_accuracy over the structures, of each the mean over its starts.
 """
 import argparse
 import collections
@@ -67,24 +66,20 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def dice_by(rows, key):
+def dice_by_structure(rows):
     found = collections.defaultdict(list)
     for row in rows:
-        found[key(row)].append(row["kontur"]["dice"])
+        found[row["object"]].append(row["kontur"]["dice"])
     return found
 
 
 def means(rows):
     """{column: mean Dice}."""
-    if "phase" in rows[0]:
-        columns = {"all": mean([row["kontur"]["dice"] for row in rows])}
-        columns |= {name: mean(dice) for name, dice in dice_by(rows, lambda row: row["object"]).items()}
-        return columns | {f"from {phase:.1f}": mean(dice) for phase, dice in dice_by(rows, lambda row: row["phase"]).items()}
     columns = {}
     for step in STARTS:
         some = [row for row in rows if row["drawing"].startswith(f"slices{step}_")]
         if some:
-            columns[f"1 in {step}"] = mean([mean(dice) for dice in dice_by(some, lambda row: row["object"]).values()])
+            columns[f"1 in {step}"] = mean([mean(dice) for dice in dice_by_structure(some).values()])
     return columns
 
 

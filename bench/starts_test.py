@@ -29,8 +29,3 @@ def row(structure, drawing, dice):
 def test_structures_with_few_starts_count_as_much_as_those_with_many():
     rows = [row("a", "slices4_from0", 0.8), row("a", "slices4_from1", 0.6), row("b", "slices4_from0", 0.9)]
     assert starts.means(rows) == {"1 in 4": pytest.approx(0.8)}
-
-
-def test_phases_of_the_phantom():
-    rows = [row("liver", "z6", 0.9) | {"phase": 0.1}, row("kidney", "z6", 0.7) | {"phase": 0.3}]
-    assert starts.means(rows) == {"all": pytest.approx(0.8), "liver": 0.9, "kidney": 0.7, "from 0.1": 0.9, "from 0.3": 0.7}

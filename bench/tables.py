@@ -182,11 +182,12 @@ def unique(rows, key):
 TABLES = {f.__name__: f for f in (machine, solving, voxelizing, reduction, end_to_end, stages, editing)}
 
 
-def filled(document, results):
-    for name, make in TABLES.items():
+def filled(document, results, tables):
+    """The document with each of the tables between its markers."""
+    for name, make in tables.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if begin not in document:
-            raise SystemExit(f"tables.py: the document has no marker {begin}")
+            raise SystemExit(f"error: the document has no marker {begin}")
         head, rest = document.split(begin, 1)
         document = f"{head}{begin}\n{make(results)}\n{end}{rest.split(end, 1)[1]}"
     return document
@@ -199,7 +200,7 @@ def main():
         print("\n\n".join(make(results) for make in TABLES.values()))
         return
     with open(sys.argv[2], encoding="utf-8") as file:
-        document = filled(file.read(), results)
+        document = filled(file.read(), results, TABLES)
     with open(sys.argv[2], "w", encoding="utf-8") as file:
         file.write(document)
 

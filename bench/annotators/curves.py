@@ -15,14 +15,15 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from agreement import svg_of  # noqa: E402
-from growth import line, text  # noqa: E402
+from plots import plain_ticks, pyplot, save  # noqa: E402
+from tables import table  # noqa: E402
 
 TARGETS, MOST = (0.95, 0.98), 13
 COLOURS = {"suggestion": "#1b6ca8", "suggested slices": "#56b4e9", "axial": "#c4552d", "axial, re-spaced": "#e69f00",
            "orthogonal": "#4a8f3c", "random oblique": "#777777", "MITK's rule": "#cc79a7", "rule, then random": "#000000",
            "suggestion, image": "#0b3a5b"}
-TICKS, WIDTH, HEIGHT, LEFT, TOP, ACROSS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5), 250, 180, 46, 30, 310
+TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
+LONGEST = 240  # s in the plot
 
 
 def read(paths, hand):
@@ -77,45 +78,25 @@ def rows_of(structures, ways):
     return header, rows
 
 
-def markdown(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|---" * len(header) + "|"]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
-
-
-def panel(left, title, structures, ways, last, ticks, missed):
-    low, high = math.log(TICKS[0]), math.log(TICKS[-1])
-
-    def place(at, value):
-        up = (high - min(max(math.log(max(value, 1e-6)), low), high)) / (high - low)
-        return left + WIDTH * at / last, TOP + HEIGHT * up
-
-    parts = [text(left + WIDTH / 2, TOP - 10, title, size=12)]
-    for tick in TICKS:
-        y = place(0, tick)[1]
-        parts += [line(left, y, left + WIDTH, y, "#ddd"), text(left - 5, y + 4, f"{tick:g}", "end", 10)]
-    for tick in ticks:
-        x = place(tick, 1)[0]
-        parts += [line(x, TOP, x, TOP + HEIGHT, "#eee"), text(x, TOP + HEIGHT + 14, tick, size=10)]
+def panel(axes, title, structures, ways, steps, missed):
     for way in ways:
-        steps = [last * k / 60 for k in range(1, 61)] if last > MOST else range(1, last + 1)
-        points = [place(at, geometric_mean([missed(s[way], at, way) for s in structures.values()])) for at in steps]
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        parts.append(f'<polyline points="{path}" fill="none" stroke="{COLOURS[way]}" stroke-width="2"/>')
-    return parts
+        values = [geometric_mean([missed(s[way], at, way) for s in structures.values()]) for at in steps]
+        axes.semilogy(steps, values, color=COLOURS[way], label=way)
+    axes.set(title=title, ylim=(TICKS[0], TICKS[-1]))
+    plain_ticks(axes.yaxis, TICKS)
 
 
-def plot(structures, ways):
-    by_planes = panel(LEFT, "1 - Dice by planes drawn", structures, ways, MOST, (1, 4, 7, 10, 13), lambda s, at, way: missed_after(s, at))
+def at_seconds(states, at, way):
+    return missed_at(states, at, "accepting_s" if way.startswith("sugg") else "drawing_s")
 
-    def at_seconds(states, at, way):
-        return missed_at(states, at, "accepting_s" if way.startswith("sugg") else "drawing_s")
 
-    by_seconds = panel(LEFT + ACROSS, "1 - Dice by seconds (model)", structures, ways, 240, (60, 120, 180, 240), at_seconds)
-    bottom, parts = TOP + HEIGHT + 40, by_planes + by_seconds
-    for n, way in enumerate(ways):
-        x, y = LEFT + 150 * (n % 4), bottom + 18 * (n // 4)
-        parts += [line(x, y - 4, x + 22, y - 4, COLOURS[way], 'stroke-width="2"'), text(x + 27, y, way, "start")]
-    return svg_of(LEFT + ACROSS + WIDTH + 20, bottom + 18 * ((len(ways) - 1) // 4) + 12, parts)
+def plot(structures, ways, path):
+    figure, (by_planes, by_seconds) = pyplot.subplots(1, 2, figsize=(7.6, 3.4))
+    panel(by_planes, "1 - Dice by planes drawn", structures, ways, range(1, MOST + 1), lambda s, at, way: missed_after(s, at))
+    by_planes.set_xticks((1, 4, 7, 10, 13))
+    panel(by_seconds, "1 - Dice by seconds (model)", structures, ways, [LONGEST * k / 60 for k in range(1, 61)], at_seconds)
+    by_planes.legend(ncol=4, loc="upper left", bbox_to_anchor=(0, -0.1))
+    save(figure, path)
 
 
 def main():
@@ -128,9 +109,9 @@ def main():
     structures = {name: ways for name, ways in read(options.states, options.hand).items() if set(options.ways) <= set(ways)}
     if not structures:
         sys.exit("curves.py: error: no structure was drawn in all of these ways")
-    options.plot.write_text(plot(structures, options.ways), encoding="utf-8")
+    plot(structures, options.ways, options.plot)
     print(f"{len(structures)} structures, {options.hand} hand\n")
-    print(markdown(*rows_of(structures, options.ways)))
+    print(table(*rows_of(structures, options.ways)))
     saved = {t: 1 - mean([planes_to(s[options.ways[0]], t) for s in structures.values()]) /
              mean([planes_to(s["axial"], t) for s in structures.values()]) for t in TARGETS} if "axial" in options.ways else {}
     for target, share in saved.items():

@@ -1,24 +1,13 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What filling makes of two painted bodies, seen across the slices: docs/fill.md.
-
-Usage: bench/fill_picture.py --kontur build/release/bin/kontur PICTURE.png
-"""
-import argparse
-import os
+"""What filling makes of two painted bodies, seen across the slices."""
 import pathlib
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy is loaded
-
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-import fill_together
 import slices
+from filling.methods import filled
+from plots import pyplot, save
 
 SHAPE, STEP = (80, 70, 73), 9
 COLOURS = ListedColormap(["#ffffff", "#d98c3f", "#4d99e6", "#66bf66"])
@@ -47,7 +36,7 @@ def painted(labels):
 
 def rows(kontur):
     def fill(labels, *words):
-        return fill_together.filled(kontur, painted(labels), np.eye(4), words)
+        return filled(kontur, painted(labels), np.eye(4), words)
 
     one, three = bean(), sectors()
     kept = slices.occupied(painted(one) > 0)
@@ -57,21 +46,17 @@ def rows(kontur):
            ("the body", three)]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def add_arguments(parser):
     parser.add_argument("picture", type=pathlib.Path)
-    parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
-    options = parser.parse_args()
+
+
+def run(options):
     figure, axes = pyplot.subplots(2, 4, figsize=(10, 5.4))
     for row, panels in zip(axes, rows(options.kontur)):
         for axis, (title, labels) in zip(row, panels):
             axis.imshow(labels[:, SHAPE[1] // 2 - 4].T, cmap=COLOURS, vmin=0, vmax=3, origin="lower", interpolation="nearest")
             dice = 2 * ((labels > 0) & (labels == panels[-1][1])).sum() / ((labels > 0).sum() + (panels[-1][1] > 0).sum())
+            print(f"{title}: {dice:.3f}")
             axis.set_title(title if title in ("painted", "the body") else f"{title}: {dice:.3f}", fontsize=10)
-            axis.set_xticks([]), axis.set_yticks([])
-    figure.tight_layout()
-    figure.savefig(options.picture, dpi=90)
-
-
-if __name__ == "__main__":
-    main()
+            axis.set_axis_off()
+    save(figure, options.picture)

@@ -1,23 +1,15 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Label maps of structures that touch each other, filled together and each alone: docs/fill.md.
+"""Structures that touch each other, filled together and each alone.
 
-Usage: bench/fill_together.py DATA --kontur build/release/bin/kontur
-
-Slices a few mm apart are kept of some labels of real scans, all others are filled again. Prints, for each case and way, which share
-of the band around the borders that two labels share (two voxels to either side) is wrong, which share of it has no label, and
-Dice, its mean and that of each label. The labels are smoothed first by 0.7 voxels, as annotators do not draw steps.
+Slices a few mm apart are kept of some labels of real scans. Printed are, for each case and way, which share of the band around the
+borders that two labels share (two voxels to either side) is wrong, which share of it has no label, and Dice, its mean and that of
+each label. The labels are smoothed first by 0.7 voxels, as annotators do not draw steps.
 """
-import argparse
-import pathlib
-import subprocess
-import tempfile
-
-import nibabel
 import numpy as np
 from scipy import ndimage
 
 import structures
+from filling.methods import filled
 
 CASES = [
     ("ventricles, caudates, callosum, axial", "06_mr_brain_MRIcrop/MRIcrop-seg.nii.gz", [1, 7, 8], 2, (3, 4, 5, 7)),
@@ -59,27 +51,15 @@ def border_band(labels):
     return ndimage.binary_dilation(band) & (labels > 0)
 
 
-def filled(kontur, sparse, affine, words):
-    with tempfile.TemporaryDirectory() as folder:
-        source, full = pathlib.Path(folder, "sparse.nii"), pathlib.Path(folder, "full.nii")
-        image = nibabel.Nifti1Image(sparse, structures.LPS @ affine)
-        image.set_sform(structures.LPS @ affine, 1)
-        image.set_qform(None, 0)
-        nibabel.save(image, source)
-        subprocess.run([kontur, "fill", source, "--output", full, "--threads", "1", "--quiet", *words], check=True)
-        return np.asarray(nibabel.load(full).dataobj)
-
-
 def dice(a, b):
     return 2 * (a & b).sum() / (a.sum() + b.sum())
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("data", type=pathlib.Path)
-    parser.add_argument("--kontur", required=True, type=lambda path: pathlib.Path(path).resolve())
+def add_arguments(parser):
     parser.add_argument("--cases", type=int, default=len(CASES), help="only the first so many")
-    options = parser.parse_args()
+
+
+def run(options):
     print("| structures | slices | way | wrong in the band | without a label | mean Dice | Dice |\n|---|--:|---|--:|--:|--:|---|")
     for name, file, chosen, axis, steps in CASES[:options.cases]:
         labels, affine = structures.read_labels(options.data / file, options.kontur)
@@ -93,7 +73,3 @@ def main():
                 each = [dice(full == label, labels == label) for label in chosen]
                 print(f"| {name} | {step} mm | {way} | {np.mean(full[band] != labels[band]):.3f} | {np.mean(full[band] == 0):.3f} | "
                       f"{np.mean(each):.4f} | {' '.join(f'{d:.4f}' for d in each)} |", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,29 +1,21 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Branches and holes: label maps of which some slices are left, filled by `kontur fill` and by its peers. docs/fill.md.
+"""Structures with branches and with holes, of which every second, fourth and eighth slice is kept, along each axis of the grid
+where voxels are cubes, else along the third.
 
-Usage: bench/fill_topology.py DATA OUTPUT --kontur build/release/bin/kontur [--itk build/release/bin/itk_fill]
-                    [--words OPTIONS]... [--kind branches|holes]
-
-Every second, fourth and eighth slice is kept along each axis of the grid where voxels are cubes, else along the third, as in
-bench/fill.py, and the others are filled again. Measured are structures (organ_sources.py; the lateral ventricles, too, and a
-left ventricle's muscle) whose sections fall into parts, each a twentieth of the section at least, on a quarter of the slices
-(branches), or have a hole of a hundredth of it, on a tenth of them (holes). Counted are parts and tunnels between the first and
-the last kept slice; what touches by a corner hangs together. Writes OUTPUT/topology.csv and prints a table: mean Dice of what
-lies between these slices, the sum over the structures by how many the parts are off the truth's, and the tunnels.
+Measured are structures (organ_sources.py; the lateral ventricles, too, and a left ventricle's muscle) whose sections fall into
+parts, each a twentieth of the section at least, on a quarter of the slices (branches), or have a hole of a hundredth of it, on a
+tenth of them (holes). Counted are parts and tunnels between the first and the last kept slice; what touches by a corner hangs
+together. The table has the mean Dice of what lies between these slices and the sums over the structures by how many parts and
+tunnels are off.
 """
-import os
-
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy is loaded
-
 import numpy as np
 from scipy import ndimage
 
-import fill
 import organ_sources
 import plain
 import slices
 import structures
+from filling import methods
 
 CORNERS = np.ones((3, 3, 3))
 MOST_VOXELS = 6e5  # of the structure's box: finer maps are coarsened
@@ -110,11 +102,11 @@ def measure(case, options):
         if not len(kept):
             continue
         between = truth[:, :, kept[0]:kept[-1] + 1]
-        told = parts_and_tunnels(between)
-        for method, make in fill.methods(options, name).items():
+        true_parts, true_tunnels = parts_and_tunnels(between)
+        for method, make in methods.methods(options, name).items():
             mask = make(truth, np.diag([*spacing, 1]), kept)[:, :, kept[0]:kept[-1] + 1]
             parts, tunnels = parts_and_tunnels(mask)
-            yield [kind, name, axis, step, method, f"{plain.dice(mask, between):.5f}", parts, told[0], tunnels, told[1]]
+            yield [kind, name, axis, step, method, f"{plain.dice(mask, between):.5f}", parts, true_parts, tunnels, true_tunnels]
 
 
 def table(rows):
@@ -133,14 +125,12 @@ def table(rows):
             print(f"| {method} | " + " | ".join(texts) + " |")
 
 
-def main():
-    parser = fill.parser_of(__doc__)
+def add_arguments(parser):
     parser.add_argument("--kind", choices=["branches", "holes"])
-    options = parser.parse_args()
+    parser.set_defaults(images=False)
+
+
+def run(options):
     measurements = ((" ".join(case[:3]), list(measure(case, options))) for case in cases(options.data, options.kontur)
                     if options.kind in (None, case[0]))
-    table(fill.written(options.output / "topology.csv", FIELDS, measurements))
-
-
-if __name__ == "__main__":
-    main()
+    table(methods.written(options.output / "topology.csv", FIELDS, measurements))

@@ -1,16 +1,11 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What users of interpolation between slices complain of, measured: memory, and slices that do not overlap. docs/fill.md.
-
-Usage: bench/fill_peers.py --kontur build/release/bin/kontur --itk build/release/bin/itk_fill [--only large|tubes] [--size N]
+"""What users of interpolation between slices complain of: memory, and slices that do not overlap.
 
 `large` fills two balls of 0.4 N voxels across in N x N x 2/3 N voxels, painted on every twelfth slice, and prints CPU seconds, the
 most memory of the process and Dice between the first and the last painted slice. `tubes` fills tubes of 12 mm across that run
-aslant through slices 1 mm apart, of which every eighth was painted, and prints Dice between the first and the last of
-them and in how many pieces the result falls, by how far the sections of one and the next painted slice lie apart. itk_fill:
-see bench/fill.py.
+aslant through slices 1 mm apart, of which every eighth was painted, and prints Dice between the first and the last of them and in
+how many pieces the result falls, by how far the sections of one and the next painted slice lie apart.
 """
-import argparse
 import pathlib
 import subprocess
 import sys
@@ -20,8 +15,8 @@ import nibabel
 import numpy as np
 from scipy import ndimage
 
-import fill
 import slices
+from filling import methods
 
 TUBE_RADIUS, TUBE_STEP = 6, 8  # mm
 
@@ -37,8 +32,8 @@ print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 
 def measured(command):
     """CPU seconds and MB at most."""
-    told = subprocess.run([sys.executable, "-c", LAUNCHER, *map(str, command)], check=True, capture_output=True, text=True)
-    return [float(word) for word in told.stdout.split()]
+    launched = subprocess.run([sys.executable, "-c", LAUNCHER, *map(str, command)], check=True, capture_output=True, text=True)
+    return [float(word) for word in launched.stdout.split()]
 
 
 def ball(shape, middle, radius):
@@ -54,12 +49,12 @@ def large(options):
     print(f"\n| {shape[0]} x {shape[1]} x {shape[2]} voxels | CPU s | MB | Dice |\n|---|--:|--:|--:|")
     with tempfile.TemporaryDirectory(dir=options.scratch) as folder:
         sparse, full = pathlib.Path(folder, "sparse.nii"), pathlib.Path(folder, "full.nii")
-        nibabel.save(nibabel.Nifti1Image(fill.sparse_map(truth, kept).astype(np.uint8), np.eye(4)), sparse)
+        nibabel.save(nibabel.Nifti1Image(methods.sparse_map(truth, kept), np.eye(4)), sparse)
         truth = truth[:, :, kept[0]:kept[-1] + 1]
-        for name, command in {
-            "kontur fill": [options.kontur, "fill", sparse, "--output", full, "--threads", "1", "--quiet"],
-            "ITK": [options.itk, sparse, full], "ITK --dilations": [options.itk, sparse, full, "--dilations"],
-        }.items():
+        commands = {"kontur fill": [options.kontur, "fill", sparse, "--output", full, "--threads", "1", "--quiet"]}
+        if options.itk:
+            commands |= {"ITK": [options.itk, sparse, full], "ITK --dilations": [options.itk, sparse, full, "--dilations"]}
+        for name, command in commands.items():
             seconds, megabytes = measured(command)
             made = np.asarray(nibabel.load(full).dataobj[:, :, kept[0]:kept[-1] + 1]) > 0
             print(f"| {name} | {seconds:.1f} | {megabytes:.0f} | {2 * (made & truth).sum() / (made.sum() + truth.sum()):.4f} |", flush=True)
@@ -72,33 +67,27 @@ def tube(shift):
 
 
 def tubes(options):
-    print("\n| from section to section, in diameters | " + " | ".join(("shape-based", "ITK", "ITK --dilations", "kontur fill")) + " |")
-    print("|--:|" + "---|" * 4)
+    made = {"shape-based": lambda truth, kept: slices.shape_based(truth, kept, (1, 1, 1))}
+    for words in ("", "--dilations") if options.itk else ():
+        made[f"ITK {words}".strip()] = lambda truth, kept, words=words: methods.filled_by_itk(
+            options.itk, methods.sparse_map(truth, kept), np.eye(4), words.split())
+    made["kontur fill"] = lambda truth, kept: methods.filled(options.kontur, methods.sparse_map(truth, kept), np.eye(4)) > 0
+    print("\n| from section to section, in diameters | " + " | ".join(made) + " |\n|--:|" + "---|" * len(made))
     for apart in (0.25, 0.5, 0.75, 1.0, 1.25):
         truth = tube(apart * 2 * TUBE_RADIUS / TUBE_STEP)
         kept = np.arange(0, truth.shape[2], TUBE_STEP)
-        sparse = fill.sparse_map(truth, kept)
-        made = [slices.shape_based(truth, kept, (1, 1, 1)), fill.filled_by_itk(options.itk, sparse, np.eye(4), []),
-                fill.filled_by_itk(options.itk, sparse, np.eye(4), ["--dilations"]),
-                fill.filled(options.kontur, sparse, np.eye(4), [])]
-        cells = [f"{2 * (mask & truth).sum() / (mask.sum() + truth.sum()):.3f} in {ndimage.label(mask)[1]}" for mask in made]
+        masks = [make(truth, kept) for make in made.values()]
+        cells = [f"{2 * (mask & truth).sum() / (mask.sum() + truth.sum()):.3f} in {ndimage.label(mask)[1]}" for mask in masks]
         print(f"| {apart:.2f} | " + " | ".join(cells) + " |", flush=True)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    program = lambda path: pathlib.Path(path).resolve()
-    parser.add_argument("--kontur", required=True, type=program)
-    parser.add_argument("--itk", required=True, type=program, metavar="ITK_FILL")
+def add_arguments(parser):
     parser.add_argument("--only", choices=["large", "tubes"])
-    parser.add_argument("--size", type=int, default=900)
+    parser.add_argument("--size", type=int, default=900, metavar="N")
     parser.add_argument("--scratch", type=pathlib.Path, help="where the large maps are written")
-    options = parser.parse_args()
-    if options.only != "large":
-        tubes(options)
-    if options.only != "tubes":
-        large(options)
 
 
-if __name__ == "__main__":
-    main()
+def run(options):
+    for name, measure in (("tubes", tubes), ("large", large)):
+        if options.only in (None, name):
+            measure(options)

@@ -11,18 +11,15 @@ import tempfile
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy is loaded
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as pyplot
 import numpy as np
 
 import organs
 import plain
 import slices
 import structures
+from plots import METHOD_COLOURS, pyplot, save
 
-COLOURS = {"kontur": "#1b6ca8", "plain": "#4a8f3c", "shape-based": "#c4552d"}
+METHODS = ("kontur", "plain", "shape-based")
 STEP = 4  # of 3 mm
 
 
@@ -56,7 +53,7 @@ def masks_of(truth, affine, kontur):
         folder = pathlib.Path(name)
         structures.write_truth(folder, truth, affine)
         structures.cut(kontur, folder, "slices", slices.slice_planes(kept, affine), 1.0)
-        masks = {m: organs.segmented(m, folder / "slices.json", truth, affine, kept, kontur) for m in COLOURS}
+        masks = {m: organs.segmented(m, folder / "slices.json", truth, affine, kept, kontur) for m in METHODS}
     return masks, affine[2, 3] + affine[2, 2] * kept
 
 
@@ -69,10 +66,11 @@ def show(axes, title, truth, affine, kontur):
     for height in heights:
         axes.axhline(height, color="#999", linewidth=0.6, linestyle=":")
     for method, mask in masks.items():
-        axes.contour(across, up, mask[:, middle].T, levels=[0.5], colors=[COLOURS[method]], linewidths=1.3)
-        axes.plot([], [], color=COLOURS[method], label=f"{method}: {plain.dice(mask, truth):.3f}")
+        axes.contour(across, up, mask[:, middle].T, levels=[0.5], colors=[METHOD_COLOURS[method]], linewidths=1.3)
+        axes.plot([], [], color=METHOD_COLOURS[method], label=f"{method}: {plain.dice(mask, truth):.3f}")
         print(f"{title}: {method} {plain.dice(mask, truth):.4f}")
-    axes.set(title=f"{title}, slices {STEP * affine[2, 2]:.0f} mm apart", aspect="equal", xticks=[], yticks=[])
+    axes.set(title=f"{title}, slices {STEP * affine[2, 2]:.0f} mm apart", aspect="equal")
+    axes.set_axis_off()
     axes.legend(title="Dice", fontsize=8, title_fontsize=8, loc="upper right")
 
 
@@ -84,8 +82,7 @@ def main():
     figure, panels = pyplot.subplots(1, len(CASES), figsize=(9, 4.2))
     for axes, (title, solid) in zip(panels, CASES):
         show(axes, title, *solid(), options.kontur)
-    figure.tight_layout()
-    figure.savefig(options.picture, dpi=110, metadata={"Software": None})
+    save(figure, options.picture)
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ TEST_F(RtstructTest, SaysWhatItLeftOutAndWhatIsAmbiguous) {
            {"left out 5 repetitions of another contour",
             "read as holes, filling even-odd: 1 contour inside others on the slice"});
     expect("closing point", 1, {"left out 1 repetition of a neighbouring point"});
-    expect("overlapping", 2, {"contours 1 and 2 overlap in part; even-odd filling leaves the overlap out"});
+    expect("overlapping", 2, {"contours 1 and 2 overlap in part; what any of them encloses is filled"});
     EXPECT_EQ(point_count(select_roi(set, "closing point").contours), 4u);
 }
 

@@ -30,8 +30,7 @@ void note_filling(const FillChanges& changes, std::vector<std::string>& notes) {
                 ? fmt::format("contour {} is a hole where nothing is drawn around it", changes.stray_holes.front() + 1)
                 : fmt::format("{} contours are holes where nothing is drawn around them, the first of them contour {}",
                               changes.stray_holes.size(), changes.stray_holes.front() + 1));
-    for (const auto& [a, b] : changes.crossings)
-        notes.push_back(fmt::format("contours {} and {} overlap in part", a + 1, b + 1));
+    if (!changes.crossings.empty()) notes.push_back(overlap_sentence(changes.crossings));
 }
 
 /// The number that each contour had before some were left out; they keep their order and first points.

@@ -18,6 +18,7 @@
 #include "kontur/drawing/drawn_planes.h"
 #include "kontur/drawing/extents.h"
 #include "kontur/drawing/gaps.h"
+#include "kontur/drawing/inner_lines.h"
 #include "kontur/drawing/orient.h"
 #include "kontur/drawing/reduce.h"
 #include "kontur/drawing/ring_starts.h"
@@ -209,6 +210,7 @@ PreparedContours prepare(const Drawing& drawing, const PrepareOptions& options, 
         fitted.contours.push_back(shifted(first, options.copy_shift_mm * first.plane.normal));
     }
     append_boundary(fitted, set.contours.size(), corners, prepared);
+    if (options.bounds) leave_out_inner_lines(planes, planes.tolerance_mm, prepared.points);
     if (options.gaps) find_gaps(fitted, 0.15 * diameter, kSamePlane * diameter, prepared.points, work);
     append_limits(planes, options, work, prepared);
     find_extents(extents, work, prepared);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "kontur/base/counted.h"
 #include "kontur/shape/contour_nesting.h"
 #include "kontur/shape/section.h"
 #include "kontur/shape/seen_inside.h"
@@ -145,6 +146,13 @@ private:
 }  // namespace
 
 std::string_view name(FillRule rule) noexcept { return rule == FillRule::even_odd ? "even-odd" : "declared"; }
+
+std::string overlap_sentence(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+    const auto& [a, b] = pairs.front();
+    const std::string others = pairs.size() == 1 ? "" : " (and " + counted(pairs.size() - 1, "more such pair") + ")";
+    return "contours " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " overlap in part" + others +
+           "; what any of them encloses is filled";
+}
 
 FillChanges apply_fill_rule(ContourSet& set, FillRule rule) {
     Lines lines(set);

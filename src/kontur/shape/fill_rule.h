@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,6 +27,9 @@ struct FillChanges {
     std::vector<NearLines> near_lines;     ///< taken for one line, or perhaps one, where a hole leaves a thin wall
     std::vector<std::size_t> stray_holes;  ///< declared as holes where their plane shows no object
 };
+
+/// "contours 1 and 2 overlap in part (and 3 more such pairs); what any of them encloses is filled", of at least one pair.
+std::string overlap_sentence(const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 
 /// Makes every contour's `hole` say on which of its sides the object lies. Doing it again changes nothing. The tolerance of
 /// `find_nesting` is `kSamePlane` of the set's diameter.

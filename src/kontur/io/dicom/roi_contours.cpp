@@ -139,9 +139,7 @@ void mark_holes(Interpretation& interpretation) {
         interpretation.note(
             fmt::format("read as holes, filling even-odd: {} inside others on the slice", counted(holes, "contour")));
     note_near_lines(changes.near_lines, interpretation);
-    for (const auto& [a, b] : changes.crossings)
-        interpretation.note(
-            fmt::format("contours {} and {} overlap in part; even-odd filling leaves the overlap out", a + 1, b + 1));
+    if (!changes.crossings.empty()) interpretation.note(overlap_sentence(changes.crossings));
 }
 
 void note_warped(Interpretation& interpretation, double tolerance) {

@@ -6,7 +6,7 @@ stored. docs/accuracy/drawings.md and organs.md.
 Usage: PYTHONPATH=build/release/python bench/agreement.py COMMAND ... (measurements as CSV; tables go to stderr)
 
 counts          the phantom's organs cut by 3 to 20 axial, orthogonal and random planes, by kontur's defaults and by the paper's method
-plot CSV PLOT   a plot of what `counts` printed, SVG or PNG, and a table of kontur's Dice
+plot CSV PLOT [DOCUMENT.md]  a plot of what `counts` printed, SVG or PNG; a table of kontur's Dice, printed or in its place there
 phases          the organs across each axis in about 6 and 12 gaps, the first plane .1, .3, .5, .7 and .9 of a gap inside
 stored FOLDER   drawings (folders as kontur_accuracy takes them) stored backwards, begun elsewhere, mirrored, turned
 """
@@ -21,7 +21,7 @@ import numpy as np
 
 import phantom_sections
 from plots import BLUE, GREEN, GREY, RED, plain_ticks, pyplot, save
-from tables import table
+from tables import filled, table
 
 PAPER = {"kernel": "triharmonic", "normals": "in-plane", "normal_offset_mm": 1.0, "solver": "cholesky"}
 MEASURES = ["dice", "hausdorff95_mm", "mean_surface_distance_mm"]
@@ -192,7 +192,7 @@ def plot(rows, path):
     panels = [("1 - Dice", "dice", (0.001, 0.01, 0.1, 1)), ("HD95, mm", "hausdorff95_mm", (0.1, 1, 10, 100)),
               ("mean distance, mm", "mean_surface_distance_mm", (0.01, 0.1, 1, 10, 100))]
     names = list(dict.fromkeys(row["organ"] for row in rows))
-    figure, grid = pyplot.subplots(len(panels), len(names), figsize=(2.5 * len(names), 6.8), squeeze=False)
+    figure, grid = pyplot.subplots(len(panels), len(names), figsize=(2.5 * len(names), 7), squeeze=False)
     for row, (title, measure, ticks) in zip(grid, panels):
         for axes, name in zip(row, names):
             for direction, colour in zip(DIRECTIONS, (BLUE, RED, GREEN)):
@@ -204,8 +204,7 @@ def plot(rows, path):
             axes.set(title=f"{name}: {title}", ylim=(ticks[0], ticks[-1]))
             plain_ticks(axes.yaxis, ticks)
     grid[-1][0].plot([], [], "--", color=GREY, label="the paper's method")
-    grid[-1][0].legend(ncol=4, loc="upper left", bbox_to_anchor=(0, -0.15))
-    save(figure, path)
+    save(figure, path, legend_of=grid[-1][0])
 
 
 def count_table(rows):
@@ -215,7 +214,7 @@ def count_table(rows):
     for name in dict.fromkeys(row["organ"] for row in rows):
         means = [mean_over_series([r for r in rows if (r["organ"], r["direction"], r["method"]) == (name, direction, "kontur")], "dice")
                  for direction in DIRECTIONS]
-        lines.append([name, *(", ".join(f"{mean[n]:.3f}" for mean in means) for n in counts)])
+        lines.append([name, *(", ".join(f"{mean[n]:.3f}".removeprefix("0") for mean in means) for n in counts)])
     return table(["planes", *counts], lines)
 
 
@@ -248,13 +247,18 @@ def main():
     command = commands.add_parser("plot")
     command.add_argument("csv", type=pathlib.Path)
     command.add_argument("plot", type=pathlib.Path)
+    command.add_argument("document", type=pathlib.Path, nargs="?")
     commands.add_parser("stored").add_argument("folders", nargs="+", type=pathlib.Path)
     options = parser.parse_args()
     if options.command == "plot":
         with open(options.csv, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         plot(rows, options.plot)
-        print(count_table(rows))
+        if options.document:
+            text = options.document.read_text(encoding="utf-8")
+            options.document.write_text(filled(text, rows, {"counts": count_table}), encoding="utf-8")
+        else:
+            print(count_table(rows))
     elif options.command == "stored":
         write(STORED_FIELDS, rows_by_storage(options.folders))
     else:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """bench/agreement.py: the phantom's sections, and each of its measurements on a small body."""
+import csv
 import json
 import pathlib
 import subprocess
@@ -13,6 +14,7 @@ kontur = pytest.importorskip("kontur", reason="this build has no Python package"
 
 import agreement
 import phantom_sections
+import tables
 
 BENCH = pathlib.Path(__file__).parent
 
@@ -89,6 +91,13 @@ def test_a_drawing_stored_otherwise_gives_the_same_mask(tmp_path):
     assert min(float(row[3]) for row in rows[1:]) > 0.999 and max(float(row[6]) for row in rows[1:]) < 0.05
 
 
+def test_the_published_table_is_made_from_the_published_results():
+    with open(BENCH / "results/counts.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    published = (BENCH.parent / "docs/accuracy/drawings.md").read_text()
+    assert tables.filled(published, rows, {"counts": agreement.count_table}) == published
+
+
 def test_the_plot_and_the_table_show_every_direction(tmp_path):
     table = tmp_path / "counts.csv"
     lines = [",".join(agreement.COUNT_FIELDS)]
@@ -98,5 +107,5 @@ def test_the_plot_and_the_table_show_every_direction(tmp_path):
     table.write_text("\n".join(lines) + "\n")
     done = subprocess.run([sys.executable, BENCH / "agreement.py", "plot", table, tmp_path / "plot.svg"], check=True,
                           capture_output=True, text=True)
-    assert "| ball | 0.833, 0.833, 0.833 | 0.900, 0.900, 0.900 |" in done.stdout
+    assert "| ball | .833, .833, .833 | .900, .900, .900 |" in done.stdout
     assert all(f">{word}</text>" in (tmp_path / "plot.svg").read_text() for word in (*agreement.DIRECTIONS, "the paper's method"))

@@ -131,9 +131,9 @@ def gains_plot(entries, path):
     figure, panels = pyplot.subplots(len(sets), 1, figsize=(6.2, 2.2 * len(sets) + 0.8), squeeze=False)
     for axes, (group, own) in zip(panels[:, 0], sets.items()):
         gains_panel(axes, own, f"{group}: Dice of kontur less that of the plain method")
-    patches = [pyplot.Rectangle((0, 0), 1, 1, color=colour) for colour in HAND_COLOURS.values()]
-    panels[-1, 0].legend(patches, HANDS, ncol=len(HANDS), loc="upper center", bbox_to_anchor=(0.5, -0.15))
-    save(figure, path)
+    for hand in HANDS:
+        panels[-1, 0].plot([], [], "s", color=HAND_COLOURS[hand], markersize=7, label=hand)
+    save(figure, path, legend_of=panels[-1, 0])
 
 
 def slices_panel(axes, steps, what, title):
@@ -152,8 +152,7 @@ def slices_plot(entries, path):
     for row, (what, title) in zip(panels, (("dice", "1 - Dice"), ("dice_left_out", "1 - Dice, left out"))):
         for axes, group in zip(row, groups):
             slices_panel(axes, [(step, own) for name, step, own in slice_sets(entries) if name == group], what, f"{group}: {title}")
-    panels[1][0].legend(ncol=len(PEERS) + 1, loc="upper left", bbox_to_anchor=(0, -0.15))
-    save(figure, path)
+    save(figure, path, legend_of=panels[1][0])
 
 
 PLOTS = {"organs_gains.svg": gains_plot, "organs_slices.svg": slices_plot}

@@ -20,8 +20,13 @@ def plain_ticks(axis, ticks):
     axis.set_ticks([], minor=True)
 
 
-def save(figure, path):
-    """An SVG or a PNG, by the name of the file, without the date of the day."""
-    figure.tight_layout()
+def save(figure, path, legend_of=None):
+    """An SVG or a PNG, by the name of the file, without the date of the day. The legend of axes may stand below all panels."""
+    below = 0.0
+    if legend_of:
+        handles, labels = legend_of.get_legend_handles_labels()
+        figure.legend(handles, labels, ncol=len(labels), loc="lower center")
+        below = 0.3 / figure.get_figheight()
+    figure.tight_layout(rect=(0, below, 1, 1))
     figure.savefig(path, dpi=110, metadata={"Date": None} if str(path).endswith(".svg") else {"Software": None})
     pyplot.close(figure)

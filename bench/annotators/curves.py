@@ -95,8 +95,7 @@ def plot(structures, ways, path):
     panel(by_planes, "1 - Dice by planes drawn", structures, ways, range(1, MOST + 1), lambda s, at, way: missed_after(s, at))
     by_planes.set_xticks((1, 4, 7, 10, 13))
     panel(by_seconds, "1 - Dice by seconds (model)", structures, ways, [LONGEST * k / 60 for k in range(1, 61)], at_seconds)
-    by_planes.legend(ncol=4, loc="upper left", bbox_to_anchor=(0, -0.1))
-    save(figure, path)
+    save(figure, path, legend_of=by_planes)
 
 
 def main():

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well masks made from a few contours agree with the truth: kontur's defaults, the paper's method as printed and, where
-// the true surface is known, a fit that is told its tilts. docs/accuracy/drawings.md is made of the output.
+// the true surface is known, a fit with the true tilts. docs/accuracy/drawings.md is made of the output.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,10 +58,10 @@ struct Row {
     ImplicitFunction function;  ///< of kontur's fit
     Comparison kontur;
     std::optional<Comparison> paper;
-    std::optional<Comparison> told;              ///< given the true tilts
-    std::optional<double> normal_error_degrees;  ///< of kontur's fit
-    std::optional<NormalErrors> normals;         ///< of kontur's fit, where the truth is a mask
-    std::optional<NormalErrors> told_normals;    ///< of the fit that was told
+    std::optional<Comparison> true_tilts;            ///< of the fit with the true tilts
+    std::optional<double> normal_error_degrees;      ///< of kontur's fit
+    std::optional<NormalErrors> normals;             ///< of kontur's fit, where the truth is a mask
+    std::optional<NormalErrors> true_tilts_normals;  ///< of the fit with the true tilts
 };
 
 Row segment_both_ways(const ContourSet& contours, const Mask& truth, bool with_paper) {
@@ -103,7 +103,7 @@ std::vector<Row> phantom_rows(bool with_paper) {
         const Mask truth = make_truth_mask(*drawn.body, grid);
         Row row = segment_both_ways(drawn.contours, truth, with_paper);
         const NormalAt normal = [&](const Vec3& p) { return drawn.body->outward_normal(p); };
-        row.told = compare(segment_told_the_tilts(drawn.contours, grid, normal).mask, truth);
+        row.true_tilts = compare(segment_with_true_tilts(drawn.contours, grid, normal).mask, truth);
         row.normal_error_degrees = normal_error_degrees(drawn, row.function);
         row.object = "phantom";
         row.drawing = name;
@@ -114,10 +114,10 @@ std::vector<Row> phantom_rows(bool with_paper) {
 
 /// What the tilts of a mask's surface are worth, and how far normals are off.
 void tell_tilts(Row& row, const ContourSet& contours, const Mask& truth) {
-    const Told told = segment_told_the_tilts(contours, truth.grid, blurred_normal(truth, kBlurVoxels));
-    row.told = compare(told.mask, truth);
+    const TrueTiltsFit fit = segment_with_true_tilts(contours, truth.grid, blurred_normal(truth, kBlurVoxels));
+    row.true_tilts = compare(fit.mask, truth);
     row.normals = normal_errors(contours, truth, row.function);
-    row.told_normals = normal_errors(contours, truth, told.function);
+    row.true_tilts_normals = normal_errors(contours, truth, fit.function);
     row.normal_error_degrees = row.normals->all;
 }
 
@@ -164,10 +164,10 @@ void print_json(const std::vector<Row>& rows) {
                                     {"points", row.points},
                                     {"kontur", to_json(row.kontur)}};
         if (row.paper) json["paper"] = to_json(*row.paper);
-        if (row.told) json["told_tilts"] = to_json(*row.told);
+        if (row.true_tilts) json["true_tilts"] = to_json(*row.true_tilts);
         if (row.normal_error_degrees) json["normal_error_degrees"] = *row.normal_error_degrees;
         if (row.normals) json["normals"] = to_json(*row.normals);
-        if (row.told_normals) json["told_normals"] = to_json(*row.told_normals);
+        if (row.true_tilts_normals) json["true_tilts_normals"] = to_json(*row.true_tilts_normals);
         list.push_back(json);
     }
     fmt::print("{}\n", list.dump(2));
@@ -199,8 +199,8 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace kontur
 
 /// accuracy [--without-paper] [--without-phantom] [--tilts] [FOLDER]...: folders as `measured_rows` takes them, then the
-/// phantom, as JSON. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are also
-/// fitted with the tilts of the true masks, as the phantom's are.
+/// phantom, as JSON. Without the paper's method it takes a minute instead of many. With --tilts the folders' drawings are
+/// also fitted with the tilts of the true masks, as the phantom's are.
 int main(int count, char** arguments) {
     try {
         return kontur::run({arguments + 1, arguments + count});

@@ -42,9 +42,9 @@ def row(tmp_path_factory):
 def test_normals_of_a_mask_are_those_of_the_body(row):
     assert row["normals"]["of_truth_degrees"] < 1.5  # blurred more or less, a ball's normals are its radii
     assert row["normals"]["in_plane_degrees"] < 1.5  # circles tell them
-    assert row["told_normals"]["degrees"] < 2.5
+    assert row["true_tilts_normals"]["degrees"] < 2.5
 
 
 def test_true_tilts_make_normals_better_where_slices_do_not_show_them(row):
-    assert row["told_normals"]["degrees"] < row["normals"]["degrees"]
-    assert row["told_tilts"]["dice"] > row["kontur"]["dice"]
+    assert row["true_tilts_normals"]["degrees"] < row["normals"]["degrees"]
+    assert row["true_tilts"]["dice"] > row["kontur"]["dice"]

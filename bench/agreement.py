@@ -197,7 +197,8 @@ def plot(rows, path):
         for axes, name in zip(row, names):
             for direction, colour in zip(DIRECTIONS, (BLUE, RED, GREEN)):
                 for method, style in (("paper", "--"), ("kontur", "-")):
-                    own = mean_over_series([r for r in rows if (r["organ"], r["direction"], r["method"]) == (name, direction, method)], measure)
+                    some = [r for r in rows if (r["organ"], r["direction"], r["method"]) == (name, direction, method)]
+                    own = mean_over_series(some, measure)
                     values = [1 - v for v in own.values()] if measure == "dice" else own.values()
                     axes.semilogy(own.keys(), [max(v, ticks[0]) for v in values], style, color=colour,
                                   label=direction if method == "kontur" else None)

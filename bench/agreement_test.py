@@ -6,11 +6,10 @@ import pathlib
 import subprocess
 import sys
 
+import kontur
 import nibabel
 import numpy as np
 import pytest
-
-kontur = pytest.importorskip("kontur", reason="this build has no Python package")
 
 import agreement
 import phantom_sections

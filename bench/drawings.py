@@ -15,7 +15,7 @@ import sys
 
 from tables import filled, table
 
-FITS = {"kontur": "kontur", "paper": "paper", "true_tilts": "told_tilts"}  # column, member of the JSON
+FITS = ("kontur", "paper", "true_tilts")
 MEASURES = {"dice": ("dice", 4), "hd95_mm": ("hausdorff95_mm", 1), "mean_mm": ("mean_surface_distance_mm", 2)}
 PHANTOM = "phantom"
 
@@ -23,9 +23,9 @@ PHANTOM = "phantom"
 def flat(row):
     """A line of the CSV; a cell is empty where nothing was measured."""
     cells = {name: row[name] for name in ("object", "drawing", "contours")}
-    for fit, member in FITS.items():
+    for fit in FITS:
         for name, (measure, digits) in MEASURES.items():
-            value = row.get(member, {}).get(measure)
+            value = row.get(fit, {}).get(measure)
             cells[f"{fit}_{name}"] = "" if value is None else f"{value:.{digits}f}"
     degrees = row.get("normal_error_degrees")
     return cells | {"normal_error_degrees": "" if degrees is None else f"{degrees:.2f}"}

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the image between the contours is worth: structures cut by few planes, segmented without and with their image.
 
-Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--new NEW] [--set tune|report|fresh|new]
-                       [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1] [--shift-mm 0]
+Usage: bench/images.py --program build/release/bin/kontur_images --csv FILE [--data SCANS] [--fresh FRESH] [--new NEW]
+                       [--set tune|report|fresh|new] [--only NAME]... [--drawings "axial,5,exact;..."] [--share 3] [--methods gated,ungated] [--jobs 1] [--shift-mm 0]
        bench/images.py --csv FILE --tables
 
 SCANS, FRESH and NEW are laid out as image_sources.py says; what is not there is left out, which is said. Of 30 drawings (axial,
@@ -89,7 +89,8 @@ def line(name, rows):
         return statistics.fmean(float(row[field]) for row in rows if row[field])
     return (f"| {name} | {len(rows)} | {mean('dice_without'):.4f} | {mean('dice'):.4f} | {statistics.fmean(gains):+.4f} | "
             f"{statistics.median(gains):+.4f} | {min(gains):+.4f} | {sum(g < -0.005 for g in gains)} | {sum(g < -0.01 for g in gains)} | "
-            f"{mean('mean_without_mm'):.2f} -> {mean('mean_mm'):.2f} | {sum(row['use'] in ('used', 'walked') for row in rows)} | {sum(row['use'] == 'walked' for row in rows)} | "
+            f"{mean('mean_without_mm'):.2f} -> {mean('mean_mm'):.2f} | {sum(row['use'] in ('used', 'walked') for row in rows)} | "
+            f"{sum(row['use'] == 'walked' for row in rows)} | "
             f"{mean('image_cpu_s'):.2f} |")
 
 

@@ -108,7 +108,8 @@ def worst_table(entries):
     return table(["structure", "shape", "drawing", "best peer", "its Dice", "kontur"], rows)
 
 
-TABLES = {"organs planes": planes_table, "organs hands": hands_table, "organs slices": slices_table, "organs worst": worst_table}
+TABLES = {"organs planes": planes_table, "organs hands": hands_table, "organs slices": slices_table,
+          "organs worst": worst_table}
 
 
 def gains_panel(axes, entries, title):

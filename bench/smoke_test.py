@@ -55,7 +55,7 @@ def test_pipelines_come_close_to_the_truth(results):
     assert min(row["dice_truth"] for row in results["end_to_end"]) > 0.99
 
 
-def test_the_stages_of_a_preview_are_told(results):
+def test_a_preview_has_the_time_of_each_stage(results):
     for row in results["editing"]:
         assert list(row["stages_s"]) == ["prepare", "fit", "mesh"]
         assert 0 < sum(row["stages_s"].values()) <= row["median_s"]

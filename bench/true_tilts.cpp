@@ -73,7 +73,7 @@ NormalAt blurred_normal(const Mask& mask, double sigma_voxels) {
     };
 }
 
-Told segment_told_the_tilts(const ContourSet& contours, const Grid& grid, const NormalAt& normal) {
+TrueTiltsFit segment_with_true_tilts(const ContourSet& contours, const Grid& grid, const NormalAt& normal) {
     const Drawing drawing(contours);
     StageOptions stages = stage_options({}, drawing.diameter_mm());
     const PreparedContours prepared = prepare(drawing, stages);

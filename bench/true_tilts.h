@@ -21,13 +21,12 @@ NormalAt blurred_normal(const Mask& mask, double sigma_voxels);
 /// By how much a mask is blurred for its normals, and for the question whether that matters.
 inline constexpr double kBlurVoxels = 2, kMoreBlurVoxels = 3;
 
-/// The default fit, told at every point how much the true surface tilts against the contour's plane instead of finding it
-/// out.
-struct Told {
+/// The default fit with the true tilt of the surface against the contour's plane at every point, instead of an estimate.
+struct TrueTiltsFit {
     ImplicitFunction function;
     Mask mask;
 };
-Told segment_told_the_tilts(const ContourSet& contours, const Grid& grid, const NormalAt& normal);
+TrueTiltsFit segment_with_true_tilts(const ContourSet& contours, const Grid& grid, const NormalAt& normal);
 
 /// Mean angles at some hundreds of the points that take part in the fit, degrees.
 struct NormalErrors {

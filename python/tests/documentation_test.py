@@ -97,6 +97,20 @@ def test_the_programs_in_the_documentation_run(tmp_path, monkeypatch):
     assert (tmp_path / "liver.nii.gz").exists() and (tmp_path / "liver.stl").exists()
 
 
+@pytest.mark.parametrize("page", ["README.md", "docs/guide.md"])
+def test_the_first_program_of_a_page_makes_the_mask_of_the_command_line(page, tmp_path, monkeypatch):
+    """On contours drawn by hand, where the image changes the mask."""
+    program = re.search(r"```python\n(.*?)```", (ROOT / page).read_text(), re.DOTALL)[1].replace("orthogonal14.json", "orthogonal14_hand.json")
+    monkeypatch.chdir(tmp_path)
+    subprocess.run([os.environ["KONTUR_CLI"], "phantom", "demo", "--scan", "liver", "--quiet"], check=True)
+    contours, image = re.findall(r'(demo/\S+?)"', program)[:2]
+    names = {}
+    exec(compile(program, page, "exec"), names)
+    for use, same in (("auto", True), ("off", False)):
+        subprocess.run([os.environ["KONTUR_CLI"], "segment", contours, "--image", image, "--use-image", use, "--output", "m.nii.gz"], check=True)
+        assert numpy.array_equal(names["liver"].mask.values, kontur.read_mask("m.nii.gz").values) == same, use
+
+
 def test_the_example_makes_its_figure(tmp_path):
     pytest.importorskip("matplotlib")
     example = pathlib.Path(__file__).parents[1] / "examples" / "kidney_figure.py"

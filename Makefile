@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # The front door. Every target sets up what it needs: Debian packages (tools/setup) and a CMake preset.
+# A build for use is without tests, which need packages of their own; where make test has configured, it stays with them.
 
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
+configure = cmake --preset release $(if $(wildcard build/release/CMakeCache.txt),,-DKONTUR_BUILD_TESTS=OFF) >/dev/null
 
 .DEFAULT_GOAL := help
 .PHONY: fuzzer help setup build demo test asan tsan coverage torture-short torture tidy bench accuracy docs format install clean
@@ -10,20 +12,24 @@ PREFIX ?= /usr/local
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s%s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-setup: ## install missing Debian packages (as root or with sudo)
-	@tools/setup
+setup: ## install the Debian packages that are missing to build and to test (as root or with sudo)
+	@tools/setup build python test
 
-build: setup ## build the release into build/release
-	@cmake --preset release >/dev/null
+build: ## build the release into build/release: the program, the library and the Python package
+	@tools/setup build python
+	@$(configure)
 	@cmake --build --preset release -j $(JOBS)
 	@echo "built build/release/bin/kontur"
 
-demo: setup ## build, generate a phantom into demo/, segment it, compare with the truth
-	@cmake --preset release >/dev/null
+demo: ## build the program, generate a phantom into demo/, segment it, compare with the truth
+	@tools/setup build
+	@$(configure)
 	@cmake --build --preset release -j $(JOBS) --target kontur_app
 	@tools/demo build/release/bin/kontur demo
 
-test: build ## build and run every test; what failed beside others runs once more by itself, and has to pass there
+test: setup ## build and run every test; what failed beside others runs once more by itself, and has to pass there
+	@cmake --preset release -DKONTUR_BUILD_TESTS=ON >/dev/null
+	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(JOBS) || { echo "What failed, once more by itself:"; ctest --preset release --rerun-failed; }
 
 asan: setup ## run every test under AddressSanitizer and UBSan
@@ -44,7 +50,7 @@ coverage: setup ## run every test and print which share of the lines each folder
 	@ctest --preset coverage -j $(JOBS) || true
 	@tools/coverage build/coverage
 
-fuzzer:
+fuzzer: setup
 	@tools/setup clang
 	@cmake --preset fuzz >/dev/null
 	@cmake --build --preset fuzz -j $(JOBS) --target kontur_fuzz
@@ -52,12 +58,14 @@ fuzzer:
 torture-short: fuzzer ## fuzz every parser and the pipeline for 30 s each (installs clang)
 	@tools/torture 30
 
-torture: build fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads, 200 cancellations
+torture: fuzzer ## the same for an hour each; all malformed files, 20 drawings on 1 to 8 threads, 200 cancellations
+	@cmake --preset release -DKONTUR_BUILD_TESTS=ON >/dev/null
+	@cmake --build --preset release -j $(JOBS)
 	@KONTUR_MALFORMED_ALL=1 KONTUR_BIG=1 KONTUR_DETERMINISM_CASES=20 KONTUR_DETERMINISM_RUNS=3 KONTUR_TIMED=1 KONTUR_CANCEL_ROUNDS=200 \
 	    ctest --preset release -R '^(malformed|determinism|big)\.|^Cancellation\.'
 	@tools/torture 3600
 
-tidy: ## clang-tidy over the library and the programs (installs clang-tidy)
+tidy: setup ## clang-tidy over the library and the programs (installs clang-tidy)
 	@tools/setup clang-tidy
 	@cmake --preset dev >/dev/null
 	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -n 1 -P $(JOBS) clang-tidy -p build/dev --quiet
@@ -72,8 +80,8 @@ accuracy: build ## organs of DATA, a folder of scans, by kontur and its peers, i
 	@cat build/organs/tables.md
 
 docs: ## write the C++ reference to build/release/reference/html (installs doxygen)
-	@tools/setup doxygen
-	@cmake --preset release >/dev/null
+	@tools/setup build doxygen
+	@$(configure)
 	@cmake --build --preset release --target kontur_reference
 
 format: ## format the C++ sources (needs clang-format) and the page's TypeScript

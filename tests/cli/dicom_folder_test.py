@@ -6,11 +6,12 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import numpy
 import pydicom
 import pytest
-from support import as_nobody, kontur, read_nifti
+from support import kontur, kontur_of_nobody, read_nifti
 
 SUPPORT = pathlib.Path(__file__).parents[1] / "support"
 
@@ -52,22 +53,27 @@ def test_an_empty_slice_is_a_warning_that_quiet_does_not_swallow(tmp_path, image
     assert kontur(*words).stderr == f"kontur: warning: {sentence}\n", "images that are only referred to"
 
 
+@pytest.fixture
+def open_folder():
+    """A folder that every user may enter; pytest's own is closed to others."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        folder.chmod(0o777)
+        yield folder
+
+
 @pytest.mark.parametrize("what", ["a slice", "a folder below"])
-def test_what_may_not_be_read_is_an_error_everywhere(tmp_path, images, what):
-    tmp_path.chmod(0o777)
-    for folder in tmp_path.parents:
-        if folder.stat().st_uid == os.geteuid() and folder != pathlib.Path("/"):
-            folder.chmod(folder.stat().st_mode | 0o055)
+def test_what_may_not_be_read_is_an_error_everywhere(open_folder, series, what):
+    images = pathlib.Path(shutil.copytree(series, open_folder / "disk" / "ct"))
     target = last_slice(images)
     if what == "a folder below":
-        target = tmp_path / "disk" / "secret"
-        target.mkdir(parents=True)
-        shutil.copytree(images, tmp_path / "disk" / "ct")
-        images = tmp_path / "disk"
+        images = open_folder / "disk"
+        target = images / "secret"
+        target.mkdir()
     target.chmod(0)
     try:
-        for words in (["convert", images, tmp_path / "o.nii"], ["inspect", images]):
-            result = kontur(*words, preexec_fn=as_nobody)
+        for words in (["convert", images, open_folder / "o.nii"], ["inspect", images]):
+            result = kontur_of_nobody(*words)
             assert result.returncode == 74 and f"cannot read {target}: Permission denied" in result.stderr, result
     finally:
         target.chmod(0o755)

@@ -37,7 +37,7 @@ struct Side {
 Side read_side(const std::filesystem::path& path, const std::optional<std::int64_t>& label, const ReadImageOptions& read,
                const Work& work) {
     if (label) return {read_mask(path, label, read, work), label};
-    const Image image = read_image(path, read, work);
+    const Image image = read_label_image(path, read, work);
     try {
         if (const auto labels = count_labels(image, 1); !labels.empty())
             return {select_nonzero(image), labels.begin()->first};

@@ -2,6 +2,7 @@
 #include "contour_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <string>
@@ -31,13 +32,22 @@ std::optional<std::string> problem_of_a_contour(ContourSet set) {
     return all.size() > set_problems(set).size() ? std::optional(all.front()) : std::nullopt;
 }
 
+/// Why there is nothing to fit; "" when the files say nothing. Of a single file, which is named anyway, without its name.
+std::string reasons(const std::vector<fs::path>& paths, std::vector<std::string> notes) {
+    const std::string start = paths.front().string() + ": ";
+    for (std::string& note : notes)
+        if (paths.size() == 1 && note.starts_with(start)) note.erase(0, start.size());
+    return notes.empty() ? "" : fmt::format(" to fit ({})", fmt::join(notes, "; "));
+}
+
 }  // namespace
 
 ReadContours read_contours_to_fit(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {
     ReadContours all = read_contours(paths, options);
     if (all.contours.contours.empty())
-        refuse(list(paths), fmt::format("{} no contour; at least 1 is needed",
-                                        options.roi ? fmt::format("the structure '{}' has", *options.roi) : "there is"));
+        refuse(list(paths), fmt::format("{} no contour{}; at least 1 is needed",
+                                        options.roi ? fmt::format("the structure '{}' has", *options.roi) : "there is",
+                                        reasons(paths, all.notes)));
     ContourSet set = all.contours;
     drop_duplicate_points(set);
     const std::vector<std::string> problems = contour_problems(set);

@@ -10,6 +10,7 @@
 #include "dicom_output.h"
 #include "input_digests.h"
 #include "kontur/base/error.h"
+#include "kontur/io/image.h"
 #include "kontur/io/meshes/mesh.h"
 #include "outputs.h"
 #include "structures.h"
@@ -86,7 +87,9 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
                     fmt::format("segments of {} overlap, and {} has room for one in a voxel; write a SEG (.dcm) or "
                                 ".seg.nrrd, or choose one with --label",
                                 command.input.path.string(), command.output.string()));
-    const Image image = read_labels(input, command.label, console.work());
+    const bool as_it_is = !command.label && !has_room_for_overlap(output);
+    const Image image = as_it_is ? read_image(input.path, input.options, console.work())
+                                 : read_labels(input, command.label, console.work());
     console.note(write_image(output, image, input, images, made, console.work()));
 }
 

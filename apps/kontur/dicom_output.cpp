@@ -106,6 +106,7 @@ std::vector<std::string> write_image(const fs::path& path, const Image& image, c
                                      const ImageInput& images, const Provenance& provenance, const Work& work) {
     if (!is_dicom_name(path)) {
         const bool has_names = has_extension(path, ".seg.nrrd");
+        if (has_names) check_labels(image, source);
         const std::vector<LabelName> names = has_names ? label_names(source) : std::vector<LabelName>{};
         kontur::write_image(path, image, {names, provenance});
         return {};

@@ -2,6 +2,7 @@
 #include "roi_drawings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -99,7 +100,8 @@ RoiDrawings read_roi_drawings(const SegmentCommand& command, const Work& work) {
         try {
             const Roi roi = select_roi(set, name);
             if (roi.contours.contours.empty())
-                refuse(fmt::format("the ROI '{}' has no contour; at least 1 is needed", name));
+                refuse(fmt::format("the ROI '{}' has no contour{}; at least 1 is needed", name,
+                                   roi.notes.empty() ? "" : fmt::format(" to fit ({})", fmt::join(roi.notes, "; "))));
             for (const Roi& other : drawings.rois)
                 if (other.number == roi.number) refuse(fmt::format("the ROI '{}' is named twice", name));
             drawings.rois.push_back(roi);

@@ -42,7 +42,7 @@ Structures read_layers(const ImageInput& input, const std::vector<NrrdSegment>& 
         if (!layers.contains(segment.layer)) {
             ReadImageOptions options = input.options;
             options.frame = segment.layer;
-            layers.emplace(segment.layer, read_image(input.path, options, work));
+            layers.emplace(segment.layer, read_label_image(input.path, options, work));
         }
         found.segments.push_back(to_dicom(segment));
         found.tags.push_back(segment.tags);
@@ -83,7 +83,7 @@ Image read_labels(const ImageInput& input, std::optional<std::int64_t> label, co
     }
     ReadImageOptions options = input.options;
     if (label && !options.frame) options.frame = layer_of(nrrd_segments(input.path), *label);
-    Image image = read_image(input.path, options, work);
+    Image image = read_label_image(input.path, options, work);
     if (!label) return image;
     if (!count_labels(image).contains(*label))
         throw Error(ErrorKind::invalid_input, fmt::format("{} has no label {}", input.path.string(), *label));
@@ -118,7 +118,16 @@ std::vector<LabelName> label_names(const ImageInput& source) {
     return names;
 }
 
+void check_labels(const Image& image, const ImageInput& source) {
+    try {
+        count_labels(image);
+    } catch (const Error& error) {
+        throw error.with_context(source.path.string());
+    }
+}
+
 std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& source) {
+    check_labels(image, source);
     const std::vector<DicomSegment> named = named_segments(source);
     std::vector<DicomSegment> segments;
     for (const auto& [label, voxels] : count_labels(image)) {
@@ -148,7 +157,7 @@ Structures read_structures(const ImageInput& input, const Work& work) {
         return without_empty({std::move(found.about.segments), std::move(found.masks)}, input);
     }
     if (may_overlap(input)) return without_empty(read_layers(input, nrrd_segments(input.path), work), input);
-    const Image image = read_image(input.path, input.options, work);
+    const Image image = read_label_image(input.path, input.options, work);
     const std::vector<DicomSegment> named = named_segments(input);
     Structures found{segments_of(image, input), {}};
     for (DicomSegment& segment : found.segments) {

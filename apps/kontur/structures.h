@@ -27,6 +27,9 @@ std::vector<DicomSegment> named_segments(const ImageInput& source);
 /// The same for a .seg.nrrd, with all tags of the segments of another one.
 std::vector<LabelName> label_names(const ImageInput& source);
 
+/// Throws Error(invalid_input), naming the source, when an image read from it is no label map.
+void check_labels(const Image& image, const ImageInput& source);
+
 /// One segment for each label of an image read from `source`, named as there where that names them.
 std::vector<DicomSegment> segments_of(const Image& image, const ImageInput& source);
 

@@ -65,7 +65,7 @@ ContourSet
            writer(&write_contour_json), py::arg("path"), py::arg("contours"), made);
     define(
         m, "read_markups", "The ContourSet of the closed curves in a 3D Slicer markups file.",
-        [](const fs::path& path, double plane_tolerance_mm) { return read_markups(path, {plane_tolerance_mm}); },
+        [](const fs::path& path, double plane_tolerance_mm) { return read_markups(path, {.plane_tolerance_mm = plane_tolerance_mm}); },
         py::arg("path"), py::arg("plane_tolerance_mm") = ReadMarkupsOptions{}.plane_tolerance_mm);
     define(m, "write_markups", "Writes one closed curve for each contour, as 3D Slicer reads it.", writer(&write_markups),
            py::arg("path"), py::arg("contours"), made);

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """kontur convert: the same content in another format, or a sentence that says why not."""
 import json
+import pathlib
+import subprocess
+import sys
 
 import nibabel
 import numpy
 import pydicom
 import pytest
-from support import ball_array, ball_planes, kontur, lps_affine, names, real_data, succeed, write_nifti, write_planes
+from support import ball_array, ball_planes, circle, kontur, lps_affine, names, read_nifti, real_data, succeed, write_nifti, write_planes
+
+SUPPORT = pathlib.Path(__file__).parents[1] / "support"
 
 
 def sheared_affine():
@@ -26,6 +31,48 @@ def test_an_image_survives_the_way_through_another_format(tmp_path, through):
     assert numpy.array_equal(numpy.asarray(before.dataobj), numpy.asarray(after.dataobj))
     assert numpy.allclose(before.affine, after.affine, atol=1e-5)
     assert after.get_data_dtype() == numpy.int16
+
+
+def scaled_labels(path, largest_error):
+    """Labels 1, 2, 12 off by up to `largest_error`, as scaling to 16 bits leaves them."""
+    labels = numpy.zeros((6, 6, 6), numpy.float32)
+    labels[1:3], labels[3:4], labels[4:5] = 1 - largest_error, 2 + largest_error, 12
+    return write_nifti(path, labels)
+
+
+def test_labels_that_a_writer_scaled_are_rounded_with_a_note(tmp_path):
+    path = scaled_labels(tmp_path / "scaled.nii.gz", 9e-4)
+    result = kontur("convert", path, tmp_path / "two.nii.gz", "--label", 2)
+    assert result.returncode == 0, result
+    assert "scaled.nii.gz: the values of 108 voxels are no integers but lie within 0.001 of one; they are rounded" in result.stderr
+    assert set(numpy.unique(read_nifti(tmp_path / "two.nii.gz"))) == {0, 2}
+    for words in (["fill", path, "-o"], ["trace", path, "--label", 1, "-o"], ["convert", path]):
+        made = kontur(*words, tmp_path / ("out.json" if words[0] == "trace" else "out.seg.nrrd"))
+        assert made.returncode == 0, made
+
+
+def test_an_image_near_integers_is_converted_as_it_is(tmp_path):
+    path = scaled_labels(tmp_path / "scaled.nii.gz", 9e-4)
+    succeed("convert", path, tmp_path / "same.nii.gz")
+    assert numpy.array_equal(read_nifti(path), read_nifti(tmp_path / "same.nii.gz"))
+
+
+def test_fractions_are_no_labels_and_are_shown_with_their_digits(tmp_path):
+    result = kontur("convert", scaled_labels(tmp_path / "f.nii.gz", 0.0011), tmp_path / "o.seg.nrrd")
+    assert result.returncode == 65 and "f.nii.gz: the image is no label map" in result.stderr, result
+    assert "the first is 0.9989\n" in result.stderr and "o.seg.nrrd" not in result.stderr, result
+
+
+def test_a_structure_without_a_name_has_one_in_dicom(tmp_path):
+    """plastimatch ends at an empty ROI Name."""
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "axial", tmp_path / "axial"], check=True)
+    images = tmp_path / "axial" / "dicom"
+    path = write_planes(tmp_path / "c.json", [circle("z", 0.0)])
+    contours = json.loads(path.read_text())
+    for name in ("", "  "):
+        path.write_text(json.dumps(contours | {"structure": name}))
+        kontur("convert", path, tmp_path / "rs.dcm", "--image", images)
+        assert [roi.ROIName for roi in pydicom.dcmread(tmp_path / "rs.dcm").StructureSetROISequence] == ["Structure_1"]
 
 
 def test_frame_chooses_one_of_a_4d_image(tmp_path):

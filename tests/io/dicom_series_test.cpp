@@ -71,6 +71,18 @@ TEST_F(DicomSeriesTest, CountsMissingSlicesBeyondEveryInteger) {
     EXPECT_REFUSED(refusal(make("far")), unsupported, ": 4e+24 of them at the usual spacing of 2.5 mm");
 }
 
+TEST_F(DicomSeriesTest, ReadsPositionsThatAreRoundedAsTheyAreWrittenWithTheLargestDeviation) {
+    const DicomVolume volume = read_dicom_series(make("rounded"));
+    EXPECT_NEAR(norm(volume.image.grid.index_to_mm.column(2)), 2.53, 0.02);
+    EXPECT_TRUE(notes_mention(volume.notes, "the slices' positions are rounded: they lie up to 0.0625 mm off"))
+        << testing::PrintToString(volume.notes);
+    EXPECT_REFUSED(refusal(make("rounded_missing")), unsupported, "slices are missing between z = 100 and");
+}
+
+TEST_F(DicomSeriesTest, NamesTheWayOutOfIrregularSlices) {
+    EXPECT_REFUSED(refusal(make("missing")), unsupported, "where --spacing-mm gives the mask's voxels");
+}
+
 TEST_F(DicomSeriesTest, RefusesIrregularSpacingAndShift) {
     EXPECT_REFUSED(refusal(make("jitter")), unsupported, "steps from 2.3 to 2.7 mm put slices up to 0.2 mm off");
     EXPECT_REFUSED(refusal(make("shifted")), unsupported, "the slice at z = 110 mm is shifted by 0.5 mm");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kontur/io/contours.h"
 #include "kontur/io/contours/markups.h"
 
 #include <gtest/gtest.h>
@@ -151,6 +152,18 @@ TEST_F(Markups, WritesOpenCurvesAndSinglePoints) {
     EXPECT_EQ(again.interior, set.interior);
     EXPECT_EQ(again.exterior, set.exterior);
     EXPECT_EQ(again.surface, set.surface);
+}
+
+TEST_F(Markups, LeavesOutACurveWithoutAPoint) {
+    const char* const kFile = R"({"@schema": "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#",
+        "markups": [{"type": "ClosedCurve", "coordinateSystem": "LPS", "name": "begun", "controlPoints": []},
+        {"type": "ClosedCurve", "coordinateSystem": "LPS", "name": "whole", "controlPoints":
+         [{"position": [0, 0, 5]}, {"position": [9, 0, 5]}, {"position": [9, 9, 5]}]}]})";
+    std::ofstream(folder_ / "begun.mrk.json") << kFile;
+    const ReadContours found = read_contours(folder_ / "begun.mrk.json");
+    EXPECT_EQ(found.contours.contours.size(), 1u);
+    EXPECT_EQ(found.contours.name, "whole");
+    EXPECT_EQ(found.notes, (std::vector<std::string>{"left out 1 curve without a point"}));
 }
 
 TEST_F(Markups, RefusalsNameMarkupPointNumberAndLimit) {

@@ -178,14 +178,19 @@ TEST_F(RtstructTest, DamageInOneRoiLeavesTheOthers) {
 TEST_F(RtstructTest, LeavesOutObservationsOfNoListedRoi) {
     const fs::path path = make("orphan");
     EXPECT_EQ(select_roi(read_rtstruct(path), "plain").contours.attributes.interpreted_type, "");
-    const std::vector<std::string> notes{"left out an observation of ROI 99, which is not listed"};
+    const std::vector<std::string> notes{"left out observations of ROI 99, which is not listed"};
     EXPECT_EQ(read_rtstruct(path).notes, notes);
     EXPECT_EQ(read_contours(path, {.roi = "plain"}).notes, notes);
 }
 
+TEST_F(RtstructTest, LeavesOutContoursOfNoListedRoi) {
+    const StructureSet set = read_rtstruct(make("unlisted"));
+    EXPECT_EQ(set.notes, (std::vector<std::string>{"left out contours of ROI 99, which is not listed"}));
+    EXPECT_EQ(select_roi(set, "nested").contours.contours.size(), 4u) << "all others are read";
+}
+
 TEST_F(RtstructTest, RefusesContradictionsOfTheWholeFile) {
     const auto kind = ErrorKind::corrupt_file;
-    EXPECT_PRED2(ends_with, refusal(kind, make("unlisted")), "contours refer to ROI 99, which is not listed");
     EXPECT_PRED2(ends_with, refusal(kind, make("empty")), "has no list of ROIs or none of contours");
 }
 

@@ -118,6 +118,11 @@ def make(case, folder):
         d = new_slice(case, k)
         d.InstanceNumber = numbers[k]
         position = ORIGIN + k * step
+        if case in ("rounded", "rounded_missing"):  # 2.53 mm steps written with one digit
+            position = ORIGIN + k * 1.012 * step
+            position = np.round(position + 0.04 * normal, 1)
+            if case == "rounded_missing" and k == 1:
+                continue
         if case == "jitter":
             position = position + (0.2 if k == 4 else 0) * normal
         if case == "far":

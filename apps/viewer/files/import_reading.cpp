@@ -164,7 +164,7 @@ Imported read_mask_of(const fs::path& path, const TraceRequest& request) {
     for (const auto& [layer, named] : layers) {
         ReadImageOptions options;
         if (layers.size() > 1) options.frame = layer;
-        has_labels |= add_labels(imported, read_image(path, options), named, request);
+        has_labels |= add_labels(imported, read_label_image(path, options), named, request);
     }
     if (!has_labels) throw Error(ErrorKind::invalid_input, "the mask is empty");
     if (imported.sets.empty()) throw Error(ErrorKind::invalid_input, "the mask has nothing that is large enough to trace");

@@ -86,9 +86,12 @@ ReadContours read_contours(const fs::path& path, const ReadContoursOptions& opti
                         " holds no contours: kontur's .json, 3D Slicer's .mrk.json, VTK's lines (.vtk, "
                         ".vtp) and DICOM RT structure sets are read");
     const bool has_markups = is_markups(path) || read_json_file(path).contains("markups");
-    ContourSet contours = has_markups ? read_markups(path, {options.plane_tolerance_mm}) : read_contour_json(path);
+    std::vector<std::string> notes;
+    const auto on_note = [&](std::string_view note) { notes.emplace_back(note); };
+    ContourSet contours =
+        has_markups ? read_markups(path, {options.plane_tolerance_mm, on_note}) : read_contour_json(path);
     if (options.roi) check_name(path, contours, *options.roi);
-    return {std::move(contours), "", {}};
+    return {std::move(contours), "", std::move(notes)};
 }
 
 ReadContours read_contours(const std::vector<fs::path>& paths, const ReadContoursOptions& options) {

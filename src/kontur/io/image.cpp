@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "kontur/base/checks.h"
+#include "kontur/base/counted.h"
 #include "kontur/base/error.h"
 #include "kontur/base/printable.h"
 #include "kontur/io/bytes/input_file.h"
@@ -23,6 +26,7 @@
 #include "kontur/io/images/nifti.h"
 #include "kontur/io/images/nifti_header.h"
 #include "kontur/io/images/nrrd.h"
+#include "kontur/shape/whole_labels.h"
 
 namespace kontur {
 namespace fs = std::filesystem;
@@ -117,7 +121,7 @@ Image read_labels(const fs::path& path, std::optional<std::int64_t> label, const
     if (is_dicom_seg(path)) return read_segments(path, label, options, work);
     ReadImageOptions read = options;
     if (label && !read.frame && is_nrrd(path)) read.frame = layer_of(read_nrrd_segments(path), *label);
-    return read_image(path, read, work);
+    return read_label_image(path, read, work);
 }
 
 template <typename Value>
@@ -238,6 +242,15 @@ Image read_image(const fs::path& path, const ReadImageOptions& options, const Wo
     DicomVolume volume = read_dicom_series(path, options.dicom, work);
     report(volume.notes, options, volume.warnings);
     return std::move(volume.image);
+}
+
+Image read_label_image(const fs::path& path, const ReadImageOptions& options, const Work& work) {
+    Image image = read_image(path, options, work);
+    if (const std::size_t rounded = round_to_labels(image); rounded > 0)
+        report({fmt::format("{}: the values of {} are no integers but lie within {:g} of one; they are rounded", path.string(),
+                            counted(rounded, "voxel"), kLabelTolerance)},
+               options);
+    return image;
 }
 
 Grid read_grid(const fs::path& path, const ReadImageOptions& options, const Work& work) {

@@ -25,6 +25,10 @@ Image read_image(const std::filesystem::path& path, const ReadImageOptions& opti
 /// The geometry alone; reads no voxels.
 Grid read_grid(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
 
+/// Reads a label map, or any image as it is. Values that a writer scaled, within 0.001 of an integer each, are rounded, with
+/// a note.
+Image read_label_image(const std::filesystem::path& path, const ReadImageOptions& options = {}, const Work& work = {});
+
 /// Reads a mask: the voxels with the value `label`, or without one all voxels other than 0. Throws Error(invalid_input),
 /// listing the labels in the file, when it holds several and none was chosen, or when the chosen one is not there.
 Mask read_mask(const std::filesystem::path& path, std::optional<std::int64_t> label = {},

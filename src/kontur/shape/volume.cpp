@@ -58,7 +58,7 @@ bool is_label(double value) { return std::trunc(value) == value && std::abs(valu
     const auto count = std::count_if(values.begin(), values.end(), [](float value) { return !is_label(value); });
     throw Error(ErrorKind::invalid_input, "the image is no label map: " + std::to_string(count) +
                                               " voxels hold values that are not integers, the first is " +
-                                              std::to_string(first));
+                                              fmt::format("{}", first));
 }
 
 std::string list_of(const std::map<std::int64_t, std::int64_t>& labels) {

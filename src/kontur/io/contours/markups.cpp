@@ -130,10 +130,17 @@ void append_points(const json& markup, ContourSet& set) {
     }
 }
 
+bool is_curve(const std::string& type) { return type == "ClosedCurve" || type == "Curve"; }
+
+/// One that was begun, and of which no point was placed.
+bool is_empty_curve(const json& markup) {
+    return is_curve(text_member(markup, "type", "")) && read_control_points(markup).empty();
+}
+
 void append_markup(const json& markup, const ReadMarkupsOptions& options, ContourSet& set) {
     const std::string type = text_member(markup, "type", "");
     if (type == "Fiducial") append_points(markup, set);
-    else if (type == "ClosedCurve" || type == "Curve")
+    else if (is_curve(type))
         set.contours.push_back(read_curve(markup, type == "ClosedCurve", options.plane_tolerance_mm));
     else
         refuse(ErrorKind::unsupported,
@@ -172,12 +179,18 @@ ContourSet read_set(const json& document, const ReadMarkupsOptions& options) {
     check_schema(document);
     ContourSet set;
     std::vector<std::string> names;
+    std::size_t empty = 0;
     for_each_item(markups, "markup", [&](const json& markup) {
+        if (is_empty_curve(markup)) {
+            ++empty;
+            return;
+        }
         const std::size_t before = set.contours.size();
         append_markup(markup, options, set);
         if (!set.attributes.color) set.attributes.color = read_color(markup);
         if (set.contours.size() > before) names.push_back(text_member(markup, "name", ""));
     });
+    if (empty > 0 && options.on_note) options.on_note(fmt::format("left out {} without a point", counted(empty, "curve")));
     for (std::size_t c = 0; c < set.contours.size(); ++c)
         if (set.contours[c].plane.normal == Vec3{})
             in_context(fmt::format("curve {}", c + 1),

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string_view>
 
 #include "kontur/shape/contour.h"
 #include "kontur/shape/provenance.h"
@@ -10,13 +12,15 @@ namespace kontur {
 
 struct ReadMarkupsOptions {
     double plane_tolerance_mm = ContourCheckOptions{}.plane_tolerance_mm;  ///< of a point from the plane fitted to its curve
+    std::function<void(std::string_view)> on_note{};  ///< what was left out, one sentence each
 };
 
 /// Reads a 3D Slicer markups file (.mrk.json, schema 1.x): LPS or RAS, mm or um. Closed curves are contours, curves open
 /// contours, point lists ("Fiducial") points on the surface; a point described as "inside" or "outside" lies there instead.
 /// A closed curve with a control point described as "hole" is a hole. Control points are taken as vertices, because the file
 /// does not tell the curve between them; those without a defined position are left out. Each curve's plane is fitted; a
-/// straight open curve takes the direction of another's. The set is named after its curve, or after what the names of
+/// straight open curve takes the direction of another's. A curve of which no point is placed is left out, with a note. The
+/// set is named after its curve, or after what the names of
 /// several have in common, and has the colour of the first that has another than 3D Slicer gives to all.
 /// Throws Error naming file, markup and control point: unsupported (another type of markup, unit or schema), invalid_input
 /// (too few points, a tolerance below 0, points on one line, a curve that is not planar, with the distance and the limit),

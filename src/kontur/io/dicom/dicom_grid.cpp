@@ -17,6 +17,7 @@ constexpr double kRelativeTolerance = 0.01;
 constexpr double kAlongToleranceMm = 0.01;
 constexpr double kAcrossToleranceMm = 0.1;
 constexpr std::size_t kGapsNamed = 10;
+constexpr const char* kWayOut = "; contours need no image where --spacing-mm gives the mask's voxels";
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::unsupported, message); }
 
@@ -75,18 +76,58 @@ void refuse_duplicates(const DicomStack& stack, const std::vector<double>& posit
     }
     const std::size_t count = gaps.size();
     if (count > kGapsNamed) gaps.resize(kGapsNamed);
-    refuse(fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm",
+    refuse(fmt::format("slices are missing between {}{}: {:.6g} of them at the usual spacing of {:.6g} mm{}",
                        names.unit_text(fmt::format("{}", fmt::join(gaps, ", "))),
-                       count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual));
+                       count > kGapsNamed ? fmt::format(" and in {} more places", count - kGapsNamed) : "", missing, usual, kWayOut));
+}
+
+/// The unit in the last place to which a coordinate was written, such as 0.1 of 12.3; 0: none that rounds visibly.
+double written_unit(double value) {
+    constexpr int kMostDigits = 3;
+    constexpr double kFloatNoise = 2e-5;
+    double unit = 1;
+    for (int digits = 0; digits <= kMostDigits; ++digits, unit /= 10)
+        if (std::abs(value - std::round(value / unit) * unit) <= kFloatNoise) return unit;
+    return 0;
+}
+
+/// To which one coordinate of all slices is rounded: writers leave out zeros at the end. 0 for one that never changes.
+double written_unit(const std::vector<DicomHeader>& slices, double Vec3::*coordinate) {
+    const auto value = [&](const DicomHeader& slice) { return slice.placement.position.*coordinate; };
+    if (std::ranges::all_of(slices, [&](const DicomHeader& s) { return value(s) == value(slices.front()); })) return 0;
+    double unit = 1;
+    for (const DicomHeader& slice : slices) unit = std::min(unit, written_unit(value(slice)));
+    return unit;
+}
+
+/// How far rounding may put a slice off a grid whose first and last slices are rounded, too: half a unit each, by the share
+/// of each coordinate, and never so much that a missing slice would pass.
+double rounding_mm(const DicomStack& stack, const Vec3& shares, double step) {
+    constexpr double kMostOfStep = 0.25, kDecimalNoise = 1e-4;
+    const auto part = [&](double Vec3::*coordinate) {
+        return std::abs(shares.*coordinate) * written_unit(stack.slices, coordinate);
+    };
+    return std::min(part(&Vec3::x) + part(&Vec3::y) + part(&Vec3::z) + kDecimalNoise, kMostOfStep * step);
+}
+
+/// The shares of the coordinates in a direction within the planes.
+Vec3 shares_across(const Vec3& normal) {
+    const auto share = [](double along) { return std::sqrt(std::max(0.0, 1 - along * along)); };
+    return {share(normal.x), share(normal.y), share(normal.z)};
 }
 
 /// Every slice must lie where a regular grid from the first to the last slice puts it, measured along the normal.
-void check_spacing(const DicomStack& stack, const std::vector<double>& positions) {
+void check_spacing(const DicomStack& stack, const std::vector<double>& positions, std::vector<std::string>& notes) {
     const double mean = positions.back() / static_cast<double>(positions.size() - 1);
-    const double tolerance = std::max(kRelativeTolerance * mean, kAlongToleranceMm);
+    const double exact = std::max(kRelativeTolerance * mean, kAlongToleranceMm);
+    const double tolerance = std::max(exact, rounding_mm(stack, stack.slices.front().placement.normal(), mean));
     double worst = 0;
     for (std::size_t k = 0; k < positions.size(); ++k)
         worst = std::max(worst, std::abs(positions[k] - static_cast<double>(k) * mean));
+    if (worst > exact && worst <= tolerance)
+        notes.push_back(fmt::format("the slices' positions are rounded: they lie up to {:.3g} mm off a regular grid with "
+                                    "steps of {:.6g} mm, on which they are taken to lie",
+                                    worst, mean));
     if (worst <= tolerance) return;
     const std::vector<double> steps = steps_between(positions);
     const double usual = lower_median(steps);
@@ -94,14 +135,15 @@ void check_spacing(const DicomStack& stack, const std::vector<double>& positions
     if (*longest >= 1.5 * usual) refuse_gaps(stack, steps, usual);
     refuse(fmt::format(
         "the slice spacing is irregular: steps from {:.6g} to {:.6g} mm put slices up to {:.3g} mm off a regular "
-        "grid; the limit is {:.3g} mm",
-        *shortest, *longest, worst, tolerance));
+        "grid; the limit is {:.3g} mm{}",
+        *shortest, *longest, worst, tolerance, kWayOut));
 }
 
 /// Slices may be shifted against each other within their planes, but by the same amount from each to the next.
 void check_shift(const DicomStack& stack, const Vec3& step) {
     const SlicePlacement& first = stack.slices.front().placement;
-    const double tolerance = std::max(kRelativeTolerance * norm(step), kAcrossToleranceMm);
+    const double tolerance = std::max({kRelativeTolerance * norm(step), kAcrossToleranceMm,
+                                       rounding_mm(stack, shares_across(first.normal()), norm(step))});
     for (std::size_t k = 0; k < stack.slices.size(); ++k) {
         const double off = distance(stack.slices[k].placement.position, first.position + static_cast<double>(k) * step);
         if (off > tolerance)
@@ -132,7 +174,7 @@ Vec3 slice_step(const DicomStack& stack, std::vector<std::string>& notes) {
     if (stack.slices.size() == 1) return single_slice_step(first, notes);
     const std::vector<double> positions = positions_along_normal(stack.slices);
     refuse_duplicates(stack, positions);
-    check_spacing(stack, positions);
+    check_spacing(stack, positions, notes);
     const Vec3 step = (last.placement.position - first.placement.position) / static_cast<double>(stack.slices.size() - 1);
     check_shift(stack, step);
     if (std::string note = tilt_note(step, first.placement.normal(), stack.slices.size()); !note.empty())

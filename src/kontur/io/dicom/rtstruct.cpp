@@ -2,9 +2,11 @@
 #include "kontur/io/dicom/rtstruct.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "kontur/base/counted.h"
 #include "kontur/base/error.h"
@@ -114,22 +116,35 @@ void read_roi_contours_or_damage(Roi& roi, const std::vector<DcmItem*>& items) {
     }
 }
 
+/// Adds nothing without numbers.
+void note_unlisted(StructureSet& set, std::string_view what, const std::set<std::int64_t>& numbers) {
+    if (numbers.empty()) return;
+    set.notes.push_back(numbers.size() == 1
+                            ? fmt::format("left out {} of ROI {}, which is not listed", what, *numbers.begin())
+                            : fmt::format("left out {} of {} ROIs that are not listed: {}", what, numbers.size(),
+                                          fmt::join(numbers, ", ")));
+}
+
 void read_all_contours(StructureSet& set, DcmItem& dataset) {
     std::map<std::int64_t, std::vector<DcmItem*>> items;
+    std::set<std::int64_t> unlisted;
     for (DcmItem* item : dcmtk::items(dataset, DCM_ROIContourSequence)) {
         const std::int64_t number = required_number(*item, DCM_ReferencedROINumber);
-        if (!find_roi(set.rois, number)) throw corrupt(fmt::format("contours refer to ROI {}, which is not listed", number));
-        items[number].push_back(item);
+        if (find_roi(set.rois, number)) items[number].push_back(item);
+        else unlisted.insert(number);
     }
+    note_unlisted(set, "contours", unlisted);
     for (const auto& [number, its_items] : items) read_roi_contours_or_damage(*find_roi(set.rois, number), its_items);
 }
 
 void read_observations(StructureSet& set, DcmItem& dataset) {
+    std::set<std::int64_t> unlisted;
     for (DcmItem* item : dcmtk::items(dataset, DCM_RTROIObservationsSequence)) {
         const std::int64_t number = required_number(*item, DCM_ReferencedROINumber);
         if (Roi* roi = find_roi(set.rois, number)) read_observation(*item, roi->contours.attributes, roi->notes);
-        else set.notes.push_back(fmt::format("left out an observation of ROI {}, which is not listed", number));
+        else unlisted.insert(number);
     }
+    note_unlisted(set, "observations", unlisted);
 }
 
 StructureSet read_structure_set(DcmItem& dataset) {

@@ -224,7 +224,11 @@ std::vector<std::int64_t> roi_numbers(const std::vector<Roi>& rois) {
 
 std::vector<std::string> names_of(const std::vector<Roi>& rois) {
     std::vector<std::string> names;
-    for (const Roi& roi : rois) names.push_back(roi.name.empty() ? roi.contours.name : roi.name);
+    const auto is_blank = [](const std::string& name) { return name.find_first_not_of(' ') == std::string::npos; };
+    for (const Roi& roi : rois) {
+        const std::string& name = is_blank(roi.name) ? roi.contours.name : roi.name;
+        names.push_back(is_blank(name) ? fmt::format("Structure_{}", names.size() + 1) : name);
+    }
     return names;
 }
 

@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "kontur/base/error.h"
+#include "nearest_name.h"
 #include "slicer.h"
 #include "usage_sentence.h"
 
@@ -495,6 +496,34 @@ std::vector<std::string> names_of(const CLI::App& app) {
     return names;
 }
 
+/// "; did you mean NAME?", or "" where no name is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
+    const std::string nearest = nearest_name(word, names);
+    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+std::vector<std::string> long_options_of(const CLI::App& sub) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : sub.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const CLI::App* group : sub.get_subcommands([](const CLI::App* app) { return app->get_name().empty(); }))
+        for (std::string& name : long_options_of(*group)) names.push_back(std::move(name));
+    return names;
+}
+
+/// Of the first long option that the command does not have; "" without one. The parser by itself would first miss what is
+/// required, such as --output where it reads --ouput.
+std::string unknown_option(const CLI::App& app, const std::vector<std::string>& words) {
+    if (words.empty() || words[0].starts_with('-')) return "";
+    const std::vector<std::string> names = long_options_of(*app.get_subcommand(words[0]));
+    for (std::size_t n = 1; n < words.size() && words[n] != "--"; ++n) {
+        const std::string name = words[n].substr(0, words[n].find('='));
+        if (name.starts_with("--") && std::ranges::find(names, name) == names.end())
+            return fmt::format("there is no option {}{}", name, suggestion(name, names));
+    }
+    return "";
+}
+
 }  // namespace
 
 std::vector<OptionName> options_of_segment() {
@@ -536,7 +565,12 @@ Invocation parse_command_line(int argc, const char* const* argv) {
     }
     const std::vector<std::string> names = names_of(app);
     if (!words.empty() && !words[0].starts_with('-') && std::find(names.begin(), names.end(), words[0]) == names.end()) {
-        invocation.text = fmt::format("there is no command '{}'; there are {}", words[0], fmt::join(names, ", "));
+        invocation.text = fmt::format("there is no command '{}'; there are {}{}", words[0], fmt::join(names, ", "),
+                                      suggestion(words[0], names));
+        invocation.exit_code = kUsageExitCode;
+        return invocation;
+    }
+    if (invocation.text = unknown_option(app, words); !invocation.text.empty()) {
         invocation.exit_code = kUsageExitCode;
         return invocation;
     }

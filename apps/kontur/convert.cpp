@@ -88,8 +88,8 @@ void convert_image(const ConvertCommand& command, const fs::path& output, const 
                                 ".seg.nrrd, or choose one with --label",
                                 command.input.path.string(), command.output.string()));
     const bool as_it_is = !command.label && !has_room_for_overlap(output);
-    const Image image = as_it_is ? read_image(input.path, input.options, console.work())
-                                 : read_labels(input, command.label, console.work());
+    const Image image =
+        as_it_is ? read_image(input.path, input.options, console.work()) : read_labels(input, command.label, console.work());
     console.note(write_image(output, image, input, images, made, console.work()));
 }
 

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "kontur/base/error.h"
+#include "usage_sentence.h"
 #include "viewer/files/imports.h"
 
 namespace kontur::app {
@@ -43,7 +44,8 @@ int run(const Invocation& invocation) {
         return 0;
     } catch (const Error& error) {
         const bool cancelled = error.kind() == ErrorKind::cancelled;
-        return fail(cancelled ? "interrupted; nothing was written" : error.what(), exit_code(error.kind()));
+        return fail(cancelled ? "interrupted; nothing was written" : with_typed_options(error.what()),
+                    exit_code(error.kind()));
     } catch (const EndedEarly& ended) {
         return fail(ended.what(), ended.exit_code);
     } catch (const std::bad_alloc&) {

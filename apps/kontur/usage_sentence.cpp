@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <regex>
 
@@ -31,6 +32,18 @@ std::string usage_sentence(const std::string& of_parser) {
         return fmt::format("{} is given {} times; {} is possible", part.str(1), part.str(3), part.str(2));
     if (std::regex_match(of_parser, part, kOutOfRange)) return part.str(1) + " " + part.str(2);
     return of_parser;
+}
+
+std::string with_typed_options(const std::string& of_library) {
+    static const std::regex kOption("the option (label|roi|frame|prefer|allow_missing_geometry)\\b");
+    std::string sentence;
+    auto rest = of_library.cbegin();
+    for (std::smatch part; std::regex_search(rest, of_library.cend(), part, kOption); rest = part.suffix().first) {
+        std::string name = part.str(1);
+        std::replace(name.begin(), name.end(), '_', '-');
+        sentence += part.prefix().str() + "--" + name;
+    }
+    return sentence + std::string(rest, of_library.cend());
 }
 
 }  // namespace kontur::app

@@ -27,6 +27,27 @@ def test_what_is_no_command_is_told_which_there_are(word):
     assert result.returncode == 64 and f"there is no command '{word}'; there are segment, " in result.stderr, result
 
 
+@pytest.mark.parametrize(
+    "words, sentence",
+    [
+        (["segmnt", "a.json"], "did you mean segment?"),
+        (["segment", "a.json", "--imgae", "ct.nii"], "there is no option --imgae; did you mean --image?"),
+        (["segment", "a.json", "--ouput=b.nii"], "there is no option --ouput; did you mean --output?"),
+        (["trace", "a.nii", "--plaens", "b.json"], "there is no option --plaens; did you mean --planes?"),
+        (["inspect", "--frobnicate", "a.json"], "there is no option --frobnicate\n"),
+    ],
+)
+def test_a_misspelt_word_is_told_the_nearest(words, sentence):
+    result = kontur(*words)
+    assert result.returncode == 64 and sentence in result.stderr, result
+
+
+def test_options_are_named_as_they_are_typed(tmp_path):
+    two = write_nifti(tmp_path / "two.nii.gz", ball_array() + ball_array(radius=4))
+    result = kontur("trace", two, "-o", tmp_path / "a.json")
+    assert result.returncode == 65 and "choose one of 1, 2 with --label\n" in result.stderr, result
+
+
 def test_an_image_in_the_place_of_contours_is_told_its_own(tmp_path):
     image = write_nifti(tmp_path / "ct.nii.gz", ball_array())
     planes = write_planes(tmp_path / "a.json", ball_planes())

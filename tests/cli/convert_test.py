@@ -75,6 +75,16 @@ def test_a_structure_without_a_name_has_one_in_dicom(tmp_path):
         assert [roi.ROIName for roi in pydicom.dcmread(tmp_path / "rs.dcm").StructureSetROISequence] == ["Structure_1"]
 
 
+def test_series_of_results_are_told_apart_by_number_and_description(tmp_path):
+    subprocess.run([sys.executable, SUPPORT / "make_dicom_series.py", "axial", tmp_path / "axial"], check=True)
+    path = write_planes(tmp_path / "c.json", [circle("z", 0.0)])
+    kontur("convert", path, tmp_path / "rs.dcm", "--image", tmp_path / "axial" / "dicom")
+    made = pydicom.dcmread(tmp_path / "rs.dcm")
+    day = f"{made.SeriesDate[:4]}-{made.SeriesDate[4:6]}-{made.SeriesDate[6:]}"
+    assert made.SeriesDescription == f"kontur contours {day}: ball"
+    assert made.SeriesNumber == max(1, int(made.SeriesTime))
+
+
 def test_frame_chooses_one_of_a_4d_image(tmp_path):
     array = numpy.stack([ball_array(), 2 * ball_array()], axis=-1)
     path = write_nifti(tmp_path / "4d.nii.gz", array)

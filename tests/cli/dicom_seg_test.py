@@ -153,7 +153,7 @@ def test_a_label_map_of_overlapping_segments_is_refused_by_name(tmp_path, images
     assert kontur("convert", tmp_path / "liver.nii.gz", tmp_path / "seg.dcm", *words).returncode == 0
     result = kontur("convert", tmp_path / "seg.dcm", tmp_path / "labels.nii.gz")
     assert result.returncode == 65
-    assert "the segments 1 'liver' and 2 'tumour' overlap; choose one with the option label" in result.stderr
+    assert "the segments 1 'liver' and 2 'tumour' overlap; choose one with --label" in result.stderr
     [facts] = json.loads(kontur("inspect", tmp_path / "seg.dcm", "--json").stdout)
     shared = int(overlapping.all(axis=0).sum())
     assert [s["shared_voxels"] for s in facts["segments"]] == [shared, shared]

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kontur/io/dicom/dicom_document.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <array>
 #include <map>
 #include <stdexcept>
@@ -92,15 +96,22 @@ void start_document(DcmItem& document, const DicomSeries& images, const char* cl
     put(document, DCM_SeriesInstanceUID, new_uid());
     put(document, DCM_Modality, modality);
     put(document, DCM_SeriesDescription, one_value(series_description, 64));
-    put(document, DCM_SeriesNumber, 1);
     put(document, DCM_OperatorsName, "");
     put(document, DCM_InstanceNumber, 1);
     put_now(document, DCM_InstanceCreationDate, DCM_InstanceCreationTime);
     put_now(document, DCM_SeriesDate, DCM_SeriesTime);
+    put(document, DCM_SeriesNumber, std::max<std::int64_t>(1, std::stoll(text(document, DCM_SeriesTime))));
     put(document, DCM_Manufacturer, "kontur");
     put(document, DCM_ManufacturerModelName, "kontur");
     put(document, DCM_DeviceSerialNumber, "0");
     put(document, DCM_SoftwareVersions, KONTUR_VERSION);
+}
+
+std::string description_with_names(const std::string& kind, const std::vector<std::string>& names) {
+    OFString date;
+    DcmDate::getCurrentDate(date);
+    const std::string day(date.c_str());
+    return fmt::format("{} {}-{}-{}: {}", kind, day.substr(0, 4), day.substr(4, 2), day.substr(6), fmt::join(names, ", "));
 }
 
 void put_contribution(DcmItem& document, const Provenance& provenance) {

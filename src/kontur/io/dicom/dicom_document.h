@@ -34,10 +34,13 @@ struct Code {
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 
 /// A new object of a series of its own, in UTF-8, that belongs to the patient, study and frame of reference of `images`,
-/// whose first file is read for it; names kontur as its maker. The frame of reference is a new one where the images name
-/// none.
+/// whose first file is read for it; names kontur as its maker. Its Series Number is the time of day, hhmmss. The frame of
+/// reference is a new one where the images name none.
 void start_document(DcmItem& document, const DicomSeries& images, const char* class_uid, const std::string& modality,
                     const std::string& series_description);
+
+/// "kontur contours 2026-11-28: Liver, Spleen": what a list of results tells them apart by, in at most 64 characters.
+std::string description_with_names(const std::string& kind, const std::vector<std::string>& names);
 
 /// Says how the object was made: kontur as equipment that contributed to it (PS3.3 C.12.1). Nothing without provenance.
 void put_contribution(DcmItem& document, const Provenance& provenance);

@@ -88,7 +88,7 @@ struct DicomAlgorithm {
 };
 
 struct WriteDicomSegOptions {
-    std::string series_description = "kontur segmentation";
+    std::string series_description = "kontur segmentation";  ///< this default is followed by date and names
     DicomAlgorithm algorithm{};
     Provenance provenance{};  ///< how the file was made: the description of kontur's contribution (equipment)
 };

@@ -57,7 +57,7 @@ enum class HoleEncoding {
 
 struct WriteRtstructOptions {
     HoleEncoding holes = HoleEncoding::keyhole;
-    std::string series_description = "kontur contours";
+    std::string series_description = "kontur contours";  ///< this default is followed by date and names
     Provenance provenance{};  ///< how the contours were made: the description of kontur's contribution (equipment)
 };
 

@@ -4,7 +4,7 @@
 #
 #   sbatch --array=1-$(kontur batch cases.csv --count) kontur-array.sh cases.csv
 #
-# and sum up when the array has ended:
+# Each task writes kontur-JOB_ROW.log beside the table. Sum up when the array has ended:
 #
 #   kontur batch cases.csv --collect --summary summary.json
 #
@@ -12,6 +12,11 @@
 #SBATCH --cpus-per-task=4
 #SBATCH --mem=4G
 #SBATCH --time=00:30:00
-#SBATCH --output=/dev/null
+#SBATCH --output=kontur-%A_%a.log
 set -eu
-exec "${KONTUR:-kontur}" batch "$1" --row "$SLURM_ARRAY_TASK_ID" --threads "${SLURM_CPUS_PER_TASK:-1}"
+kontur=${KONTUR:-kontur}
+if ! command -v "$kontur" >/dev/null; then
+    echo "$kontur is not on the node $(hostname); set KONTUR to its path before sbatch, on a disk that the nodes share" >&2
+    exit 127
+fi
+exec "$kontur" batch "$1" --row "$SLURM_ARRAY_TASK_ID" --threads "${SLURM_CPUS_PER_TASK:-1}"

@@ -386,6 +386,13 @@ def test_flags_of_segment_are_yes_or_no_and_names_may_begin_with_a_dash(tmp_path
     assert "line 2: date is yes or no, not today" in kontur("batch", "cases.csv", cwd=tmp_path).stderr
 
 
+def test_a_slurm_task_writes_a_log_and_says_when_the_node_has_no_kontur(tmp_path):
+    assert "\n#SBATCH --output=kontur-%A_%a.log\n" in ARRAY_SCRIPT.read_text()
+    environment = {"PATH": os.defpath, "SLURM_ARRAY_TASK_ID": "1", "KONTUR": "/no/such/kontur"}
+    result = subprocess.run(["/bin/bash", ARRAY_SCRIPT, "cases.csv"], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert result.returncode == 127 and result.stderr.startswith("/no/such/kontur is not on the node "), result
+
+
 def test_a_slurm_array_makes_the_cases_one_by_one(cohort):
     """The script of the documentation, run as Slurm runs it; a summary afterwards finds what every task left."""
     count = int(kontur("batch", cohort / "cases.csv", "--count").stdout)

@@ -51,6 +51,11 @@ def test_each_part_is_a_package(packages):
     assert "usr/include/kontur/kontur.h" in contents(packages["libkontur-dev"])
 
 
+def test_3d_slicers_modules_lie_where_its_page_says(packages):
+    [folder] = re.findall(r"Debian package has it as\s`/(.*?)`", (ROOT / "docs/slicer.md").read_text())
+    assert {f"{folder}/KonturSegment", f"{folder}/KonturFill"} <= set(contents(packages["kontur"]))
+
+
 def test_each_has_its_licence(packages, tree):
     for name, package in packages.items():
         assert {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/LICENSE"} <= set(contents(package)), name

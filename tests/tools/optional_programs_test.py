@@ -17,7 +17,7 @@ BUILD = pathlib.Path(os.environ["KONTUR_BUILD"])
 # Large, for tests of what the suite tests by other means, too.
 OPTIONAL = {"doxygen", "plastimatch"}
 # Where a test asks for the program that a variable names.
-NAMED_BY_VARIABLES = {("command_documentation_test.py", "shell"): ["zsh", "fish"]}
+NAMED_BY_VARIABLES = {("command_documentation_test.py", "shell"): ["zsh", "fish"], ("setup_test.py", "name"): []}  # none: every Debian has them
 PACKAGES = {"dpkg-shlibdeps": "dpkg-dev", "mypy": "mypy"}  # others are called like the package, or python3-NAME
 
 
@@ -115,3 +115,15 @@ def test_only_a_file_that_says_it_was_skipped_may_collect_nothing(skips, status,
                             cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert result.returncode == status, result.stdout
     assert ("no_such_module" in result.stdout) == skips
+
+
+def test_a_file_of_which_nothing_ran_is_skipped_for_ctest(tmp_path):
+    """By the expression that this build's tests have; a file of which something ran is none."""
+    [expression] = {entry["value"][0] for test in listed_tests() if test["name"].startswith("packaging.") or test["name"].startswith("cli.")
+                    for entry in test["properties"] if entry["name"] == "SKIP_REGULAR_EXPRESSION"}
+    for name, text in (("all", "import pytest\npytest.importorskip('no_such_module')\n"),
+                       ("some", "import pytest\ndef test_a():\n    pytest.skip('no')\ndef test_b():\n    pass\n")):
+        (tmp_path / f"{name}_test.py").write_text(text)
+    output = {name: subprocess.run(["/usr/bin/python3", "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", f"{name}_test.py"],
+                                   cwd=tmp_path, capture_output=True, text=True, timeout=60).stdout for name in ("all", "some")}
+    assert re.search(expression, output["all"]) and not re.search(expression, output["some"]), output
